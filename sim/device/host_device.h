@@ -1,0 +1,23 @@
+// The two marks that let one source serve both devices.  Only sim/device/ knows which compiler is at work.
+#pragma once
+
+#include <Eigen/Core>
+
+#ifdef __CUDACC__
+#define HYST_HD __host__ __device__
+#define HYST_KERNEL [=] __device__
+#else
+#define HYST_HD
+#define HYST_KERNEL [=]
+#endif
+
+namespace hysteron {
+
+template <class Real, int D>
+using Vec = Eigen::Matrix<Real, D, 1>;
+template <class Real>
+using Vec3 = Eigen::Matrix<Real, 3, 1>;
+template <class Real>
+using Mat3 = Eigen::Matrix<Real, 3, 3>;
+
+}  // namespace hysteron
