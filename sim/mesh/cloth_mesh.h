@@ -1,0 +1,86 @@
+// A cloth at rest: vertices, triangles, and everything about them that never changes during a run.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+// An edge with its two triangles:
+//
+//              p0                     t  unit vector p2 -> p3
+//             /  |                    n  in-plane unit normal of the edge, pointing to p0
+//   face 0   / h0|                    h0, h1  heights of p0, p1 above the edge
+//           / n^ |                    a0, a1  positions of p0, p1 along t, measured from p2
+//      p2 -----> p3      t            L  length of the edge
+//           \    |
+//   face 1   \ h1|                    face 0 is (p2, p3, p0), face 1 is (p3, p2, p1), both counter-clockwise
+//             \  |                    seen from the cloth's front side.
+//              p1                     The angle is positive where the front side is concave (z = +x^2/2).
+//
+// On a boundary edge p1 = face1 = -1.
+struct Edge {
+  int p0, p1, p2, p3;
+  int face0, face1;
+  bool interior() const { return face1 >= 0; }
+};
+
+// Compressed rows: entries of row i stand at item[start[i]] ... item[start[i+1]-1].
+struct Adjacency {
+  std::vector<int> start;
+  std::vector<int> item;
+};
+
+struct ClothMesh {
+  std::vector<Eigen::Vector3d> rest;     // rest shape in space [m]; flat builders lie in z = 0
+  std::vector<Eigen::Vector3i> face;     // counter-clockwise seen from the front
+  std::vector<Eigen::Vector2d> pattern;  // per vertex (warp, weft) coordinates [m]; empty: from warp_axis
+  Eigen::Vector3d warp_axis{1, 0, 0};    // warp direction where there is no pattern
+
+  // Filled by build_topology():
+  std::vector<Edge> edge;                     // interior edges first, then boundary edges
+  int interior_edges = 0;                     // number of hinges
+  std::vector<std::array<int, 3>> face_edge;  // face_edge[f][i] is the edge opposite to corner i of f
+  Adjacency vertex_faces;                     // for each vertex 3*face + corner of its triangles
+  std::vector<double> face_area;              // [m^2]
+  std::vector<double> vertex_area;            // a third of the adjacent triangles' areas [m^2]
+
+  int vertices() const { return static_cast<int>(rest.size()); }
+  int faces() const { return static_cast<int>(face.size()); }
+  // Warp and weft unit vectors of face f in space, in its plane (warp_axis or pattern projected).
+  std::array<Eigen::Vector3d, 2> face_axes(int f) const;
+};
+
+// Checks the mesh and fills the derived members.  `what` names the mesh in messages ("mesh shirt.obj").
+// Throws Error::request for: no triangles, indices out of range, non-finite vertices, degenerate triangles
+// (height/longest edge < 1e-6), an edge shared by more than two triangles, inconsistent orientation,
+// vertices that no triangle uses.
+void build_topology(ClothMesh& mesh, const std::string& what);
+
+// Mesh families of the builders (the accuracy of a bending element depends on them).
+//   aligned: squares cut by parallel diagonals; flipped: the other diagonal; unionjack: alternating
+//   diagonals; equilateral: rows of equilateral triangles; random: jittered points, Delaunay triangulated.
+enum class MeshFamily { aligned, flipped, unionjack, equilateral, random };
+MeshFamily mesh_family(const std::string& name);  // Error::request for an unknown name
+std::string to_string(MeshFamily family);
+
+// Rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles; warp along x.
+// For structured families the cells are as square as the counts allow.
+ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed);
+// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each, or about so.
+ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed);
+// Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius`.
+ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned seed);
+
+// Reads a triangulated Wavefront OBJ (quads are split); texture coordinates, if present, become the pattern.
+// weld > 0 merges vertices closer than that distance [m].
+ClothMesh read_obj(const std::string& file, double weld);
+// Writers of one frame, atomic (temporary name, then rename).  Throw Error::machine.
+void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
+void write_ply(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
+               const std::vector<double>& value);
+
+}  // namespace hysteron
