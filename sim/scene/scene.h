@@ -1,0 +1,107 @@
+// What is simulated: cloth, fabric, forces, obstacles, solver settings.  Everything in SI units; a Scene is a plain
+// value, read from a TOML file and flags (scene_reader.h) and printed back fully resolved into every manifest.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/bending/law.h"
+
+namespace hysteron {
+
+// Physics of a cloth.  Every number has its source in the fabric's file.
+struct Fabric {
+  std::string name = "cotton-broad";
+  double b1 = 3.589e-5;         // fabric.b1         initial bending rigidity [N m], >= b2
+  double b2 = 1.157e-5;         // fabric.b2         bending rigidity B, slope of the straight KES-FB2 branch [N m]
+  double k0 = 50;               // fabric.k0         curvature at which bending friction saturates [1/m]
+  double density = 0.1238;      // fabric.density    mass per area [kg/m^2]
+  double thickness = 0.497e-3;  // fabric.thickness  [m]
+  double warp = 1000;           // fabric.warp       membrane stiffness along warp [N/m]
+  double weft = 1000;           // fabric.weft       membrane stiffness along weft [N/m]
+  double coupling = 0;          // fabric.coupling   warp-weft coupling C_12 [N/m], C_12^2 < warp * weft
+  double shear = 60;            // fabric.shear      in-plane shear stiffness [N/m]
+  double damping = 1e-4;        // fabric.damping    viscous membrane damping: stress = damping * C * strain rate [s]
+  double friction = 0.3;        // fabric.friction   Coulomb coefficient against obstacles
+
+  VirginCurve virgin_curve() const { return {b1, b2, k0}; }
+};
+
+struct ClothShape {
+  std::string shape = "square";        // cloth.shape       square | strip | disc | file
+  double length = 0.5;                 // cloth.length      along warp [m] (square, strip)
+  double width = 0.5;                  // cloth.width       along weft [m] (strip; a square takes length)
+  double radius = 0.15;                // cloth.radius      [m] (disc)
+  std::string file;                    // cloth.file        OBJ
+  double weld = 0;                     // cloth.weld        merge vertices closer than this [m], 0 = off (file)
+  Eigen::Vector3d position{0, 0, 0};   // cloth.position    of the builders' origin [m]
+  Eigen::Vector3d rotation{0, 0, 0};   // cloth.rotation    Euler angles about x, y, z in this order [degree]
+  double warp_angle = 0;               // cloth.warp-angle  warp direction against the x axis at rest [degree]
+};
+
+// A moment of a prescribed motion; between keys positions are interpolated smoothly (velocity zero at keys
+// where the motion rests), angles about the axis likewise.
+struct Keyframe {
+  double time = 0;                    // [s]
+  Eigen::Vector3d position{0, 0, 0};  // displacement from the start [m]
+  double angle = 0;                   // rotation about the motion's axis and centre [degree]
+};
+
+struct Motion {
+  std::vector<Keyframe> keys;       // empty: at rest
+  Eigen::Vector3d axis{0, 0, 1};    // of the rotation
+  Eigen::Vector3d center{0, 0, 0};  // of the rotation [m]
+};
+
+// Vertices held by hand: those of the rest shape inside the box or nearest to the point, from `from` to `until`.
+struct Pin {
+  std::string select = "box";      // pin.select   box | nearest | all-boundary
+  Eigen::Vector3d low{0, 0, 0};    // pin.low      box corner in builder coordinates [m]
+  Eigen::Vector3d high{0, 0, 0};   // pin.high
+  Eigen::Vector3d point{0, 0, 0};  // pin.point    for `nearest`
+  double until = 1e30;             // pin.until    released at this time [s]
+  Motion motion;                   // pin.keys, pin.axis, pin.center
+};
+
+struct Obstacle {
+  std::string kind = "ground";       // obstacle.kind  ground | sphere | cylinder | box | capsule
+  Eigen::Vector3d center{0, 0, 0};   // obstacle.center [m]; ground: a point of the plane; cylinder: middle of its axis
+  Eigen::Vector3d axis{0, 0, 1};     // obstacle.axis   ground: normal; cylinder, capsule: direction
+  Eigen::Vector3d size{0.1, 0.1, 0.1};  // obstacle.size  box: half edges [m]
+  double radius = 0.1;               // obstacle.radius sphere, cylinder, capsule [m]
+  double height = 0.1;               // obstacle.height cylinder, capsule: length of the axis [m]
+  double rim = 0.001;                // obstacle.rim    rounding of the cylinder's and box's edges [m]
+  double friction = -1;              // obstacle.friction  Coulomb coefficient; < 0: the fabric's
+  bool visible = true;               // obstacle.visible
+  double until = 1e30;               // obstacle.until  removed at this time [s]
+  Motion motion;                     // obstacle.keys, obstacle.motion-axis, obstacle.motion-center
+};
+
+struct Scene {
+  ClothShape cloth;
+  Fabric fabric;
+  std::string law = "prandtl";                // law
+  std::map<std::string, std::string> param;   // param      law parameters by name (memory, stops, recovery, ...)
+  std::string element = "shape";              // element    shape | hinge
+  std::string force = "energy";               // force      energy | chapter (hinge only)
+  std::string mesh = "random";                // mesh       family of the builder, or FILE.obj
+  int triangles = 5000;                       // triangles
+  std::string integrator = "semi-implicit";   // integrator semi-implicit | explicit
+  double step = 1e-3;                         // step       large step hi [s]
+  int substeps = 0;                           // substeps   alpha; 0 = the least stable one
+  double solver_tolerance = 1e-4;             // solver-tolerance  relative residual of the implicit solve
+  std::string device = "auto";                // device     auto | cpu | cuda
+  std::string precision = "double";           // precision  double | float
+  int threads = 0;                            // threads    0 = all cores
+  double seconds = 1;                         // seconds    simulated time [s]
+  Eigen::Vector3d gravity{0, 0, -9.81};       // gravity    [m/s^2]
+  double air_drag = 0;                        // air-drag   linear drag per area [kg/(m^2 s)]
+  double contact_stiffness = 0;               // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
+  unsigned seed = 1;                          // seed
+  std::vector<Pin> pin;                       // [[pin]]
+  std::vector<Obstacle> obstacle;             // [[obstacle]]
+};
+
+}  // namespace hysteron
