@@ -11,6 +11,19 @@
 
 namespace hysteron {
 
+// Where a number of a fabric comes from.  Confidence: published, derived, assumed, or given (scene file or flag).
+struct Provenance {
+  std::string source;
+  std::string confidence;
+};
+
+// A measured number that is no parameter of the model: what the source prints, or what to compare results with.
+struct PublishedNumber {
+  double value = 0;
+  std::string unit;
+  Provenance provenance;
+};
+
 // Physics of a cloth.  Every number has its source in the fabric's file.
 struct Fabric {
   std::string name = "cotton-broad";
@@ -25,6 +38,9 @@ struct Fabric {
   double shear = 60;            // fabric.shear      in-plane shear stiffness [N/m]
   double damping = 1e-4;        // fabric.damping    viscous membrane damping: stress = damping * C * strain rate [s]
   double friction = 0.3;        // fabric.friction   Coulomb coefficient against obstacles
+
+  std::map<std::string, Provenance> provenance;      // of each parameter above, by its name
+  std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
   VirginCurve virgin_curve() const { return {b1, b2, k0}; }
 };
@@ -102,6 +118,9 @@ struct Scene {
   unsigned seed = 1;                          // seed
   std::vector<Pin> pin;                       // [[pin]]
   std::vector<Obstacle> obstacle;             // [[obstacle]]
+  // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
+  // "obstacle[0].radius"), and by table ("pin[1]").
+  std::map<std::string, std::string> origin;
 };
 
 }  // namespace hysteron

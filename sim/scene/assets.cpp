@@ -1,0 +1,50 @@
+#include "sim/scene/assets.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/error.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+namespace fs = std::filesystem;
+
+fs::path assets_folder() {
+  std::error_code ignored;
+  if (const char* named = std::getenv("HYSTERON_ASSETS"); named && *named) {
+    if (fs::is_directory(named, ignored)) return named;
+    throw Error::machine(std::string("HYSTERON_ASSETS = ") + named + " is no folder; unset it or name one");
+  }
+  const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
+  const std::vector<fs::path> places = {binary.parent_path() / "assets", fs::path(HYSTERON_SOURCE_DIR) / "assets"};
+  for (const fs::path& place : places) {
+    if (fs::is_directory(place, ignored)) return place;
+  }
+  throw Error::machine("no assets folder at " + places[0].string() + " or " + places[1].string() +
+                       "; set HYSTERON_ASSETS to it");
+}
+
+fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {
+  std::error_code ignored;
+  if (fs::is_regular_file(name, ignored)) return name;
+  const fs::path folder = assets_folder() / kind;
+  const fs::path file = folder / (name + ".toml");
+  if (!name.empty() && fs::is_regular_file(file, ignored)) return file;
+  const std::vector<std::string> names = list_assets(kind);
+  const std::string nearest = nearest_name(name, names);
+  const std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
+  throw Error::request("no file and none of the " + kind + " is called \"" + name + "\" (" + origin +
+                       "); there are: " + join(names, ", ") + hint);
+}
+
+std::vector<std::string> list_assets(const std::string& kind) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(assets_folder() / kind, ignored)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,21 @@
+// Where scenes and fabrics are found.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+// The assets folder: environment variable HYSTERON_ASSETS, else `assets` beside the binary, else in the source
+// tree that the program was built from.  Throws Error::machine if none exists, naming the places looked at.
+std::filesystem::path assets_folder();
+
+// The file that `name` means: an existing file of that name, else assets/<kind>/<name>.toml (kind "fabrics",
+// "scenes").  `origin` says who asks.  Throws Error::request with the nearest name if there is none.
+std::filesystem::path find_asset(const std::string& kind, const std::string& name, const std::string& origin);
+
+// Names of all assets of a kind, sorted, without folder and ending.
+std::vector<std::string> list_assets(const std::string& kind);
+
+}  // namespace hysteron

@@ -1,0 +1,263 @@
+#include "sim/scene/key_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sim/error.h"
+
+namespace hysteron {
+namespace {
+
+template <class... Cases>
+struct Overload : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Overload(Cases...) -> Overload<Cases...>;
+
+std::string type_name(const Field& field) {
+  static const char* const kNames[] = {"flag", "integer", "integer", "number", "vector", "text", "name=value"};
+  return kNames[field.index()];
+}
+
+std::string value_text(const Value& value) {
+  return std::visit(Overload{[](bool x) { return std::string(x ? "true" : "false"); },
+                             [](std::int64_t x) { return std::to_string(x); },
+                             [](double x) { return number_text(x); },
+                             [](const std::string& x) { return '"' + x + '"'; },
+                             [](const std::vector<double>& x) {
+                               std::vector<std::string> words;
+                               for (double component : x) words.push_back(number_text(component));
+                               return "[" + join(words, ", ") + "]";
+                             }},
+                    value);
+}
+
+std::string with_unit(const std::string& value, const KeyDescription& key) {
+  return key.unit.empty() ? value : value + " " + key.unit;
+}
+
+// "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
+Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
+              const std::string& origin) {
+  return Error::request(key.path + " = " + value + " must be " + must + " (" + origin + ")");
+}
+
+Error wrong_type(const KeyDescription& key, const Value& value, const std::string& origin) {
+  static const std::map<std::string, std::string> kArticle = {{"flag", "true or false"},
+                                                             {"integer", "an integer"},
+                                                             {"number", "a number"},
+                                                             {"vector", "three numbers"},
+                                                             {"text", "a text"},
+                                                             {"name=value", "of the form name=value"}};
+  std::string must = kArticle.at(key.type);
+  if (key.type == "integer" || key.type == "number" || key.type == "vector") {
+    if (key.range.text() != "finite") must += " " + key.range.text();
+    if (!key.unit.empty()) must += " [" + key.unit + "]";
+  }
+  if (!key.choices.empty()) must += ": " + join(key.choices, " | ");
+  return refusal(key, value_text(value), must, origin);
+}
+
+void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
+  if (!std::isfinite(x)) throw refusal(key, with_unit(shown, key), "finite", origin);
+  if (!key.range.contains(x)) throw refusal(key, with_unit(shown, key), key.range.text(), origin);
+}
+
+void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {
+  if (key.choices.empty()) return;
+  if (std::count(key.choices.begin(), key.choices.end(), name)) return;
+  if (std::count(key.announced.begin(), key.announced.end(), name)) {
+    throw Error::request(key.path + " = " + name + " is not built yet (" + origin + "); built: " +
+                         join(key.choices, " | "));
+  }
+  const std::string nearest = nearest_name(name, key.choices);
+  throw refusal(key, name, join(key.choices, " | "),
+                origin + (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+double as_number(const KeyDescription& key, const Value& value, const std::string& origin) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  throw wrong_type(key, value, origin);
+}
+
+std::int64_t as_integer(const KeyDescription& key, const Value& value, const std::string& origin) {
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  if (!integer) throw wrong_type(key, value, origin);
+  return *integer;
+}
+
+void assign_parameter(const KeyDescription& key, Parameters& parameters, const Value& value,
+                      const std::string& origin) {
+  const auto* text = std::get_if<std::string>(&value);
+  const std::size_t equals = text ? text->find('=') : std::string::npos;
+  if (equals == std::string::npos || equals == 0) throw wrong_type(key, value, origin);
+  parameters[text->substr(0, equals)] = text->substr(equals + 1);
+}
+
+template <class Integer>
+void assign_integer(const KeyDescription& key, Integer& target, const Value& value, const std::string& origin) {
+  const std::int64_t x = as_integer(key, value, origin);
+  check_number(key, static_cast<double>(x), std::to_string(x), origin);
+  if (x < std::numeric_limits<Integer>::min() || x > std::numeric_limits<Integer>::max()) {
+    throw refusal(key, std::to_string(x), "at most " + std::to_string(std::numeric_limits<Integer>::max()), origin);
+  }
+  target = static_cast<Integer>(x);
+}
+
+void assign_vector(const KeyDescription& key, Eigen::Vector3d& target, const Value& value,
+                   const std::string& origin) {
+  const auto* components = std::get_if<std::vector<double>>(&value);
+  if (!components || components->size() != 3) throw wrong_type(key, value, origin);
+  for (double x : *components) check_number(key, x, value_text(value), origin);
+  target = {(*components)[0], (*components)[1], (*components)[2]};
+}
+
+// The whole text as a number; false if anything is left over.
+template <class Number>
+bool parse(std::string_view text, Number& number) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::vector<double> parse_components(std::string text) {
+  for (char& c : text) {
+    if (c == ',' || c == '[' || c == ']') c = ' ';
+  }
+  std::istringstream words(text);
+  std::vector<double> components;
+  for (std::string word; words >> word;) {
+    double x = 0;
+    if (!parse(word, x)) return {};
+    components.push_back(x);
+  }
+  return components;
+}
+
+// The flag's text as the value that a file would hold; text stays text where it cannot be read as such.
+Value parse_value(const std::string& type, const std::string& text) {
+  std::int64_t integer = 0;
+  double number = 0;
+  if (type == "flag" && (text == "true" || text == "false")) return text == "true";
+  if (type == "integer" && parse(text, integer)) return integer;
+  if ((type == "integer" || type == "number") && parse(text, number)) return number;
+  if (type == "vector" && parse_components(text).size() == 3) return parse_components(text);
+  return text;
+}
+
+void split_choices(const char* text, KeyDescription& key) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == "|") continue;
+    const bool announced = word.front() == '(';
+    (announced ? key.announced : key.choices).push_back(announced ? word.substr(1, word.size() - 2) : word);
+  }
+}
+
+}  // namespace
+
+std::string Range::text() const {
+  if (low > -kInfinity && high < kInfinity) {
+    return std::string("in ") + (open_low ? "(" : "[") + number_text(low) + ", " + number_text(high) + "]";
+  }
+  if (low > -kInfinity) return (open_low ? "> " : ">= ") + number_text(low);
+  if (high < kInfinity) return "<= " + number_text(high);
+  return "finite";
+}
+
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* choices,
+                        const char* doc) {
+  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc};
+  split_choices(choices, key);
+  return key;
+}
+
+void assign(const BoundKey& key, const Value& value, const std::string& origin) {
+  const KeyDescription& what = key.description;
+  std::visit(Overload{[&](bool* target) {
+                        const bool* flag = std::get_if<bool>(&value);
+                        if (!flag) throw wrong_type(what, value, origin);
+                        *target = *flag;
+                      },
+                      [&](int* target) { assign_integer(what, *target, value, origin); },
+                      [&](unsigned* target) { assign_integer(what, *target, value, origin); },
+                      [&](double* target) {
+                        const double x = as_number(what, value, origin);
+                        check_number(what, x, value_text(value), origin);
+                        *target = x;
+                      },
+                      [&](Eigen::Vector3d* target) { assign_vector(what, *target, value, origin); },
+                      [&](std::string* target) {
+                        const auto* text = std::get_if<std::string>(&value);
+                        if (!text) throw wrong_type(what, value, origin);
+                        check_choice(what, *text, origin);
+                        *target = *text;
+                      },
+                      [&](Parameters* target) { assign_parameter(what, *target, value, origin); }},
+             key.field);
+}
+
+void assign_text(const BoundKey& key, const std::string& text, const std::string& origin) {
+  assign(key, parse_value(key.description.type, text), origin);
+}
+
+const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin) {
+  std::vector<std::string> names;
+  for (const BoundKey& key : keys) {
+    if (key.description.path == path) return key;
+    names.push_back(key.description.path);
+  }
+  const std::string nearest = nearest_name(path, names);
+  throw Error::request("unknown key " + path + " (" + origin + ")" +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+nlohmann::ordered_json to_json(const Keys& keys) {
+  nlohmann::ordered_json tree = nlohmann::ordered_json::object();
+  for (const BoundKey& key : keys) {
+    std::string pointer = "/" + key.description.path;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    auto& entry = tree[nlohmann::ordered_json::json_pointer(pointer)];
+    std::visit(Overload{[&](Eigen::Vector3d* v) { entry = {v->x(), v->y(), v->z()}; },
+                        [&](Parameters* p) { entry = *p; }, [&](auto* x) { entry = *x; }},
+               key.field);
+  }
+  return tree;
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
+  std::string nearest;
+  std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> edits(candidate.size() + 1);  // Levenshtein 1966: a row of the distance table
+    for (std::size_t j = 0; j <= candidate.size(); ++j) edits[j] = j;
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = std::exchange(edits[0], i);
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t replaced = diagonal + (name[i - 1] != candidate[j - 1]);
+        diagonal = edits[j];
+        edits[j] = std::min({replaced, edits[j] + 1, edits[j - 1] + 1});
+      }
+    }
+    if (edits.back() < fewest) fewest = edits.back(), nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string number_text(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
+
+std::string join(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+}  // namespace hysteron

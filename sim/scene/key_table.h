@@ -1,0 +1,108 @@
+// Keys: the named, typed, bounded values that scene files and flags may set.  A struct gets its keys from one
+// table with a line per key; reading, flags, messages, checks and the manifest all come from that table:
+//
+//   const KeyRow<Scene> kRows[] = {
+//       {"fabric.b2", at<&Scene::fabric, &Fabric::b2>, "N m", positive(), "", "bending rigidity B"}, ...
+//
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hysteron {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Allowed numbers.  For a vector: of every component.
+struct Range {
+  double low = -kInfinity;
+  double high = kInfinity;
+  bool open_low = false;  // low itself is not allowed
+
+  bool contains(double x) const { return (open_low ? x > low : x >= low) && x <= high; }
+  std::string text() const;  // ">= 0", "> 0", "in [1, 64]", "finite"
+};
+inline Range any() { return {}; }
+inline Range positive() { return {0, kInfinity, true}; }
+inline Range at_least(double low) { return {low, kInfinity, false}; }
+inline Range between(double low, double high) { return {low, high, false}; }
+
+// What a key points to: flag, integer, count, number, vector, text, or parameters by name.
+using Parameters = std::map<std::string, std::string>;
+using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*>;
+
+struct KeyDescription {
+  std::string path;                    // "fabric.b2"
+  std::string type;                    // flag | integer | number | vector | text | name=value
+  std::string unit;                    // "N m", "" for plain numbers and texts
+  Range range;                         // of numbers
+  std::vector<std::string> choices;    // of texts; empty: any text
+  std::vector<std::string> announced;  // texts that are part of the interface and not built yet
+  std::string doc;                     // one line
+};
+
+struct BoundKey {
+  KeyDescription description;
+  Field field;
+};
+using Keys = std::vector<BoundKey>;
+
+// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.
+template <class Owner>
+struct KeyRow {
+  const char* path;
+  Field (*field)(Owner&);
+  const char* unit;
+  Range range;
+  const char* choices;
+  const char* doc;
+};
+
+// Accessor for a table: at<&Scene::fabric, &Fabric::b2> is a function from Scene& to the address of the member.
+template <auto... Members, class Owner>
+Field at(Owner& owner) {
+  return &(owner.*....*Members);
+}
+
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* choices,
+                        const char* doc);
+
+template <class Owner, class Rows>
+Keys bind(const Rows& rows, Owner& owner) {
+  Keys keys;
+  for (const KeyRow<Owner>& row : rows) {
+    const Field field = row.field(owner);
+    keys.push_back({describe(row.path, field, row.unit, row.range, row.choices, row.doc), field});
+  }
+  return keys;
+}
+
+// A value as it stands in a file.
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+
+// Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::request for a wrong type, a
+// number outside its range or not finite, or a text that is no choice.
+void assign(const BoundKey& key, const Value& value, const std::string& origin);
+// The same from a flag's text: numbers in C notation, vectors as three numbers apart by spaces or commas.
+void assign_text(const BoundKey& key, const std::string& text, const std::string& origin);
+
+// Throws Error::request for an unknown key, naming the nearest known one.
+const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin);
+
+// Values of all keys, nested at the dots of their paths, in the table's order.
+nlohmann::ordered_json to_json(const Keys& keys);
+
+// The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least two).
+std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
+
+// Shortest text that reads back as the same number.
+std::string number_text(double x);
+std::string join(const std::vector<std::string>& words, const std::string& separator);
+
+}  // namespace hysteron

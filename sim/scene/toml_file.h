@@ -1,0 +1,29 @@
+// A TOML file as a plain tree that remembers source lines; the only door to the TOML library.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+
+struct TomlNode {
+  enum class Kind { value, table, array };  // array: of tables
+  Kind kind = Kind::table;
+  std::string key;                 // empty for elements of an array
+  int line = 0;                    // 1 = first line of the file
+  Value value;                     // Kind::value; an array of numbers is one value
+  std::vector<TomlNode> children;  // Kind::table, Kind::array; in the file's order
+
+  const TomlNode* find(const std::string& name) const;
+};
+
+// Reads a whole file.  Throws Error::machine if it cannot be read, Error::request with file and line if it is no
+// TOML or holds what no key can take (dates, mixed arrays).
+TomlNode read_toml(const std::string& file);
+
+// "scene.toml:7"
+std::string place(const std::string& file, const TomlNode& node);
+
+}  // namespace hysteron
