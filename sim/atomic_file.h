@@ -1,0 +1,33 @@
+// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace hysteron {
+
+// Writes beside the target under a temporary name and renames on commit(), so that a reader (or a full
+// disk, or a killed run) never leaves half a file under the final name.  Without commit() the temporary
+// file is removed on destruction.
+class AtomicFile {
+ public:
+  // Opens the temporary file (binary).  Throws Error::machine with the file's name and the system's reason.
+  explicit AtomicFile(const std::string& target);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return stream_; }
+  // For writers that open a file by name themselves (plot programs, image libraries).
+  const std::string& temporary() const { return temporary_; }
+  // Flushes, closes, checks and renames.  Throws Error::machine; the target is then as it was before.
+  void commit();
+
+ private:
+  std::string target_;
+  std::string temporary_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+}  // namespace hysteron

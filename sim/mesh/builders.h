@@ -1,0 +1,27 @@
+// What the builders of flat meshes share.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// More triangles than this are a mistake in the request, and beyond what the Delaunay grid resolves.
+inline constexpr int kMostTriangles = 10'000'000;
+
+// Error::request "<what> mesh: <name> = <value> m must be > 0" unless it is a positive finite number.
+void check_length(const std::string& what, const std::string& name, double value);
+// Error::request unless 2 <= triangles <= kMostTriangles.
+void check_triangles(const std::string& what, int triangles);
+
+// Whether the square cell (i, j) of a structured family is cut from its lower left to its upper right corner.
+bool rising_diagonal(MeshFamily family, int i, int j);
+
+// The mesh of these points in z = 0, triangles ordered by their lowest vertex, with its topology.
+ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eigen::Vector3i> triangles,
+                    const std::string& what);
+
+}  // namespace hysteron

@@ -1,0 +1,199 @@
+#include "sim/mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "sim/error.h"
+
+namespace hysteron {
+namespace {
+
+// Below this height over longest edge a triangle has no normal worth computing with: its hinge angles would
+// be rounding noise of the vertices.
+constexpr double kLeastHeightRatio = 1e-6;
+
+// One directed side of a triangle, opposite to its corner; lo and hi are its vertices in rising order.
+struct Side {
+  int lo, hi;
+  int corner;  // 3 * face + corner
+};
+
+int side_from(const ClothMesh& mesh, int corner) { return mesh.face[corner / 3][(corner % 3 + 1) % 3]; }
+int side_to(const ClothMesh& mesh, int corner) { return mesh.face[corner / 3][(corner % 3 + 2) % 3]; }
+int tip(const ClothMesh& mesh, int corner) { return mesh.face[corner / 3][corner % 3]; }
+
+void check_indices(const ClothMesh& mesh, const MeshNames& names) {
+  if (mesh.face.empty()) throw Error::request(names.what + ": no triangles; a cloth needs at least one");
+  for (int f = 0; f < mesh.faces(); ++f) {
+    for (const int v : mesh.face[f]) {
+      if (v >= 0 && v < mesh.vertices()) continue;
+      throw Error::request(names.what + ": " + names.triangle(f) + " uses vertex " + std::to_string(v) +
+                           ", allowed are 0 to " + std::to_string(mesh.vertices() - 1));
+    }
+  }
+}
+
+void check_vertices(const ClothMesh& mesh, const MeshNames& names) {
+  std::vector<char> used(mesh.rest.size(), 0);
+  for (const auto& face : mesh.face)
+    for (const int v : face) used[v] = 1;
+  for (int v = 0; v < mesh.vertices(); ++v) {
+    if (!mesh.rest[v].allFinite())
+      throw Error::request(names.what + ": " + names.vertex(v) + " is not a finite number");
+    if (!used[v])
+      throw Error::request(names.what + ": " + names.vertex(v) + " belongs to no triangle; remove it");
+  }
+  if (!mesh.pattern.empty() && mesh.pattern.size() != mesh.rest.size())
+    throw Error::request(names.what + ": " + std::to_string(mesh.pattern.size()) +
+                         " pattern coordinates for " + std::to_string(mesh.vertices()) +
+                         " vertices; give one each or none");
+}
+
+Eigen::Vector3d area_vector(const ClothMesh& mesh, int f) {
+  const auto& [a, b, c] = std::tie(mesh.face[f][0], mesh.face[f][1], mesh.face[f][2]);
+  return 0.5 * (mesh.rest[b] - mesh.rest[a]).cross(mesh.rest[c] - mesh.rest[a]);
+}
+
+double longest_side(const ClothMesh& mesh, int f) {
+  double longest = 0;
+  for (int i = 0; i < 3; ++i)
+    longest = std::max(longest, (mesh.rest[mesh.face[f][i]] - mesh.rest[mesh.face[f][(i + 1) % 3]]).norm());
+  return longest;
+}
+
+void measure_areas(ClothMesh& mesh, const MeshNames& names) {
+  mesh.face_area.resize(mesh.face.size());
+  mesh.vertex_area.assign(mesh.rest.size(), 0.0);
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const double area = area_vector(mesh, f).norm(), side = longest_side(mesh, f);
+    if (!(2 * area >= kLeastHeightRatio * side * side) || side == 0)
+      throw Error::request(names.what + ": " + names.triangle(f) + " is degenerate (" +
+                           names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
+                           names.vertex(mesh.face[f][2]) + "): height over longest edge must be >= 1e-6");
+    mesh.face_area[f] = area;
+    for (const int v : mesh.face[f]) mesh.vertex_area[v] += area / 3;
+  }
+}
+
+// All sides, those of one edge next to each other, the lower triangle first.
+std::vector<Side> sorted_sides(const ClothMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.face.size());
+  for (int corner = 0; corner < 3 * mesh.faces(); ++corner) {
+    const auto [lo, hi] = std::minmax({side_from(mesh, corner), side_to(mesh, corner)});
+    sides.push_back({lo, hi, corner});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.lo, a.hi, a.corner) < std::tie(b.lo, b.hi, b.corner);
+  });
+  return sides;
+}
+
+std::string edge_name(const MeshNames& names, const Side& side) {
+  return "the edge between " + names.vertex(side.lo) + " and " + names.vertex(side.hi);
+}
+
+void check_pair(const ClothMesh& mesh, const MeshNames& names, const Side& a, const Side& b) {
+  const std::string pair = names.triangle(a.corner / 3) + " and " + names.triangle(b.corner / 3);
+  if (tip(mesh, a.corner) == tip(mesh, b.corner))
+    throw Error::request(names.what + ": " + pair + " have the same vertices; remove one");
+  if (side_from(mesh, a.corner) == side_from(mesh, b.corner))
+    throw Error::request(names.what + ": " + pair + " have opposite orientation at " + edge_name(names, a) +
+                         "; turn one over (a Moebius strip has no front)");
+}
+
+// Interior edges first, each kind in the order of its first triangle, which keeps neighbours near in memory.
+void connect_edges(ClothMesh& mesh, const MeshNames& names) {
+  const std::vector<Side> sides = sorted_sides(mesh);
+  std::vector<std::array<int, 2>> interior, boundary;  // corners of the one or two sides
+  for (std::size_t i = 0, next; i < sides.size(); i = next) {
+    for (next = i; next < sides.size() && sides[next].lo == sides[i].lo && sides[next].hi == sides[i].hi;)
+      ++next;
+    if (next - i > 2)
+      throw Error::request(names.what + ": " + edge_name(names, sides[i]) + " is shared by " +
+                           std::to_string(next - i) + " triangles (the third is " +
+                           names.triangle(sides[i + 2].corner / 3) + "), allowed are 2");
+    if (next - i == 2) check_pair(mesh, names, sides[i], sides[i + 1]);
+    if (next - i == 2)
+      interior.push_back({sides[i].corner, sides[i + 1].corner});
+    else
+      boundary.push_back({sides[i].corner, -1});
+  }
+  std::sort(interior.begin(), interior.end());
+  std::sort(boundary.begin(), boundary.end());
+  mesh.interior_edges = static_cast<int>(interior.size());
+  interior.insert(interior.end(), boundary.begin(), boundary.end());
+
+  mesh.edge.clear();
+  mesh.face_edge.resize(mesh.face.size());
+  for (const auto& [first, second] : interior) {
+    const int e = static_cast<int>(mesh.edge.size());
+    const bool inner = second >= 0;
+    mesh.edge.push_back({tip(mesh, first), inner ? tip(mesh, second) : -1, side_from(mesh, first),
+                         side_to(mesh, first), first / 3, inner ? second / 3 : -1});
+    mesh.face_edge[first / 3][first % 3] = e;
+    if (inner) mesh.face_edge[second / 3][second % 3] = e;
+  }
+}
+
+void gather_vertex_faces(ClothMesh& mesh) {
+  Adjacency& rows = mesh.vertex_faces;
+  rows.start.assign(mesh.rest.size() + 1, 0);
+  rows.item.resize(3 * mesh.face.size());
+  for (const auto& face : mesh.face)
+    for (const int v : face) ++rows.start[v + 1];
+  for (std::size_t v = 0; v < mesh.rest.size(); ++v) rows.start[v + 1] += rows.start[v];
+  std::vector<int> end(rows.start.begin(), rows.start.end() - 1);
+  for (int corner = 0; corner < 3 * mesh.faces(); ++corner) rows.item[end[tip(mesh, corner)]++] = corner;
+}
+
+// Derivative of the position by the first pattern coordinate, or zero where the pattern is degenerate.
+Eigen::Vector3d pattern_warp(const ClothMesh& mesh, int f) {
+  const auto& face = mesh.face[f];
+  const Eigen::Vector2d u = mesh.pattern[face[1]] - mesh.pattern[face[0]];
+  const Eigen::Vector2d v = mesh.pattern[face[2]] - mesh.pattern[face[0]];
+  const double det = u.x() * v.y() - u.y() * v.x();
+  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d x1 = mesh.rest[face[1]] - mesh.rest[face[0]];
+  const Eigen::Vector3d x2 = mesh.rest[face[2]] - mesh.rest[face[0]];
+  return (x1 * v.y() - x2 * u.y()) / det;
+}
+
+}  // namespace
+
+std::string MeshNames::triangle(int f) const {
+  return "triangle " + std::to_string(f) +
+         (face_line.empty() ? "" : " (line " + std::to_string(face_line[f]) + ")");
+}
+
+std::string MeshNames::vertex(int v) const {
+  return "vertex " + std::to_string(v) +
+         (vertex_line.empty() ? "" : " (line " + std::to_string(vertex_line[v]) + ")");
+}
+
+void build_topology(ClothMesh& mesh, const MeshNames& names) {
+  check_indices(mesh, names);
+  check_vertices(mesh, names);
+  measure_areas(mesh, names);
+  connect_edges(mesh, names);
+  gather_vertex_faces(mesh);
+}
+
+void build_topology(ClothMesh& mesh, const std::string& what) {
+  build_topology(mesh, MeshNames{what, {}, {}});
+}
+
+std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
+  const Eigen::Vector3d normal = area_vector(*this, f).normalized();
+  Eigen::Vector3d warp = pattern.empty() ? Eigen::Vector3d::Zero().eval() : pattern_warp(*this, f);
+  if (warp.isZero(0)) warp = warp_axis;
+  Eigen::Vector3d in_plane = warp - normal * normal.dot(warp);
+  // A warp direction that pierces the triangle says nothing about it; any fixed choice serves.
+  if (in_plane.norm() <= kLeastHeightRatio * warp.norm()) in_plane = rest[face[f][1]] - rest[face[f][0]];
+  in_plane.normalize();
+  return {in_plane, normal.cross(in_plane)};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,24 @@
+// Building the topology of a mesh whose triangles and vertices come from the lines of a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// How messages name the parts of a mesh: counted from 0, and by the line of the file where there is one.
+struct MeshNames {
+  std::string what;              // names the mesh ("mesh shirt.obj")
+  std::vector<int> face_line;    // per triangle, or empty
+  std::vector<int> vertex_line;  // per vertex, or empty
+
+  std::string triangle(int f) const;
+  std::string vertex(int v) const;
+};
+
+// As build_topology(mesh, what), with the file's lines in its messages.
+void build_topology(ClothMesh& mesh, const MeshNames& names);
+
+}  // namespace hysteron
