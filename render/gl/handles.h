@@ -1,0 +1,58 @@
+// Owners of GL names: each deletes its name with the table of the context that made it.  That context must be
+// current when they are made and destroyed.
+#pragma once
+
+#include <utility>
+
+#include "render/gl/glfunctions.h"
+
+namespace hysteron::render {
+
+template <class Kind>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(const GlFunctions& gl) : gl_(&gl), name_(Kind::make(gl)) {}
+  Handle(Handle&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(gl_, other.gl_);
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Handle() {
+    if (name_ != 0) Kind::destroy(*gl_, name_);
+  }
+
+  GLuint name() const { return name_; }
+  explicit operator bool() const { return name_ != 0; }
+
+ private:
+  const GlFunctions* gl_ = nullptr;
+  GLuint name_ = 0;
+};
+
+#define HYSTERON_GL_HANDLE(Owner, Generate, Delete)                            \
+  struct Owner##Kind {                                                         \
+    static GLuint make(const GlFunctions& gl) {                                \
+      GLuint name = 0;                                                         \
+      gl.Generate(1, &name);                                                   \
+      return name;                                                             \
+    }                                                                          \
+    static void destroy(const GlFunctions& gl, GLuint name) { gl.Delete(1, &name); } \
+  };                                                                           \
+  using Owner = Handle<Owner##Kind>;
+
+HYSTERON_GL_HANDLE(GlBuffer, GenBuffers, DeleteBuffers)
+HYSTERON_GL_HANDLE(GlVertexArray, GenVertexArrays, DeleteVertexArrays)
+HYSTERON_GL_HANDLE(GlTexture, GenTextures, DeleteTextures)
+HYSTERON_GL_HANDLE(GlFramebuffer, GenFramebuffers, DeleteFramebuffers)
+HYSTERON_GL_HANDLE(GlRenderbuffer, GenRenderbuffers, DeleteRenderbuffers)
+#undef HYSTERON_GL_HANDLE
+
+struct GlProgramKind {
+  static GLuint make(const GlFunctions& gl) { return gl.CreateProgram(); }
+  static void destroy(const GlFunctions& gl, GLuint name) { gl.DeleteProgram(name); }
+};
+using GlProgram = Handle<GlProgramKind>;
+
+}  // namespace hysteron::render

@@ -1,0 +1,46 @@
+// A linked GLSL program and its uniforms by name.
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "render/gl/handles.h"
+
+namespace hysteron::render {
+
+// Shader files of render/shaders/, embedded in the binary; `geometry` and `fragment` may be empty.
+struct ProgramFiles {
+  std::string_view vertex;
+  std::string_view geometry;
+  std::string_view fragment;
+  std::string_view defines;                              // lines put before every stage
+  std::initializer_list<const char*> captured = {};      // outputs captured by transform feedback
+};
+
+class Program {
+ public:
+  // Compiles and links; Error::machine names the file and the first line of the driver's log.
+  Program(const GlFunctions& gl, const ProgramFiles& files);
+
+  void use() const { gl_->UseProgram(program_.name()); }
+
+  // Uniforms of the program in use.  A name that the linker dropped is ignored, as in GL.
+  void set(const char* name, float value) const;
+  void set(const char* name, int value) const;
+  void set(const char* name, const Eigen::Vector2f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, const Eigen::Matrix3f& value) const;
+  void set(const char* name, const Eigen::Matrix4f& value) const;
+
+ private:
+  GLint location(const char* name) const;
+
+  const GlFunctions* gl_;
+  GlProgram program_;
+  mutable std::unordered_map<std::string, GLint> locations_;
+};
+
+}  // namespace hysteron::render

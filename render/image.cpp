@@ -1,0 +1,87 @@
+#include "render/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/srgb.h"
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+// Which source pixels one target pixel covers along a side, and how much of each.
+struct Footprint {
+  int first;
+  std::vector<float> weights;
+};
+
+std::vector<Footprint> footprints(int source, int target) {
+  const double scale = static_cast<double>(source) / target;
+  std::vector<Footprint> result(static_cast<size_t>(target));
+  for (int i = 0; i < target; ++i) {
+    const double begin = i * scale, end = std::min((i + 1) * scale, static_cast<double>(source));
+    Footprint& footprint = result[i];
+    footprint.first = static_cast<int>(begin);
+    for (int k = footprint.first; k < end && k < source; ++k)
+      footprint.weights.push_back(static_cast<float>((std::min(end, k + 1.0) - std::max(begin, k * 1.0)) / scale));
+  }
+  return result;
+}
+
+// One target row of linear light: columns summed over the rows' footprint first, then along x.
+std::vector<float> summed_columns(const Image& source, const Footprint& rows) {
+  std::vector<float> sums(source.row_bytes(), 0.0f);
+  const auto& linear = linear_of_srgb8();
+  for (size_t k = 0; k < rows.weights.size(); ++k) {
+    const std::uint8_t* row = source.at(0, rows.first + static_cast<int>(k));
+    for (size_t i = 0; i < sums.size(); ++i) sums[i] += rows.weights[k] * linear[row[i]];
+  }
+  return sums;
+}
+
+}  // namespace
+
+Image::Image(int width, int height, int channels) : width_(width), height_(height), channels_(channels) {
+  if (width <= 0 || height <= 0)
+    throw Error::request("picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " pixels: both sides must be >= 1");
+  if (channels != 3 && channels != 4)
+    throw Error::request("picture of " + std::to_string(channels) + " channels: 3 (RGB) or 4 (RGBA) are allowed");
+  pixels_.assign(row_bytes() * height, 0);
+}
+
+Image::Image(int width, int height, const Rgb8& fill) : Image(width, height, 3) {
+  for (size_t i = 0; i < pixels_.size(); ++i) pixels_[i] = fill[i % 3];
+}
+
+void paste(Image& target, const Image& source, int x, int y) {
+  const int left = std::max(0, -x), right = std::min(source.width(), target.width() - x);
+  for (int row = std::max(0, -y); row < std::min(source.height(), target.height() - y); ++row)
+    for (int column = left; column < right; ++column)
+      std::copy_n(source.at(column, row), 3, target.at(x + column, y + row));
+}
+
+Image shrink(const Image& source, int width, int height) {
+  if (width > source.width() || height > source.height())
+    throw Error::request("shrinking a picture of " + std::to_string(source.width()) + " x " +
+                         std::to_string(source.height()) + " to " + std::to_string(width) + " x " +
+                         std::to_string(height) + " pixels: no side may grow");
+  Image result(width, height, source.channels());
+  const auto columns = footprints(source.width(), width);
+  const auto rows = footprints(source.height(), height);
+  const int channels = source.channels();
+  for (int y = 0; y < height; ++y) {
+    const auto sums = summed_columns(source, rows[y]);
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < channels; ++c) {
+        float light = 0;
+        for (size_t k = 0; k < columns[x].weights.size(); ++k)
+          light += columns[x].weights[k] * sums[(columns[x].first + k) * channels + c];
+        result.at(x, y)[c] = srgb8_of_linear(light);
+      }
+  }
+  return result;
+}
+
+}  // namespace hysteron::render

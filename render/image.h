@@ -1,0 +1,63 @@
+// Pictures in memory and PNG files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace hysteron::render {
+
+// sRGB-encoded red, green, blue.
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+// 8 bits a channel, 3 (RGB) or 4 (RGBA) channels, rows from the top, no padding.
+class Image {
+ public:
+  Image() = default;
+  // Error::request if a side is not positive or channels is not 3 or 4.
+  Image(int width, int height, int channels = 3);
+  Image(int width, int height, const Rgb8& fill);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int channels() const { return channels_; }
+  bool empty() const { return pixels_.empty(); }
+  size_t row_bytes() const { return static_cast<size_t>(width_) * channels_; }
+
+  std::uint8_t* at(int x, int y) { return &pixels_[y * row_bytes() + static_cast<size_t>(x) * channels_]; }
+  const std::uint8_t* at(int x, int y) const { return &pixels_[y * row_bytes() + static_cast<size_t>(x) * channels_]; }
+  std::span<std::uint8_t> pixels() { return pixels_; }
+  std::span<const std::uint8_t> pixels() const { return pixels_; }
+
+  bool operator==(const Image&) const = default;
+
+ private:
+  int width_ = 0, height_ = 0, channels_ = 3;
+  std::vector<std::uint8_t> pixels_;
+};
+
+// The pixels of `source` with its top left corner at (x, y); what lies outside is cut off.  Alpha is dropped.
+void paste(Image& target, const Image& source, int x, int y);
+
+// Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;
+// Error::request if a side grows.
+Image shrink(const Image& source, int width, int height);
+
+enum class PngEffort {
+  fast,  // UP filter, zlib level 1: sequences (about five times faster than zlib's default)
+  best,  // every filter tried, zlib level 9: pictures that are kept in the repository
+};
+
+// PNG file in memory.
+std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort = PngEffort::fast);
+
+// Writes a temporary file beside `path` and renames it, so that `path` is either whole or not there.
+// Error::machine if the folder cannot be written or the disk is full.
+void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::fast);
+
+// RGB or RGBA as in the file (grey becomes RGB).  Error::request if the file is missing or not a picture.
+Image read_png(const std::filesystem::path& path);
+
+}  // namespace hysteron::render

@@ -1,0 +1,32 @@
+// The sRGB transfer function (IEC 61966-2-1:1999) between 8-bit values and linear light.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace hysteron::render {
+
+inline float linear_of_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+inline float srgb_of_linear(float light) {
+  return light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
+}
+
+inline const std::array<float, 256>& linear_of_srgb8() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values;
+    for (int i = 0; i < 256; ++i) values[i] = linear_of_srgb(static_cast<float>(i) / 255);
+    return values;
+  }();
+  return table;
+}
+
+inline std::uint8_t srgb8_of_linear(float light) {
+  return static_cast<std::uint8_t>(255 * srgb_of_linear(std::clamp(light, 0.0f, 1.0f)) + 0.5f);
+}
+
+}  // namespace hysteron::render
