@@ -12,8 +12,6 @@
 // Dissipated in a step: sum p r_j (|U_j| - r_j)+, never negative.  K0 = 0 or b1 = b2 leave M = b2 K.
 #pragma once
 
-#include <cmath>
-
 #include "sim/bending/law.h"
 #include "sim/bending/zero_moment.h"
 
@@ -41,77 +39,73 @@ struct PrandtlStops {
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature,
                                           const History<Real, kHistory>& before) const {
     LawStep<Real, D, kHistory> result;
-    Real elastic[D][N], reach[N], scale[N];
-    stretch(curvature, before, elastic, reach, scale);
-    Real energy[N], loss[N];
-    for (int j = 0; j < N; ++j) energy[j] = scale[j] * reach[j] * scale[j] * reach[j];  // |E_j|^2
-    for (int j = 0; j < N; ++j) loss[j] = limit[j] * (1 - scale[j]) * reach[j];         // r_j (|U_j| - r_j)+
+    const Stretch now = stretch(curvature, before);
+    const PerStop held = now.scale * now.length;
     for (int c = 0; c < D; ++c) {
-      const Real k = curvature[c];
-      for (int j = 0; j < N; ++j) elastic[c][j] *= scale[j];
-      for (int j = 0; j < N; ++j) result.history[c * N + j] = k - elastic[c][j];
-      result.moment[c] = b2 * k + p * sum(elastic[c]);
+      const PerStop elastic = now.offset[c] * now.scale;
+      slip(result.history, c) = curvature[c] - elastic;
+      result.moment[c] = b2 * curvature[c] + p * sum(elastic);
     }
-    result.stored = (b2 * curvature.squaredNorm() + p * sum(energy)) / 2;
-    result.dissipated = p * sum(loss);
+    result.stored = (b2 * curvature.squaredNorm() + p * sum(PerStop(held * held))) / 2;
+    result.dissipated = p * sum(PerStop(limits() * (now.length - held)));
     return result;
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const History<Real, kHistory>& before) const {
-    Real elastic[D][N], reach[N], scale[N], slipping[N];
-    stretch(curvature, before, elastic, reach, scale);
-    for (int j = 0; j < N; ++j) slipping[j] = scale[j] < 1 ? scale[j] / (reach[j] * reach[j]) : Real(0);
-    Tangent<Real, D> result = (b2 + p * sum(scale)) * Tangent<Real, D>::Identity();
-    for (int a = 0; a < D; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        Real product[N];
-        for (int j = 0; j < N; ++j) product[j] = slipping[j] * elastic[a][j] * elastic[b][j];
-        const Real total = p * sum(product);
-        result(a, b) -= total;
-        if (a != b) result(b, a) -= total;
-      }
-    }
+    const Stretch now = stretch(curvature, before);
+    const PerStop squared = now.length * now.length;
+    const PerStop slipping = (now.scale < Real(1)).select(now.scale / squared, PerStop::Zero());
+    Tangent<Real, D> result = (b2 + p * sum(now.scale)) * Tangent<Real, D>::Identity();
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) result(a, b) -= p * sum(PerStop(slipping * now.offset[a] * now.offset[b]));
     return result;
   }
 
   HYST_HD Vec<Real, D> residual(const History<Real, kHistory>& history) const {
     Vec<Real, D> mean_slip;
-    for (int c = 0; c < D; ++c) {
-      Real slip[N];
-      for (int j = 0; j < N; ++j) slip[j] = history[c * N + j];
-      mean_slip[c] = sum(slip) / N;
-    }
+    for (int c = 0; c < D; ++c) mean_slip[c] = sum(PerStop(slip(history, c))) / N;
     return zero_moment(*this, history, mean_slip);
   }
   HYST_HD Real largest_stiffness() const { return b2 + N * p; }
 
  private:
-  // offset[c][j] = U_j, reach[j] = max(|U_j|, r_j), scale[j] = min(1, r_j/|U_j|).
-  HYST_HD void stretch(const Vec<Real, D>& curvature, const History<Real, kHistory>& before,
-                       Real (&offset)[D][N], Real (&reach)[N], Real (&scale)[N]) const {
-    using std::sqrt;
-    Real squared[N] = {};
-    for (int c = 0; c < D; ++c) {
-      const Real k = curvature[c];
-      for (int j = 0; j < N; ++j) offset[c][j] = k - before[c * N + j];
-      for (int j = 0; j < N; ++j) squared[j] += offset[c][j] * offset[c][j];
-    }
-    for (int j = 0; j < N; ++j) {
-      const Real length = sqrt(squared[j]);
-      reach[j] = length;
-      scale[j] = limit[j] / (length > limit[j] ? length : limit[j]);
-    }
+  using PerStop = Eigen::Array<Real, N, 1>;  // compiles to vector registers on the CPU
+  struct Stretch {
+    PerStop offset[D];  // U_j by component [1/m]
+    PerStop length;     // |U_j| [1/m]
+    PerStop scale;      // min(1, r_j/|U_j|)
+  };
+
+  HYST_HD Eigen::Map<const PerStop> limits() const { return Eigen::Map<const PerStop>(limit); }
+  HYST_HD static Eigen::Map<PerStop> slip(History<Real, kHistory>& h, int component) {
+    return Eigen::Map<PerStop>(h.slot + component * N);
+  }
+  HYST_HD static Eigen::Map<const PerStop> slip(const History<Real, kHistory>& h, int component) {
+    return Eigen::Map<const PerStop>(h.slot + component * N);
   }
 
-  // Pairwise, so that the order is fixed and the compiler may still add several stops at once.
-  HYST_HD static Real sum(const Real (&term)[N]) {
-    Real part[N];
-    for (int j = 0; j < N; ++j) part[j] = term[j];
-    for (int n = N; n > 1; n = (n + 1) / 2) {
-      const int kept = (n + 1) / 2;
-      for (int j = 0; j < n - kept; ++j) part[j] += part[j + kept];
+  HYST_HD Stretch stretch(const Vec<Real, D>& curvature, const History<Real, kHistory>& before) const {
+    Stretch now;
+    for (int c = 0; c < D; ++c) now.offset[c] = curvature[c] - slip(before, c);
+    now.length = now.offset[0].abs();
+    if constexpr (D > 1) {
+      PerStop squared = now.offset[0] * now.offset[0];
+      for (int c = 1; c < D; ++c) squared += now.offset[c] * now.offset[c];
+      now.length = squared.sqrt();
     }
-    return part[0];
+    now.scale = limits() / now.length.max(limits());
+    return now;
+  }
+
+  // By halves, so that the order of the sum does not depend on the width of a vector register.
+  template <int n>
+  HYST_HD static Real sum(const Eigen::Array<Real, n, 1>& term) {
+    if constexpr (n == 1) {
+      return term[0];
+    } else {
+      static_assert(n % 2 == 0, "the number of stops is a power of two");
+      return sum<n / 2>(Eigen::Array<Real, n / 2, 1>(term.template head<n / 2>() + term.template tail<n / 2>()));
+    }
   }
 };
 
