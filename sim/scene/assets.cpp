@@ -16,7 +16,8 @@ fs::path assets_folder() {
     throw Error::machine(std::string("HYSTERON_ASSETS = ") + named + " is no folder; unset it or name one");
   }
   const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
-  const std::vector<fs::path> places = {binary.parent_path() / "assets", fs::path(HYSTERON_SOURCE_DIR) / "assets"};
+  const std::vector<fs::path> places = {binary.parent_path() / "assets",
+                                        fs::path(HYSTERON_SOURCE_DIR) / "assets"};
   for (const fs::path& place : places) {
     if (fs::is_directory(place, ignored)) return place;
   }

@@ -7,8 +7,9 @@
 
 namespace hysteron {
 
-// The assets folder: environment variable HYSTERON_ASSETS, else `assets` beside the binary, else in the source
-// tree that the program was built from.  Throws Error::machine if none exists, naming the places looked at.
+// The assets folder: environment variable HYSTERON_ASSETS, else `assets` beside the binary, else in the
+// source tree that the program was built from.  Throws Error::machine if none exists, naming the places
+// looked at.
 std::filesystem::path assets_folder();
 
 // The file that `name` means: an existing file of that name, else assets/<kind>/<name>.toml (kind "fabrics",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "sim/error.h"
 
@@ -19,21 +20,22 @@ template <class... Cases>
 Overload(Cases...) -> Overload<Cases...>;
 
 std::string type_name(const Field& field) {
-  static const char* const kNames[] = {"flag", "integer", "integer", "number", "vector", "text", "name=value"};
+  static const char* const kNames[] = {"flag",   "integer", "integer",   "number",
+                                       "vector", "text",    "name=value"};
   return kNames[field.index()];
 }
 
 std::string value_text(const Value& value) {
-  return std::visit(Overload{[](bool x) { return std::string(x ? "true" : "false"); },
-                             [](std::int64_t x) { return std::to_string(x); },
-                             [](double x) { return number_text(x); },
-                             [](const std::string& x) { return '"' + x + '"'; },
-                             [](const std::vector<double>& x) {
-                               std::vector<std::string> words;
-                               for (double component : x) words.push_back(number_text(component));
-                               return "[" + join(words, ", ") + "]";
-                             }},
-                    value);
+  return std::visit(
+      Overload{[](bool x) { return std::string(x ? "true" : "false"); },
+               [](std::int64_t x) { return std::to_string(x); }, [](double x) { return number_text(x); },
+               [](const std::string& x) { return '"' + x + '"'; },
+               [](const std::vector<double>& x) {
+                 std::vector<std::string> words;
+                 for (double component : x) words.push_back(number_text(component));
+                 return "[" + join(words, ", ") + "]";
+               }},
+      value);
 }
 
 std::string with_unit(const std::string& value, const KeyDescription& key) {
@@ -47,12 +49,9 @@ Error refusal(const KeyDescription& key, const std::string& value, const std::st
 }
 
 Error wrong_type(const KeyDescription& key, const Value& value, const std::string& origin) {
-  static const std::map<std::string, std::string> kArticle = {{"flag", "true or false"},
-                                                             {"integer", "an integer"},
-                                                             {"number", "a number"},
-                                                             {"vector", "three numbers"},
-                                                             {"text", "a text"},
-                                                             {"name=value", "of the form name=value"}};
+  static const std::map<std::string, std::string> kArticle = {
+      {"flag", "true or false"},   {"integer", "an integer"}, {"number", "a number"},
+      {"vector", "three numbers"}, {"text", "a text"},        {"name=value", "of the form name=value"}};
   std::string must = kArticle.at(key.type);
   if (key.type == "integer" || key.type == "number" || key.type == "vector") {
     if (key.range.text() != "finite") must += " " + key.range.text();
@@ -71,8 +70,8 @@ void check_choice(const KeyDescription& key, const std::string& name, const std:
   if (key.choices.empty()) return;
   if (std::count(key.choices.begin(), key.choices.end(), name)) return;
   if (std::count(key.announced.begin(), key.announced.end(), name)) {
-    throw Error::request(key.path + " = " + name + " is not built yet (" + origin + "); built: " +
-                         join(key.choices, " | "));
+    throw Error::request(key.path + " = " + name + " is not built yet (" + origin +
+                         "); built: " + join(key.choices, " | "));
   }
   const std::string nearest = nearest_name(name, key.choices);
   throw refusal(key, name, join(key.choices, " | "),
@@ -100,11 +99,13 @@ void assign_parameter(const KeyDescription& key, Parameters& parameters, const V
 }
 
 template <class Integer>
-void assign_integer(const KeyDescription& key, Integer& target, const Value& value, const std::string& origin) {
+void assign_integer(const KeyDescription& key, Integer& target, const Value& value,
+                    const std::string& origin) {
   const std::int64_t x = as_integer(key, value, origin);
   check_number(key, static_cast<double>(x), std::to_string(x), origin);
   if (x < std::numeric_limits<Integer>::min() || x > std::numeric_limits<Integer>::max()) {
-    throw refusal(key, std::to_string(x), "at most " + std::to_string(std::numeric_limits<Integer>::max()), origin);
+    throw refusal(key, std::to_string(x), "at most " + std::to_string(std::numeric_limits<Integer>::max()),
+                  origin);
   }
   target = static_cast<Integer>(x);
 }
@@ -139,17 +140,6 @@ std::vector<double> parse_components(std::string text) {
   return components;
 }
 
-// The flag's text as the value that a file would hold; text stays text where it cannot be read as such.
-Value parse_value(const std::string& type, const std::string& text) {
-  std::int64_t integer = 0;
-  double number = 0;
-  if (type == "flag" && (text == "true" || text == "false")) return text == "true";
-  if (type == "integer" && parse(text, integer)) return integer;
-  if ((type == "integer" || type == "number") && parse(text, number)) return number;
-  if (type == "vector" && parse_components(text).size() == 3) return parse_components(text);
-  return text;
-}
-
 void split_choices(const char* text, KeyDescription& key) {
   std::istringstream words(text);
   for (std::string word; words >> word;) {
@@ -170,8 +160,8 @@ std::string Range::text() const {
   return "finite";
 }
 
-KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* choices,
-                        const char* doc) {
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
+                        const char* choices, const char* doc) {
   KeyDescription key{path, type_name(field), unit, range, {}, {}, doc};
   split_choices(choices, key);
   return key;
@@ -202,8 +192,14 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
              key.field);
 }
 
-void assign_text(const BoundKey& key, const std::string& text, const std::string& origin) {
-  assign(key, parse_value(key.description.type, text), origin);
+Value parse_text(const KeyDescription& key, const std::string& text) {
+  std::int64_t integer = 0;
+  double number = 0;
+  if (key.type == "flag" && (text == "true" || text == "false")) return text == "true";
+  if (key.type == "integer" && parse(text, integer)) return integer;
+  if ((key.type == "integer" || key.type == "number") && parse(text, number)) return number;
+  if (key.type == "vector" && parse_components(text).size() == 3) return parse_components(text);
+  return text;
 }
 
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin) {
@@ -223,7 +219,9 @@ nlohmann::ordered_json to_json(const Keys& keys) {
     std::string pointer = "/" + key.description.path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     auto& entry = tree[nlohmann::ordered_json::json_pointer(pointer)];
-    std::visit(Overload{[&](Eigen::Vector3d* v) { entry = {v->x(), v->y(), v->z()}; },
+    std::visit(Overload{[&](Eigen::Vector3d* v) {
+                          entry = {v->x(), v->y(), v->z()};
+                        },
                         [&](Parameters* p) { entry = *p; }, [&](auto* x) { entry = *x; }},
                key.field);
   }

@@ -64,14 +64,15 @@ struct KeyRow {
   const char* doc;
 };
 
-// Accessor for a table: at<&Scene::fabric, &Fabric::b2> is a function from Scene& to the address of the member.
+// Accessor for a table: at<&Scene::fabric, &Fabric::b2> is a function from Scene& to the address of the
+// member.
 template <auto... Members, class Owner>
 Field at(Owner& owner) {
   return &(owner.*....*Members);
 }
 
-KeyDescription describe(const char* path, const Field& field, const char* unit, Range range, const char* choices,
-                        const char* doc);
+KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
+                        const char* choices, const char* doc);
 
 template <class Owner, class Rows>
 Keys bind(const Rows& rows, Owner& owner) {
@@ -86,11 +87,12 @@ Keys bind(const Rows& rows, Owner& owner) {
 // A value as it stands in a file.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-// Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::request for a wrong type, a
-// number outside its range or not finite, or a text that is no choice.
+// Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::request for a wrong
+// type, a number outside its range or not finite, or a text that is no choice.
 void assign(const BoundKey& key, const Value& value, const std::string& origin);
-// The same from a flag's text: numbers in C notation, vectors as three numbers apart by spaces or commas.
-void assign_text(const BoundKey& key, const std::string& text, const std::string& origin);
+// A flag's text as the value that a file would hold: numbers in C notation, vectors as three numbers apart by
+// spaces or commas.  A text that is none of these stays text (and is refused by assign).
+Value parse_text(const KeyDescription& key, const std::string& text);
 
 // Throws Error::request for an unknown key, naming the nearest known one.
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin);
@@ -98,7 +100,8 @@ const BoundKey& find_key(const Keys& keys, const std::string& path, const std::s
 // Values of all keys, nested at the dots of their paths, in the table's order.
 nlohmann::ordered_json to_json(const Keys& keys);
 
-// The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least two).
+// The candidate with the fewest edits from `name`, or "" if none is near (a third of the letters, at least
+// two).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
 // Shortest text that reads back as the same number.

@@ -51,7 +51,8 @@ TomlNode convert(const std::string& file, const std::string& key, const toml::no
   if (const auto* array = source.as_array()) return convert_array(file, key, *array);
   TomlNode node{TomlNode::Kind::table, key, line_of(source), {}, {}};
   if (const auto* table = source.as_table()) {
-    for (const auto& [name, child] : *table) node.children.push_back(convert(file, std::string(name.str()), child));
+    for (const auto& [name, child] : *table)
+      node.children.push_back(convert(file, std::string(name.str()), child));
     // The library sorts by name; messages should come in reading order.
     std::stable_sort(node.children.begin(), node.children.end(),
                      [](const TomlNode& a, const TomlNode& b) { return a.line < b.line; });
@@ -93,6 +94,8 @@ TomlNode read_toml(const std::string& file) {
   }
 }
 
-std::string place(const std::string& file, const TomlNode& node) { return file + ":" + std::to_string(node.line); }
+std::string place(const std::string& file, const TomlNode& node) {
+  return file + ":" + std::to_string(node.line);
+}
 
 }  // namespace hysteron

@@ -19,8 +19,8 @@ struct TomlNode {
   const TomlNode* find(const std::string& name) const;
 };
 
-// Reads a whole file.  Throws Error::machine if it cannot be read, Error::request with file and line if it is no
-// TOML or holds what no key can take (dates, mixed arrays).
+// Reads a whole file.  Throws Error::machine if it cannot be read, Error::request with file and line if it is
+// no TOML or holds what no key can take (dates, mixed arrays).
 TomlNode read_toml(const std::string& file);
 
 // "scene.toml:7"

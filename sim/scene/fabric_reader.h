@@ -1,0 +1,40 @@
+// Fabrics as files: every number with its value, unit, source and confidence.
+//
+//   name = "cotton-broad"
+//   description = "100 % cotton broad cloth, plain weave"
+//   [sources]            short names for long citations
+//   kes = "Author Year, ..."
+//   [parameters]         the keys fabric.* of a scene, in their SI units
+//   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
+//   [published]          what the source prints besides, in its own units
+//   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+struct FabricFile {
+  Fabric fabric;
+  std::string description;
+  std::map<std::string, std::string> place;  // of each parameter: "fabrics/cotton-broad.toml:12"
+};
+
+// KES units (Kawabata 1980) in SI; 1 gf = 9.80665e-3 N by definition.
+inline constexpr double kGramForceSquareCentimetrePerCentimetre = 9.80665e-5;  // [N m]
+inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        // [N]
+
+// Reads a fabric by name (assets/fabrics) or file; `origin` says who asks ("--fabric").  b1, b2, k0, density
+// and thickness must be there; other parameters keep the program's default, whose provenance says so.  Throws
+// Error::request with file and line for unknown or missing keys, wrong units, missing sources, values out of
+// range.
+FabricFile read_fabric(const std::string& name_or_file, const std::string& origin);
+
+// All fabrics of the assets folder, by name.
+std::vector<FabricFile> list_fabrics();
+
+}  // namespace hysteron

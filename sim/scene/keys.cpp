@@ -1,0 +1,185 @@
+#include "sim/scene/keys.h"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using S = Scene;
+using C = ClothShape;
+using F = Fabric;
+
+constexpr const char* kLaws =
+    "linear | pabst | prandtl | wong | (bridson) | (spring) | (bilinear) | (grinspun-edit) | (terzopoulos) | "
+    "(obrien) | (kim) | (narain) | (dahl) | (gong)";
+
+// clang-format off
+const KeyRow<Scene> kSceneRows[] = {
+    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | file", "outline of the cloth"},
+    {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "", "along warp (square, strip)"},
+    {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip)"},
+    {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc"},
+    {"cloth.file", at<&S::cloth, &C::file>, "", any(), "", "OBJ of the rest shape (file)"},
+    {"cloth.weld", at<&S::cloth, &C::weld>, "m", at_least(0), "", "vertices of the file closer than this are one; 0: none"},
+    {"cloth.position", at<&S::cloth, &C::position>, "m", any(), "", "of the rest shape's origin at the start"},
+    {"cloth.rotation", at<&S::cloth, &C::rotation>, "degree", any(), "", "about x, y, z in this order at the start"},
+    {"cloth.warp-angle", at<&S::cloth, &C::warp_angle>, "degree", any(), "", "warp direction against the rest shape's x axis"},
+    {"fabric.name", at<&S::fabric, &F::name>, "", any(), "", "a fabric of assets/fabrics or a file; loads all its numbers"},
+    {"fabric.b1", at<&S::fabric, &F::b1>, "N m", at_least(0), "", "initial bending rigidity, >= b2"},
+    {"fabric.b2", at<&S::fabric, &F::b2>, "N m", at_least(0), "", "bending rigidity B of the straight KES-FB2 branch"},
+    {"fabric.k0", at<&S::fabric, &F::k0>, "1/m", at_least(0), "", "curvature at which bending friction saturates"},
+    {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
+    {"fabric.thickness", at<&S::fabric, &F::thickness>, "m", positive(), "", "thickness"},
+    {"fabric.warp", at<&S::fabric, &F::warp>, "N/m", positive(), "", "membrane stiffness along warp"},
+    {"fabric.weft", at<&S::fabric, &F::weft>, "N/m", positive(), "", "membrane stiffness along weft"},
+    {"fabric.coupling", at<&S::fabric, &F::coupling>, "N/m", any(), "", "membrane coupling C12; coupling^2 < warp * weft"},
+    {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "", "in-plane shear stiffness"},
+    {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "", "viscous membrane damping time"},
+    {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles"},
+    {"law", at<&S::law>, "", any(), kLaws, "moment-curvature law"},
+    {"param", at<&S::param>, "", any(), "", "parameters of the law by name"},
+    {"element", at<&S::element>, "", any(), "shape | hinge", "bending element"},
+    {"force", at<&S::force>, "", any(), "energy | chapter", "bending force convention (chapter: hinge only)"},
+    {"mesh", at<&S::mesh>, "", any(), "", "aligned | flipped | unionjack | equilateral | random | FILE.obj"},
+    {"triangles", at<&S::triangles>, "", between(1, 1e8), "", "about this many triangles"},
+    {"integrator", at<&S::integrator>, "", any(), "semi-implicit | explicit | (implicit) | (bdf2)", "time integration"},
+    {"step", at<&S::step>, "s", {0, 1, true}, "", "large time step hi"},
+    {"substeps", at<&S::substeps>, "", between(0, 1e6), "", "explicit bending steps per large step; 0: the least stable number"},
+    {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "", "relative residual of the implicit solve"},
+    {"device", at<&S::device>, "", any(), "auto | cpu | cuda", "where the simulation runs"},
+    {"precision", at<&S::precision>, "", any(), "double | float", "of the simulation"},
+    {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: all cores"},
+    {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
+    {"gravity", at<&S::gravity>, "m/s^2", any(), "", "acceleration"},
+    {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
+    {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "per area; 0: from weight and thickness"},
+    {"seed", at<&S::seed>, "", at_least(0), "", "of random meshes"},
+};
+
+const KeyRow<Pin> kPinRows[] = {
+    {"select", at<&Pin::select>, "", any(), "box | nearest | all-boundary", "which vertices of the rest shape are held"},
+    {"low", at<&Pin::low>, "m", any(), "", "corner of the box"},
+    {"high", at<&Pin::high>, "m", any(), "", "opposite corner of the box, >= low"},
+    {"point", at<&Pin::point>, "m", any(), "", "the nearest vertex to this is held (nearest)"},
+    {"until", at<&Pin::until>, "s", at_least(0), "", "released at this time"},
+    {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
+    {"center", at<&Pin::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
+};
+
+const KeyRow<Obstacle> kObstacleRows[] = {
+    {"kind", at<&Obstacle::kind>, "", any(), "ground | sphere | cylinder | box | capsule", "solid"},
+    {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane"},
+    {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule: direction"},
+    {"size", at<&Obstacle::size>, "m", positive(), "", "half edges of the box"},
+    {"radius", at<&Obstacle::radius>, "m", positive(), "", "sphere, cylinder, capsule"},
+    {"height", at<&Obstacle::height>, "m", positive(), "", "length of the axis (cylinder, capsule)"},
+    {"rim", at<&Obstacle::rim>, "m", at_least(0), "", "rounding of the edges (cylinder, box)"},
+    {"friction", at<&Obstacle::friction>, "", at_least(-1), "", "Coulomb coefficient; negative: the fabric's"},
+    {"visible", at<&Obstacle::visible>, "", any(), "", "drawn in pictures"},
+    {"until", at<&Obstacle::until>, "s", at_least(0), "", "removed at this time"},
+    {"motion-axis", at<&Obstacle::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
+    {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
+};
+
+const KeyRow<Keyframe> kKeyframeRows[] = {
+    {"time", at<&Keyframe::time>, "s", at_least(0), "", "ascending from key to key"},
+    {"position", at<&Keyframe::position>, "m", any(), "", "displacement from the start"},
+    {"angle", at<&Keyframe::angle>, "degree", any(), "", "rotation about the motion's axis and centre"},
+};
+// clang-format on
+
+Json motion_json(const Motion& motion) {
+  Json keys = Json::array();
+  for (Keyframe key : motion.keys) keys.push_back(to_json(bind_keyframe(key)));
+  return keys;
+}
+
+Json provenance_json(const Fabric& fabric) {
+  Json all = Json::object();
+  for (const auto& [name, from] : fabric.provenance) {
+    all[name] = {{"source", from.source}, {"confidence", from.confidence}};
+  }
+  return all;
+}
+
+Json published_json(const Fabric& fabric) {
+  Json all = Json::object();
+  for (const auto& [name, number] : fabric.published) {
+    all[name] = {{"value", number.value},
+                 {"unit", number.unit},
+                 {"source", number.provenance.source},
+                 {"confidence", number.provenance.confidence}};
+  }
+  return all;
+}
+
+constexpr std::string_view kFabricPrefix = "fabric.";
+
+void note_origin(Scene& scene, const std::string& path, const std::string& origin) {
+  scene.origin[path] = origin;
+  if (path.starts_with(kFabricPrefix))
+    scene.fabric.provenance[path.substr(kFabricPrefix.size())] = {origin, "given"};
+}
+
+// The fabric of that name, and where its numbers stand.
+void load_fabric(Scene& scene, const std::string& name, const std::string& origin) {
+  std::erase_if(scene.origin, [](const auto& entry) { return entry.first.starts_with(kFabricPrefix); });
+  FabricFile loaded = read_fabric(name, origin);
+  scene.fabric = std::move(loaded.fabric);
+  for (const auto& [key, place] : loaded.place) scene.origin["fabric." + key] = place;
+  scene.origin["fabric.name"] = origin;
+}
+
+}  // namespace
+
+Keys bind_scene(Scene& scene) { return bind(kSceneRows, scene); }
+Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
+Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
+Keys bind_keyframe(Keyframe& keyframe) { return bind(kKeyframeRows, keyframe); }
+
+std::vector<KeyDescription> scene_keys() {
+  Scene scene;
+  std::vector<KeyDescription> descriptions;
+  for (const BoundKey& key : bind_scene(scene)) descriptions.push_back(key.description);
+  return descriptions;
+}
+
+void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin) {
+  const std::string& path = key.description.path;
+  assign(key, value, origin);
+  if (path == "fabric.name") {
+    load_fabric(scene, std::string(scene.fabric.name), origin);
+  } else {
+    note_origin(scene, path, origin);
+  }
+}
+
+void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin) {
+  const Keys keys = bind_scene(scene);
+  const BoundKey& key = find_key(keys, path == "fabric" ? "fabric.name" : path, origin);
+  set_key(scene, key, parse_text(key.description, text), origin);
+}
+
+Json to_json(const Scene& scene) {
+  Scene copy = scene;
+  Json tree = to_json(bind_scene(copy));
+  tree["fabric"]["provenance"] = provenance_json(scene.fabric);
+  tree["fabric"]["published"] = published_json(scene.fabric);
+  tree["pin"] = Json::array();
+  for (Pin& pin : copy.pin) {
+    tree["pin"].push_back(to_json(bind_pin(pin)));
+    tree["pin"].back()["keys"] = motion_json(pin.motion);
+  }
+  tree["obstacle"] = Json::array();
+  for (Obstacle& obstacle : copy.obstacle) {
+    tree["obstacle"].push_back(to_json(bind_obstacle(obstacle)));
+    tree["obstacle"].back()["keys"] = motion_json(obstacle.motion);
+  }
+  tree["origin"] = scene.origin;
+  return tree;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,32 @@
+// The keys of a Scene: one table for scene files, flags, messages, range checks and the manifest.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/scene/key_table.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+// Every key that a flag or the top level and plain tables of a scene file may set, in the manifest's order.
+std::vector<KeyDescription> scene_keys();
+
+// The same keys, and those of [[pin]], [[obstacle]] and their keyframes, bound to one object.
+Keys bind_scene(Scene& scene);
+Keys bind_pin(Pin& pin);
+Keys bind_obstacle(Obstacle& obstacle);
+Keys bind_keyframe(Keyframe& keyframe);
+
+// Sets one key from a flag's text and remembers `origin` ("--step").  "fabric" and "fabric.name" load a whole
+// fabric (all its earlier values are replaced); another fabric.* key replaces one number, whose provenance
+// becomes `origin`, "given".  Throws Error::request as assign_text and find_key do.
+void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin);
+// The same from a file's value; `key` is one of bind_scene(scene).
+void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin);
+
+// The resolved scene: every key in SI units, the fabric's sources, and where each key was set.
+nlohmann::ordered_json to_json(const Scene& scene);
+
+}  // namespace hysteron

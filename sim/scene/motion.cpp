@@ -1,0 +1,47 @@
+#include "sim/scene/motion.h"
+
+#include <cmath>
+#include <functional>
+
+namespace hysteron {
+namespace {
+
+using Track = std::function<double(const Keyframe&)>;
+
+double slope(const std::vector<Keyframe>& keys, std::size_t i, const Track& value) {
+  return (value(keys[i + 1]) - value(keys[i])) / (keys[i + 1].time - keys[i].time);
+}
+
+// Tangent at key i: zero at the ends and where the motion turns or rests, else the harmonic mean of its neighbours'.
+double tangent(const std::vector<Keyframe>& keys, std::size_t i, const Track& value) {
+  if (i == 0 || i + 1 == keys.size()) return 0;
+  const double a = slope(keys, i - 1, value), b = slope(keys, i, value);
+  return a * b > 0 ? 2 * a * b / (a + b) : 0;
+}
+
+double interpolate(const std::vector<Keyframe>& keys, double time, const Track& value) {
+  if (time <= keys.front().time) return value(keys.front());
+  if (time >= keys.back().time) return value(keys.back());
+  std::size_t i = 0;
+  while (time >= keys[i + 1].time) ++i;
+  const double h = keys[i + 1].time - keys[i].time, u = (time - keys[i].time) / h;
+  const double a = value(keys[i]), b = value(keys[i + 1]);
+  const double ta = h * tangent(keys, i, value), tb = h * tangent(keys, i + 1, value);
+  return a + u * (ta + u * (3 * (b - a) - 2 * ta - tb + u * (2 * (a - b) + ta + tb)));
+}
+
+}  // namespace
+
+Placement placement(const Motion& motion, double time) {
+  Placement result;
+  if (motion.keys.empty()) return result;
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double angle = kDegree * interpolate(motion.keys, time, [](const Keyframe& k) { return k.angle; });
+  result.rotation = Eigen::AngleAxisd(angle, motion.axis.normalized()).toRotationMatrix();
+  result.translation = motion.center - result.rotation * motion.center;
+  for (int c = 0; c < 3; ++c)
+    result.translation[c] += interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
+  return result;
+}
+
+}  // namespace hysteron

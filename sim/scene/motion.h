@@ -1,0 +1,19 @@
+// Prescribed motions of pins and obstacles.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+// Rigid placement at time t [s]: x -> rotation * x + translation, identity at the motion's start position.
+// Between keys monotone cubic interpolation (Fritsch & Butland 1984), at rest before the first and after the last.
+struct Placement {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const { return rotation * x + translation; }
+};
+Placement placement(const Motion& motion, double time);
+
+}  // namespace hysteron

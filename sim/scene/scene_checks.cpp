@@ -1,0 +1,156 @@
+// Checks that concern several keys at once; single values are checked where they are read.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/error.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron {
+namespace {
+
+const std::vector<std::string> kMeshFamilies = {"aligned", "flipped", "unionjack", "equilateral", "random"};
+
+// Where a key was set; the fabric's program defaults and the experiment's have no place.
+std::string origin_of(const Scene& scene, const std::string& key) {
+  const auto found = scene.origin.find(key);
+  return found == scene.origin.end() ? "default" : found->second;
+}
+
+// "fabric.b1 = 1e-6 N m (--fabric.b1)"
+std::string shown(const Scene& scene, const std::string& key, double value, const std::string& unit) {
+  return key + " = " + number_text(value) + (unit.empty() ? "" : " " + unit) + " (" + origin_of(scene, key) +
+         ")";
+}
+
+void check_fabric(const Scene& scene) {
+  const Fabric& f = scene.fabric;
+  if (f.b1 < f.b2) {
+    throw Error::request(shown(scene, "fabric.b1", f.b1, "N m") +
+                         " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
+  }
+  if (f.k0 == 0 && f.b1 > f.b2) {
+    throw Error::request(shown(scene, "fabric.k0", f.k0, "1/m") + " must be > 0 while fabric.b1 > fabric.b2");
+  }
+  if (f.coupling * f.coupling >= f.warp * f.weft) {
+    throw Error::request(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
+                         number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)");
+  }
+}
+
+bool is_obj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
+
+void check_mesh(const Scene& scene) {
+  if (scene.cloth.shape == "file" && scene.cloth.file.empty() && !is_obj(scene.mesh)) {
+    throw Error::request("cloth.shape = file (" + origin_of(scene, "cloth.shape") +
+                         ") needs cloth.file, an OBJ");
+  }
+  if (is_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
+  const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
+  throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") + ") must be " +
+                       join(kMeshFamilies, " | ") + " | FILE.obj" +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+void check_method(const Scene& scene) {
+  if (scene.force == "chapter" && scene.element != "hinge") {
+    throw Error::request("force = chapter (" + origin_of(scene, "force") + ") needs element = hinge, not " +
+                         scene.element + " (" + origin_of(scene, "element") + ")");
+  }
+}
+
+void check_motion(const Scene& scene, const std::string& path, const Motion& motion) {
+  for (std::size_t i = 0; i < motion.keys.size(); ++i) {
+    const std::string key = path + ".keys[" + std::to_string(i) + "]";
+    if (i > 0 && motion.keys[i].time <= motion.keys[i - 1].time) {
+      throw Error::request(key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
+                           number_text(motion.keys[i - 1].time) + " s, the key before (" +
+                           origin_of(scene, key) + ")");
+    }
+    if (motion.keys[i].angle != 0 && motion.axis.isZero(0)) {
+      throw Error::request(key + ".angle = " + number_text(motion.keys[i].angle) +
+                           " degree needs an axis that is not zero (" + origin_of(scene, key) + ")");
+    }
+  }
+}
+
+void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
+  if (pin.select == "box" && (pin.low.array() > pin.high.array()).any()) {
+    throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
+                         origin_of(scene, path) + ")");
+  }
+  check_motion(scene, path, pin.motion);
+}
+
+void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
+  const bool round = solid.kind == "cylinder" || solid.kind == "capsule";
+  if ((round || solid.kind == "ground") && solid.axis.isZero(0)) {
+    throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
+  }
+  double room = kInfinity;  // half of the thinnest part that the rim rounds
+  if (solid.kind == "cylinder") room = std::min(solid.radius, solid.height / 2);
+  if (solid.kind == "box") room = solid.size.minCoeff();
+  if (solid.rim > room) {
+    throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
+                         number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) + ")");
+  }
+  check_motion(scene, path, solid.motion);
+}
+
+// A parameter of a law, and which law takes it; "" = of the interface, not built yet.
+struct ParameterRow {
+  KeyRow<LawParameters> key;
+  const char* law;
+};
+
+using P = LawParameters;
+const ParameterRow kParameters[] = {
+    {{"memory", at<&P::memory>, "", any(), "stack | stops", "how prandtl remembers"}, "prandtl"},
+    {{"stack", at<&P::stack>, "", between(2, 64), "", "reversal points remembered"}, "prandtl"},
+    {{"stops", at<&P::stops>, "", between(1, 64), "", "friction elements"}, "prandtl"},
+    {{"recovery", at<&P::recovery>, "", any(), "masing | reversible", "first virgin branch"}, "wong"},
+};
+const std::vector<std::string> kAnnouncedParameters = {"fatigue.dc", "fatigue.m-inf", "fatigue.set", "yield",
+                                                       "max-set",    "weakening",     "height",      "tau"};
+
+void set_parameter(const Scene& scene, const std::string& name, const std::string& text,
+                   LawParameters& values) {
+  const std::string origin = origin_of(scene, "param." + name);
+  std::vector<std::string> names;
+  for (const auto& [row, law] : kParameters) {
+    if (scene.law != law) continue;
+    names.push_back(row.path);
+    if (name != row.path) continue;
+    const Field field = row.field(values);
+    const std::string path = "param " + name;
+    const BoundKey key{describe(path.c_str(), field, row.unit, row.range, row.choices, row.doc), field};
+    return assign(key, parse_text(key.description, text), origin);
+  }
+  if (std::count(kAnnouncedParameters.begin(), kAnnouncedParameters.end(), name)) {
+    throw Error::request("param " + name + " = " + text + " is not built yet (" + origin + ")");
+  }
+  throw Error::request("param " + name + " = " + text + " is no parameter of law " + scene.law + " (" +
+                       origin + "), which takes " + (names.empty() ? "none" : join(names, ", ")));
+}
+
+}  // namespace
+
+LawParameters law_parameters(const Scene& scene) {
+  LawParameters values;
+  for (const auto& [name, text] : scene.param) set_parameter(scene, name, text, values);
+  return values;
+}
+
+void check_scene(const Scene& scene) {
+  check_fabric(scene);
+  check_mesh(scene);
+  check_method(scene);
+  law_parameters(scene);
+  for (std::size_t i = 0; i < scene.pin.size(); ++i) {
+    check_pin(scene, scene.pin[i], "pin[" + std::to_string(i) + "]");
+  }
+  for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
+    check_obstacle(scene, scene.obstacle[i], "obstacle[" + std::to_string(i) + "]");
+  }
+}
+
+}  // namespace hysteron

@@ -1,0 +1,173 @@
+#include "sim/scene/scene_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sim/error.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/toml_file.h"
+
+namespace hysteron {
+namespace {
+namespace fs = std::filesystem;
+
+// A value of the file with its full path: [cloth] length is "cloth.length".
+struct Setting {
+  std::string path;
+  const TomlNode* node;
+};
+
+void flatten(const std::string& prefix, const TomlNode& table, std::vector<Setting>& settings) {
+  for (const TomlNode& child : table.children) {
+    const std::string path = prefix.empty() ? child.key : prefix + "." + child.key;
+    if (child.kind == TomlNode::Kind::table) {
+      flatten(path, child, settings);
+    } else {
+      settings.push_back({path == "fabric" ? "fabric.name" : path, &child});
+    }
+  }
+}
+
+class SceneFile {
+ public:
+  SceneFile(Scene& scene, std::string file, const Keys& extra)
+      : scene_(scene), file_(std::move(file)), extra_(extra), known_(bind_scene(scene)) {
+    known_.insert(known_.end(), extra.begin(), extra.end());
+  }
+
+  void apply(const TomlNode& root) {
+    std::vector<Setting> settings;
+    flatten("", root, settings);
+    std::stable_partition(settings.begin(), settings.end(),
+                          [](const Setting& s) { return s.path == "fabric.name"; });
+    for (const Setting& setting : settings) apply(setting);
+  }
+
+ private:
+  void apply(const Setting& setting) {
+    const TomlNode& node = *setting.node;
+    const std::string origin = place(file_, node);
+    if (setting.path == "pin") return read_tables(node, scene_.pin, bind_pin);
+    if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
+    if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
+    const BoundKey& key = find_key(known_, setting.path, origin);
+    if (node.kind == TomlNode::Kind::array) {
+      throw Error::request(setting.path + " must be one value, not an array of tables (" + origin + ")");
+    }
+    if (is_extra(setting.path)) return assign(key, node.value, origin);
+    set_key(scene_, key, located(setting.path, node.value), origin);
+  }
+
+  bool is_extra(const std::string& path) const {
+    return std::any_of(extra_.begin(), extra_.end(),
+                       [&](const BoundKey& k) { return k.description.path == path; });
+  }
+
+  // Files that a scene names may stand beside it.
+  Value located(const std::string& path, const Value& value) const {
+    if (path != "cloth.file" && path != "mesh" && path != "fabric.name") return value;
+    const auto* name = std::get_if<std::string>(&value);
+    const fs::path beside = name && !name->empty() ? fs::path(file_).parent_path() / *name : fs::path();
+    std::error_code ignored;
+    if (!beside.empty() && !fs::exists(*name, ignored) && fs::is_regular_file(beside, ignored))
+      return beside.string();
+    return value;
+  }
+
+  void set_parameter(const std::string& name, const TomlNode& node, const std::string& origin) {
+    std::string text;
+    if (const auto* x = std::get_if<std::string>(&node.value)) text = *x;
+    if (const auto* x = std::get_if<std::int64_t>(&node.value)) text = std::to_string(*x);
+    if (const auto* x = std::get_if<double>(&node.value)) text = number_text(*x);
+    if (text.empty()) throw Error::request("param." + name + " must be a text or a number (" + origin + ")");
+    scene_.param[name] = text;
+    scene_.origin["param." + name] = origin;
+  }
+
+  template <class Solid>
+  void read_tables(const TomlNode& node, std::vector<Solid>& solids, Keys (*bind_one)(Solid&)) {
+    if (node.kind != TomlNode::Kind::array) {
+      throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]] (" +
+                           place(file_, node) + ")");
+    }
+    solids.assign(node.children.size(), Solid{});
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      const std::string path = node.key + "[" + std::to_string(i) + "]";
+      scene_.origin[path] = place(file_, node.children[i]);
+      read_table(node.children[i], path, bind_one(solids[i]), solids[i].motion);
+    }
+  }
+
+  void read_table(const TomlNode& table, const std::string& path, Keys keys, Motion& motion) {
+    for (BoundKey& key : keys) key.description.path = path + "." + key.description.path;
+    for (const TomlNode& child : table.children) {
+      const std::string origin = place(file_, child);
+      if (child.key == "keys" && child.kind == TomlNode::Kind::array) {
+        read_keyframes(child, path, motion);
+        continue;
+      }
+      const BoundKey& key = find_key(keys, path + "." + child.key, origin);
+      if (child.kind != TomlNode::Kind::value)
+        throw Error::request(path + "." + child.key + " must be one value (" + origin + ")");
+      assign(key, child.value, origin);
+      scene_.origin[path + "." + child.key] = origin;
+    }
+  }
+
+  void read_keyframes(const TomlNode& node, const std::string& path, Motion& motion) {
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      Keyframe frame;
+      Keys keys = bind_keyframe(frame);
+      const std::string name = path + ".keys[" + std::to_string(i) + "]";
+      for (BoundKey& key : keys) key.description.path = name + "." + key.description.path;
+      for (const TomlNode& child : node.children[i].children) {
+        assign(find_key(keys, name + "." + child.key, place(file_, child)), child.value, place(file_, child));
+      }
+      motion.keys.push_back(frame);
+      scene_.origin[name] = place(file_, node.children[i]);
+    }
+  }
+
+  Scene& scene_;
+  std::string file_;
+  const Keys& extra_;
+  Keys known_;
+};
+
+}  // namespace
+
+Scene default_scene(const std::string& fabric) {
+  Scene scene;
+  set_key(scene, "fabric", fabric, "default");
+  return scene;
+}
+
+void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra) {
+  const std::string file = find_asset("scenes", name_or_file, "--scene").string();
+  SceneFile(scene, file, extra).apply(read_toml(file));
+}
+
+void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra) {
+  Keys known = bind_scene(scene);
+  known.insert(known.end(), extra.begin(), extra.end());
+  const auto names_fabric = [](const Flag& flag) {
+    return flag.path == "fabric" || flag.path == "fabric.name";
+  };
+  std::vector<Flag> ordered = flags;
+  std::stable_partition(ordered.begin(), ordered.end(), names_fabric);
+  for (const Flag& flag : ordered) {
+    const std::string origin = "--" + flag.path;
+    const BoundKey& key = find_key(known, flag.path == "fabric" ? "fabric.name" : flag.path, origin);
+    const Value value = parse_text(key.description, flag.text);
+    const bool is_extra = std::any_of(extra.begin(), extra.end(),
+                                      [&](const BoundKey& k) { return k.description.path == flag.path; });
+    if (is_extra) {
+      assign(key, value, origin);
+    } else {
+      set_key(scene, key, value, origin);
+    }
+    if (flag.path == "param") scene.origin["param." + flag.text.substr(0, flag.text.find('='))] = origin;
+  }
+}
+
+}  // namespace hysteron

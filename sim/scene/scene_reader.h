@@ -1,0 +1,45 @@
+// Scenes from defaults, a TOML file and flags, in this order of precedence.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/scene/keys.h"
+
+namespace hysteron {
+
+// "--fabric.b2 1e-5" is {"fabric.b2", "1e-5"}; "--param stops=16" is {"param", "stops=16"}.
+struct Flag {
+  std::string path;
+  std::string text;
+};
+
+// A scene with the program's defaults and a fabric of assets/fabrics.
+Scene default_scene(const std::string& fabric = "cotton-broad");
+
+// Applies a scene file.  Naming a fabric starts it afresh, single fabric.* keys then override its numbers,
+// whatever their order in the file.  [[pin]] and [[obstacle]] replace those of the defaults, if there are any
+// in the file.  Keys in `extra` (an experiment's own, or the run's options) are allowed at the top level too.
+// A cloth or mesh file is looked for from the working folder, then beside the scene file.
+// Throws Error::request (one line with file, line, key, value, unit, range), Error::machine if unreadable.
+void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {});
+
+// Applies flags; a fabric is loaded first.  `extra` as above.
+void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});
+
+// What no single key can tell: b1 >= b2, k0 > 0 or b1 = b2, coupling^2 < warp*weft, `chapter` on hinges only,
+// pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::request.
+void check_scene(const Scene& scene);
+
+// Parameters of today's laws, typed, with defaults.
+struct LawParameters {
+  std::string memory = "stops";     // param memory    prandtl: stack | stops
+  int stack = 8;                    // param stack     prandtl: reversal points remembered
+  int stops = 8;                    // param stops     prandtl: number of friction elements
+  std::string recovery = "masing";  // param recovery  wong: masing | reversible
+};
+
+// Throws Error::request for a parameter that is unknown, not the law's, not built yet, or out of range.
+LawParameters law_parameters(const Scene& scene);
+
+}  // namespace hysteron
