@@ -17,9 +17,6 @@ constexpr std::pair<MeshFamily, const char*> kFamilies[] = {{MeshFamily::aligned
                                                             {MeshFamily::equilateral, "equilateral"},
                                                             {MeshFamily::random, "random"}};
 
-// A random point keeps this much of a cell's half width from its neighbours' cells.
-constexpr double kJitter = 0.42;
-
 struct Flat {
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3i> triangles;
@@ -77,7 +74,7 @@ Flat random_cells(int nx, int ny, unsigned seed) {
   for (int j = 0; j <= ny; ++j) {
     for (int i = 0; i <= nx; ++i) {
       const bool inside = i > 0 && i < nx && j > 0 && j < ny;
-      const double dx = uniform(-kJitter, kJitter), dy = uniform(-kJitter, kJitter);
+      const double dx = uniform(-kPointJitter, kPointJitter), dy = uniform(-kPointJitter, kPointJitter);
       flat.points.emplace_back(inside ? i + dx : i, inside ? j + dy : j);
       free.push_back(inside);
     }
@@ -86,23 +83,30 @@ Flat random_cells(int nx, int ny, unsigned seed) {
   return flat;
 }
 
-// Numbers of cells for about `triangles` triangles of which each cell has two, of the given height over
-// width: the pair that best weighs the count against the shape of the cells.
-std::pair<int, int> cell_counts(double length, double width, int triangles, double cell_aspect) {
-  const double cells = 0.5 * triangles;
-  const double ideal_nx = std::sqrt(cells * length / width * cell_aspect), ideal_ny = cells / ideal_nx;
+// What a family's cells look like, for choosing their numbers: a row of n has 2 n + extra triangles.
+struct CellShape {
+  double height_over_width;
+  int extra;
+};
+
+// Numbers of cells for about `triangles` triangles: the pair that best weighs the count against the shape.
+std::pair<int, int> cell_counts(double length, double width, int triangles, const CellShape& shape) {
   const auto at_least_one = [](double n) { return std::clamp(std::round(n), 1.0, 0.5 * kMostTriangles); };
+  const auto columns = [&](double ny) { return at_least_one(0.5 * (triangles / ny - shape.extra)); };
+  const auto rows = [&](double nx) { return at_least_one(triangles / (2 * nx + shape.extra)); };
   std::pair<double, double> best{1, 1};
   double least = INFINITY;
   const auto consider = [&](double nx, double ny) {
-    const double aspect = (width / ny) / (length / nx * cell_aspect);
-    const double cost = 4 * std::abs(std::log(nx * ny / cells)) + std::abs(std::log(aspect));
+    const double aspect = (width / ny) / (length / nx * shape.height_over_width);
+    const double cost =
+        4 * std::abs(std::log(ny * (2 * nx + shape.extra) / triangles)) + std::abs(std::log(aspect));
     if (cost < least) least = cost, best = {nx, ny};
   };
-  for (const double round : {std::floor(ideal_nx), std::ceil(ideal_nx)})
-    consider(at_least_one(round), at_least_one(cells / at_least_one(round)));
-  for (const double round : {std::floor(ideal_ny), std::ceil(ideal_ny)})
-    consider(at_least_one(cells / at_least_one(round)), at_least_one(round));
+  const double ideal = std::sqrt(0.5 * triangles * length / width * shape.height_over_width);
+  for (const double nx : {std::floor(ideal), std::ceil(ideal)})
+    consider(at_least_one(nx), rows(at_least_one(nx)));
+  for (const double ny : {std::floor(0.5 * triangles / ideal), std::ceil(0.5 * triangles / ideal)})
+    consider(columns(at_least_one(ny)), at_least_one(ny));
   return {static_cast<int>(best.first), static_cast<int>(best.second)};
 }
 
@@ -165,10 +169,9 @@ ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eige
 
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed) {
   check_size(length, width);
-  if (nx < 1 || ny < 1 || nx > kMostTriangles / 2 / ny)
+  if (nx < 1 || ny < 1 || nx > kMostTriangles / ny)
     throw Error::request("rectangle mesh: " + std::to_string(nx) + " x " + std::to_string(ny) +
-                         " cells must be at least 1 x 1 and at most " + std::to_string(kMostTriangles / 2) +
-                         " in all");
+                         " cells must be at least 1 x 1 and at most " + std::to_string(kMostTriangles));
   Flat flat = family == MeshFamily::equilateral ? triangle_rows(nx, ny)
               : family == MeshFamily::random    ? random_cells(nx, ny, seed)
                                                 : square_cells(nx, ny, family);
@@ -179,8 +182,8 @@ ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily fami
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed) {
   check_size(length, width);
   check_triangles("rectangle", triangles);
-  const double aspect = family == MeshFamily::equilateral ? std::sqrt(0.75) : 1.0;
-  const auto [nx, ny] = cell_counts(length, width, triangles, aspect);
+  const CellShape shape = family == MeshFamily::equilateral ? CellShape{std::sqrt(0.75), 1} : CellShape{1, 0};
+  const auto [nx, ny] = cell_counts(length, width, triangles, shape);
   return make_grid(length, width, nx, ny, family, seed);
 }
 

@@ -38,7 +38,9 @@ struct ClothMesh {
   std::vector<Eigen::Vector3d> rest;     // rest shape in space [m]; flat builders lie in z = 0
   std::vector<Eigen::Vector3i> face;     // counter-clockwise seen from the front
   std::vector<Eigen::Vector2d> pattern;  // per vertex (warp, weft) coordinates [m]; empty: from warp_axis
-  Eigen::Vector3d warp_axis{1, 0, 0};    // warp direction where there is no pattern
+  std::vector<Eigen::Vector3d>
+      face_warp;                       // per face warp direction, where seams forbid a pattern; else empty
+  Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction where there is neither, or it is degenerate
 
   // Filled by build_topology():
   std::vector<Edge> edge;                     // interior edges first, then boundary edges
@@ -50,14 +52,16 @@ struct ClothMesh {
 
   int vertices() const { return static_cast<int>(rest.size()); }
   int faces() const { return static_cast<int>(face.size()); }
-  // Warp and weft unit vectors of face f in space, in its plane (warp_axis or pattern projected).
+  // Warp and weft unit vectors of face f in the rest shape, in its plane and at right angles: the direction
+  // of face_warp, of the rising first pattern coordinate, or of warp_axis projected; weft = normal x warp.
+  // A triangle that warp_axis pierces at a right angle takes its first edge.
   std::array<Eigen::Vector3d, 2> face_axes(int f) const;
 };
 
 // Checks the mesh and fills the derived members.  `what` names the mesh in messages ("mesh shirt.obj").
 // Throws Error::request for: no triangles, indices out of range, non-finite vertices, degenerate triangles
 // (height/longest edge < 1e-6), an edge shared by more than two triangles, inconsistent orientation,
-// vertices that no triangle uses.
+// vertices that no triangle uses, a triangle given twice, a pattern of another size than the vertices.
 void build_topology(ClothMesh& mesh, const std::string& what);
 
 // Mesh families of the builders (the accuracy of a bending element depends on them).
@@ -68,17 +72,29 @@ MeshFamily mesh_family(const std::string& name);  // Error::request for an unkno
 std::string to_string(MeshFamily family);
 
 // Rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles; warp along x.
-// For structured families the cells are as square as the counts allow.
+// For structured families the cells are as square as the counts allow (equilateral: rows parallel to the
+// length, closed by half triangles).  random: seeded, the same bits on every machine; boundary vertices are
+// evenly spaced, angles mostly above 20 degrees.  Throws Error::request for lengths that are not positive and
+// triangles outside 2 ... 10 million.
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed);
-// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each, or about so.
+// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral has
+// ny (2 nx + 1) triangles, random 2 nx ny.
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed);
-// Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius`.
+// Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius` and
+// evenly spaced.  Inside, the structured families are their lattice, axes along x and y, as far as 0.8 of its
+// spacing from the circle; a Delaunay triangulation joins it to the ring (angles above 22 degrees).  About
+// `triangles` triangles: within 3 % from 50 on.  Errors as make_rectangle.
 ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned seed);
 
-// Reads a triangulated Wavefront OBJ (quads are split); texture coordinates, if present, become the pattern.
-// weld > 0 merges vertices closer than that distance [m].
+// Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture
+// coordinates, where every corner has one, become the pattern, or face_warp if they have seams.
+// weld > 0 merges each vertex into the first one closer than that distance [m].
+// Throws Error::machine for a file that cannot be read; Error::request, naming the file and the line, for
+// malformed lines, numbers that are not finite, and all that build_topology refuses.
 ClothMesh read_obj(const std::string& file, double weld);
-// Writers of one frame, atomic (temporary name, then rename).  Throw Error::machine.
+// Writers of one frame, atomic (temporary name, then rename): position [m] per vertex, value (a curvature
+// [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with the pattern
+// as texture coordinates; PLY binary little-endian, doubles.  Throw Error::machine.
 void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 void write_ply(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
                const std::vector<double>& value);

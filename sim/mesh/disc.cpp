@@ -16,13 +16,12 @@ namespace {
 
 // Lattice points stay this far inside the unit circle, in units of the lattice's spacing: farther would leave
 // a wide gap, nearer makes flat triangles at the ring.  Chosen by the least angle over many sizes.
-constexpr double kRingGap = 0.6;
+constexpr double kRingGap = 0.8;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRowHeight = 0.86602540378443864676;  // of equilateral triangles, sqrt(3)/2
 
 // The golden angle, pi (3 - sqrt 5).
 constexpr double kGoldenCos = -0.73736887807831985, kGoldenSin = 0.67549029426152361;
-constexpr double kJitter = 0.42;  // of the spacing
 
 struct Site {
   Eigen::Vector2d at;
@@ -130,7 +129,8 @@ ClothMesh random_disc(double radius, int triangles, unsigned seed) {
   Eigen::Vector2d direction(1, 0);
   for (int k = 0; k < inside; ++k) {
     const double reach = (1 - 0.5 * spacing) * std::sqrt((k + 0.5) / inside);
-    const double jitter = kJitter * spacing, dx = uniform(-jitter, jitter), dy = uniform(-jitter, jitter);
+    const double jitter = kPointJitter * spacing, dx = uniform(-jitter, jitter),
+                 dy = uniform(-jitter, jitter);
     points.push_back(reach * direction + Eigen::Vector2d(dx, dy));
     const double limit = 1 - kRingGap * spacing, size = std::sqrt(points.back().squaredNorm());
     if (size > limit) points.back() *= limit / size;

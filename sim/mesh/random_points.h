@@ -7,6 +7,9 @@
 
 namespace hysteron {
 
+// How far a point is shaken from its even place, in units of the spacing: neighbours keep a distance.
+inline constexpr double kPointJitter = 0.42;
+
 // Uniform doubles from a fixed generator with a fixed mapping; the distributions of <random> may differ
 // between standard libraries.
 class Uniform {

@@ -5,4 +5,7 @@ set(HYSTERON_MESH_SOURCES
     sim/mesh/delaunay.cpp
     sim/mesh/disc.cpp
     sim/mesh/random_points.cpp
-    sim/mesh/topology.cpp)
+    sim/mesh/read_obj.cpp
+    sim/mesh/topology.cpp
+    sim/mesh/weld.cpp
+    sim/mesh/write_mesh.cpp)

@@ -148,29 +148,27 @@ void gather_vertex_faces(ClothMesh& mesh) {
   for (int corner = 0; corner < 3 * mesh.faces(); ++corner) rows.item[end[tip(mesh, corner)]++] = corner;
 }
 
-// Derivative of the position by the first pattern coordinate, or zero where the pattern is degenerate.
-Eigen::Vector3d pattern_warp(const ClothMesh& mesh, int f) {
-  const auto& face = mesh.face[f];
-  const Eigen::Vector2d u = mesh.pattern[face[1]] - mesh.pattern[face[0]];
-  const Eigen::Vector2d v = mesh.pattern[face[2]] - mesh.pattern[face[0]];
-  const double det = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
-    return Eigen::Vector3d::Zero();
-  const Eigen::Vector3d x1 = mesh.rest[face[1]] - mesh.rest[face[0]];
-  const Eigen::Vector3d x2 = mesh.rest[face[2]] - mesh.rest[face[0]];
-  return (x1 * v.y() - x2 * u.y()) / det;
-}
-
 }  // namespace
 
 std::string MeshNames::triangle(int f) const {
-  return "triangle " + std::to_string(f) +
-         (face_line.empty() ? "" : " (line " + std::to_string(face_line[f]) + ")");
+  return face_line.empty() ? "triangle " + std::to_string(f)
+                           : "the triangle of line " + std::to_string(face_line[f]);
 }
 
 std::string MeshNames::vertex(int v) const {
-  return "vertex " + std::to_string(v) +
-         (vertex_line.empty() ? "" : " (line " + std::to_string(vertex_line[v]) + ")");
+  return vertex_line.empty() ? "vertex " + std::to_string(v)
+                             : "the vertex of line " + std::to_string(vertex_line[v]);
+}
+
+Eigen::Vector3d pattern_warp(const ClothMesh& mesh, int f, const std::array<Eigen::Vector2d, 3>& at) {
+  const Eigen::Vector2d u = at[1] - at[0], v = at[2] - at[0];
+  const double det = u.x() * v.y() - u.y() * v.x();
+  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Vector3i& face = mesh.face[f];
+  const Eigen::Vector3d x1 = mesh.rest[face[1]] - mesh.rest[face[0]];
+  const Eigen::Vector3d x2 = mesh.rest[face[2]] - mesh.rest[face[0]];
+  return (x1 * v.y() - x2 * u.y()) / det;
 }
 
 void build_topology(ClothMesh& mesh, const MeshNames& names) {
@@ -187,7 +185,11 @@ void build_topology(ClothMesh& mesh, const std::string& what) {
 
 std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
   const Eigen::Vector3d normal = area_vector(*this, f).normalized();
-  Eigen::Vector3d warp = pattern.empty() ? Eigen::Vector3d::Zero().eval() : pattern_warp(*this, f);
+  Eigen::Vector3d warp = Eigen::Vector3d::Zero();
+  if (!face_warp.empty())
+    warp = face_warp[f];
+  else if (!pattern.empty())
+    warp = pattern_warp(*this, f, {pattern[face[f][0]], pattern[face[f][1]], pattern[face[f][2]]});
   if (warp.isZero(0)) warp = warp_axis;
   Eigen::Vector3d in_plane = warp - normal * normal.dot(warp);
   // A warp direction that pierces the triangle says nothing about it; any fixed choice serves.
