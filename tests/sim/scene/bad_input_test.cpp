@@ -1,0 +1,145 @@
+// Every bad value ends in one line that names file and line (or flag), key, value, unit and what is allowed.
+#include "sim/scene/scene_reader.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+struct BadScene {
+  const char* name;
+  const char* text;
+  int line;                         // that the message must name
+  std::vector<const char*> naming;  // what else the message must say
+};
+
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
+
+class BadSceneFile : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSceneFile, IsRefusedInOneLineThatNamesFileLineKeyValueAndRange) {
+  const TextFile file(GetParam().text);
+  const Failure failure = failure_of([&] {
+    Scene scene = default_scene();
+    apply_scene_file(scene, file.path());
+    check_scene(scene);
+  });
+  EXPECT_EQ(failure.exit_code, 2) << failure.message;
+  EXPECT_EQ(failure.message.find('\n'), std::string::npos) << failure.message;
+  EXPECT_NE(failure.message.find(file.line(GetParam().line)), std::string::npos) << failure.message;
+  for (const char* part : GetParam().naming) {
+    EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, BadSceneFile,
+    testing::Values(
+        BadScene{"NoToml", "step = = 3\n", 1, {"TOML"}},
+        BadScene{"UnknownKey", "\n\nstpe = 1e-3\n", 3, {"unknown key stpe", "did you mean step?"}},
+        BadScene{
+            "UnknownNestedKey", "[fabric]\nb3 = 1\n", 2, {"unknown key fabric.b3", "did you mean fabric.b"}},
+        BadScene{"NegativeRigidity", "[fabric]\nb2 = -1\n", 2, {"fabric.b2 = -1 N m must be >= 0"}},
+        BadScene{
+            "NegativeDensity", "[fabric]\ndensity = -0.1\n", 2, {"fabric.density = -0.1 kg/m^2 must be > 0"}},
+        BadScene{"ZeroDensity", "[fabric]\ndensity = 0\n", 2, {"fabric.density = 0 kg/m^2 must be > 0"}},
+        BadScene{"NotANumber", "[fabric]\nk0 = nan\n", 2, {"fabric.k0 = nan 1/m must be finite"}},
+        BadScene{"Infinite", "seconds = inf\n", 1, {"seconds = inf s must be finite"}},
+        BadScene{
+            "InfiniteComponent", "gravity = [0, 0, -inf]\n", 1, {"gravity = [0, 0, -inf] m/s^2", "finite"}},
+        BadScene{"TextForNumber", "step = \"fast\"\n", 1, {"step = \"fast\"", "a number in (0, 1] [s]"}},
+        BadScene{"RealForInteger", "triangles = 10.5\n", 1, {"triangles = 10.5", "an integer in [1, 1e+08]"}},
+        BadScene{"TwoComponents", "gravity = [0, -9.81]\n", 1, {"gravity", "three numbers", "[m/s^2]"}},
+        BadScene{"NoTriangles", "triangles = 0\n", 1, {"triangles = 0 must be in [1, 1e+08]"}},
+        BadScene{"ZeroStep", "step = 0\n", 1, {"step = 0 s must be in (0, 1]"}},
+        BadScene{"NegativeThreads", "threads = -2\n", 1, {"threads = -2 must be in [0, 1024]"}},
+        BadScene{"NegativeSubsteps", "substeps = -1\n", 1, {"substeps = -1 must be in [0, 1e+06]"}},
+        BadScene{"NegativeSeed", "seed = -1\n", 1, {"seed = -1 must be >= 0"}},
+        BadScene{"HugeSeed", "seed = 4294967296\n", 1, {"seed = 4294967296 must be at most 4294967295"}},
+        BadScene{"ZeroSize", "[cloth]\nlength = 0.0\n", 2, {"cloth.length = 0 m must be > 0"}},
+        BadScene{"UnknownLaw", "law = \"prandl\"\n", 1, {"law = prandl must be", "did you mean prandtl?"}},
+        BadScene{"LawNotBuilt", "law = \"gong\"\n", 1, {"law = gong is not built yet", "prandtl"}},
+        BadScene{
+            "IntegratorNotBuilt", "integrator = \"bdf2\"\n", 1, {"bdf2 is not built yet", "semi-implicit"}},
+        BadScene{
+            "UnknownMesh", "mesh = \"randem\"\n", 1, {"mesh = randem", "FILE.obj", "did you mean random?"}},
+        BadScene{"FileWithoutName", "[cloth]\nshape = \"file\"\n", 2, {"cloth.file"}},
+        BadScene{
+            "UnknownFabric", "fabric = \"cotton\"\n", 1, {"\"cotton\"", "cotton-broad, polyester-faille"}},
+        BadScene{"InvertedRigidities",
+                 "[fabric]\nb1 = 1e-6\n",
+                 2,
+                 {"fabric.b1 = 1e-06 N m", "must be >= fabric.b2 = 1.1571847e-05 N m"}},
+        BadScene{"FrictionAtZeroCurvature", "[fabric]\nk0 = 0\n", 2, {"fabric.k0 = 0 1/m", "must be > 0"}},
+        BadScene{"IndefiniteMembrane",
+                 "[fabric]\ncoupling = 1000\n",
+                 2,
+                 {"fabric.coupling = 1000 N/m", "+-1000 N/m"}},
+        BadScene{"ChapterForceOnShape", "force = \"chapter\"\n", 1, {"force = chapter", "element = hinge"}},
+        BadScene{"UnknownParameter", "[param]\nstop = 3\n", 2, {"param stop = 3", "memory, stack, stops"}},
+        BadScene{"ParameterOutOfRange", "[param]\nstops = 65\n", 2, {"param stops = 65 must be in [1, 64]"}},
+        BadScene{"ParameterOfAnotherLaw",
+                 "law = \"linear\"\n[param]\nstops = 8\n",
+                 3,
+                 {"law linear", "takes none"}},
+        BadScene{
+            "ParameterNotBuilt", "[param]\nfatigue.dc = 1.0\n", 2, {"param fatigue.dc = 1", "not built yet"}},
+        BadScene{"OnePin", "[pin]\nselect = \"box\"\n", 2, {"pin"}},
+        BadScene{"UnknownPinKey",
+                 "[[pin]]\nselct = \"box\"\n",
+                 2,
+                 {"unknown key pin[0].selct", "did you mean pin[0].select?"}},
+        BadScene{"InvertedPinBox", "[[pin]]\nlow = [1, 0, 0]\n", 1, {"pin[0].low", "<= pin[0].high"}},
+        BadScene{"KeyframesNotAscending",
+                 "[[pin]]\nkeys = [\n{time = 1.0},\n{time = 1.0}]\n",
+                 4,
+                 {"pin[0].keys[1].time = 1 s", "> 1 s"}},
+        BadScene{"RotationWithoutAxis",
+                 "[[pin]]\naxis = [0, 0, 0]\nkeys = [\n{time = 1, angle = 90}]\n",
+                 4,
+                 {"pin[0].keys[0].angle = 90 degree", "axis"}},
+        BadScene{"UnknownObstacle",
+                 "[[obstacle]]\n[[obstacle]]\nkind = \"cone\"\n",
+                 3,
+                 {"obstacle[1].kind = cone", "ground | sphere | cylinder | box | capsule"}},
+        BadScene{"ZeroRadius", "[[obstacle]]\nradius = 0\n", 2, {"obstacle[0].radius = 0 m must be > 0"}},
+        BadScene{"ZeroEdge",
+                 "[[obstacle]]\nsize = [1, 0, 1]\n",
+                 2,
+                 {"obstacle[0].size = [1, 0, 1] m must be > 0"}},
+        BadScene{"NoAxis", "[[obstacle]]\naxis = [0, 0, 0]\n", 1, {"obstacle[0].axis"}},
+        BadScene{"RimTooRound",
+                 "[[obstacle]]\nkind = \"cylinder\"\nheight = 0.01\nrim = 0.02\n",
+                 1,
+                 {"obstacle[0].rim = 0.02 m", "[0, 0.005]"}}),
+    [](const testing::TestParamInfo<BadScene>& info) { return std::string(info.param.name); });
+
+TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
+  Scene scene = default_scene();
+  const Failure range = failure_of([&] { apply_flags(scene, {{"fabric.b2", "-1"}}); });
+  EXPECT_EQ(range.exit_code, 2);
+  EXPECT_EQ(range.message, "fabric.b2 = -1 N m must be >= 0 (--fabric.b2)");
+  const Failure type = failure_of([&] { apply_flags(scene, {{"step", "1e-3s"}}); });
+  EXPECT_EQ(type.message, "step = \"1e-3s\" must be a number in (0, 1] [s] (--step)");
+  const Failure parameter = failure_of([&] { apply_flags(scene, {{"param", "stops"}}); });
+  EXPECT_EQ(parameter.message, "param = \"stops\" must be of the form name=value (--param)");
+}
+
+TEST(BadFlag, ContradictingTheFabricFileNamesBothPlaces) {
+  Scene scene = default_scene("wool-tropical");
+  apply_flags(scene, {{"fabric.b2", "1e-3"}});
+  const Failure failure = failure_of([&] { check_scene(scene); });
+  EXPECT_EQ(failure.exit_code, 2);
+  EXPECT_NE(failure.message.find("wool-tropical.toml:"), std::string::npos) << failure.message;
+  EXPECT_NE(failure.message.find("fabric.b2 = 0.001 N m (--fabric.b2)"), std::string::npos)
+      << failure.message;
+}
+
+TEST(BadSceneName, ThatDoesNotExistIsAWrongRequest) {
+  Scene scene;
+  const Failure failure = failure_of([&] { apply_scene_file(scene, "/nowhere/drape.toml"); });
+  EXPECT_EQ(failure.exit_code, 2);
+  EXPECT_NE(failure.message.find("/nowhere/drape.toml"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,152 @@
+#include <cmath>
+#include <cstdlib>
+
+#include "sim/scene/assets.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/scene/keys.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+// A decimal number in a file is rounded once, and the formulas below round two or three times more.
+constexpr double kRounding = 4e-16;
+
+class PublishedFabric : public testing::TestWithParam<std::string> {
+ protected:
+  const FabricFile file = read_fabric(GetParam(), "test");
+  const Fabric& fabric = file.fabric;
+  double published(const std::string& name) const { return fabric.published.at(name).value; }
+};
+
+TEST_P(PublishedFabric, HasTheRigidityThatTheSourcePrintsInGramForce) {
+  EXPECT_EQ(fabric.published.at("B").unit, "gf cm^2/cm");
+  const double expected = published("B") * kGramForceSquareCentimetrePerCentimetre;
+  EXPECT_NEAR(fabric.b2, expected, kRounding * expected);
+  EXPECT_EQ(fabric.provenance.at("b2").confidence, "published");
+}
+
+TEST_P(PublishedFabric, HasTheFrictionMomentHalfOfThePublishedLoopWidth) {
+  EXPECT_EQ(fabric.published.at("2HB").unit, "gf cm/cm");
+  const double hb = published("2HB") * kGramForceCentimetrePerCentimetre / 2;
+  const double cancellation = kRounding * fabric.b1 * fabric.k0;  // b1 - b2 loses b1's last digits
+  EXPECT_NEAR(fabric.virgin_curve().friction_moment(), hb, cancellation);
+  EXPECT_EQ(fabric.provenance.at("b1").confidence, "derived");
+  EXPECT_EQ(fabric.provenance.at("k0").confidence, "assumed");
+}
+
+TEST_P(PublishedFabric, StretchesByLessThanATenthPercentUnderHalfAMetreOfItself) {
+  const double load = fabric.density * 9.81 * 0.5;  // at the upper edge [N/m]
+  EXPECT_LT(load / std::min(fabric.warp, fabric.weft), 1e-3);
+}
+
+TEST_P(PublishedFabric, StatesASourceAndAConfidenceForEveryNumber) {
+  for (const KeyDescription& key : scene_keys()) {
+    if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
+    const auto found = fabric.provenance.find(key.path.substr(7));
+    ASSERT_NE(found, fabric.provenance.end()) << key.path;
+    EXPECT_GT(found->second.source.size(), 20u) << key.path;  // a sentence or a citation, not a short name
+    EXPECT_NE(found->second.source, "the program's default") << key.path;
+  }
+}
+
+TEST_P(PublishedFabric, KeepsTheMeasuredDrapeForComparison) {
+  EXPECT_EQ(fabric.published.at("drape-coefficient").unit, "%");
+  EXPECT_GT(published("drape-coefficient"), 0);
+  EXPECT_LT(published("drape-coefficient"), 100);
+  EXPECT_GE(published("node-count"), 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kes, PublishedFabric, testing::ValuesIn(list_assets("fabrics")),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(Fabrics, ListTheFourPublishedKesPairs) {
+  const std::vector<std::string> expected = {"cotton-broad", "polyester-faille", "polyester-tropical",
+                                             "wool-tropical"};
+  EXPECT_EQ(list_assets("fabrics"), expected);
+  EXPECT_EQ(list_fabrics().size(), expected.size());
+}
+
+constexpr const char* kMinimal = R"(name = "mine"
+description = "a test"
+[parameters]
+b1 = {value = 2e-5, unit = "N m", source = "s", confidence = "assumed"}
+b2 = {value = 1e-5, unit = "N m", source = "s", confidence = "assumed"}
+k0 = {value = 40, unit = "1/m", source = "s", confidence = "assumed"}
+density = {value = 0.1, unit = "kg/m^2", source = "s", confidence = "assumed"}
+)";
+constexpr const char* kThickness =
+    "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\"}\n";
+
+TEST(FabricFiles, MayLeaveOutTheMembraneWhichThenSaysThatItIsADefault) {
+  const TextFile file(std::string(kMinimal) + kThickness);
+  const Fabric fabric = read_fabric(file.path(), "test").fabric;
+  EXPECT_EQ(fabric.k0, 40);
+  EXPECT_EQ(fabric.warp, Fabric{}.warp);
+  EXPECT_EQ(fabric.provenance.at("warp").source, "the program's default");
+}
+
+struct BadFabric {
+  const char* name;
+  const char* tail;  // after kMinimal, from line 8
+  int line;
+  const char* naming;
+};
+class BadFabricFile : public testing::TestWithParam<BadFabric> {};
+
+TEST_P(BadFabricFile, IsRefusedInOneLineThatNamesFileAndLine) {
+  const TextFile file(std::string(kMinimal) + GetParam().tail);
+  const Failure failure = failure_of([&] { read_fabric(file.path(), "test"); });
+  EXPECT_EQ(failure.exit_code, 2) << failure.message;
+  EXPECT_NE(failure.message.find(GetParam().naming), std::string::npos) << failure.message;
+  EXPECT_NE(failure.message.find(file.line(GetParam().line)), std::string::npos) << failure.message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fabrics, BadFabricFile,
+    testing::Values(
+        BadFabric{"MissingNumber", "", 3, "parameters needs thickness"},
+        BadFabric{"WrongUnit",
+                  "thickness = {value = 0.4, unit = \"mm\", source = \"s\", confidence = \"assumed\"}", 8,
+                  "fabric.thickness has unit \"mm\" and must have \"m\""},
+        BadFabric{"NoSource", "thickness = {value = 4e-4, unit = \"m\", confidence = \"assumed\"}", 8,
+                  "source"},
+        BadFabric{"BareNumber", "thickness = 4e-4", 8, "{value, unit, source, confidence}"},
+        BadFabric{"OwnConfidence",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"sure\"}", 8,
+                  "published | derived | assumed"},
+        BadFabric{"OutOfRange",
+                  "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
+                  "fabric.thickness = 0 m must be > 0"},
+        BadFabric{"UnknownParameter",
+                  "b3 = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
+                  "unknown key fabric.b3"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Assets, AreTakenFromTheNamedFolderFirst) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "hysteron-assets";
+  std::filesystem::create_directories(folder / "fabrics");
+  std::ofstream(folder / "fabrics" / "mine.toml") << kMinimal << kThickness;
+  setenv("HYSTERON_ASSETS", folder.c_str(), 1);
+  const std::vector<std::string> names = list_assets("fabrics");
+  const Fabric fabric = read_fabric("mine", "test").fabric;
+  unsetenv("HYSTERON_ASSETS");
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(names, std::vector<std::string>{"mine"});
+  EXPECT_EQ(fabric.name, "mine");
+}
+
+TEST(Assets, InAFolderThatIsNotThereAreAMachineError) {
+  setenv("HYSTERON_ASSETS", "/nowhere", 1);
+  const Failure failure = failure_of([] { list_assets("fabrics"); });
+  unsetenv("HYSTERON_ASSETS");
+  EXPECT_EQ(failure.exit_code, 1);
+  EXPECT_NE(failure.message.find("HYSTERON_ASSETS = /nowhere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron

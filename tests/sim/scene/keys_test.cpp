@@ -1,0 +1,72 @@
+#include <nlohmann/json.hpp>
+
+#include "sim/scene/scene_reader.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Json& at_path(const Json& tree, std::string path) {
+  std::replace(path.begin(), path.end(), '.', '/');
+  return tree.at(Json::json_pointer("/" + path));
+}
+
+// The manifest's value written as a flag.
+std::string flag_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.dump();  // numbers, [x,y,z]
+}
+
+TEST(ResolvedScene, HoldsEveryKey) {
+  const Json tree = to_json(default_scene());
+  for (const KeyDescription& key : scene_keys()) EXPECT_NO_THROW(at_path(tree, key.path)) << key.path;
+}
+
+TEST(ResolvedScene, ReadBackAsFlagsGivesTheSameScene) {
+  Scene original = default_scene("wool-tropical");
+  apply_flags(original,
+              {{"gravity", "0.1 0 -9.81"}, {"step", "3.3e-4"}, {"seed", "4294967295"}, {"fabric.k0", "0.1"}});
+  const Json tree = to_json(original);
+  Scene copy = default_scene();
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.type != "name=value") set_key(copy, key.path, flag_text(at_path(tree, key.path)), "copy");
+  }
+  const Json again = to_json(copy);
+  for (const KeyDescription& key : scene_keys()) EXPECT_EQ(at_path(again, key.path), at_path(tree, key.path));
+}
+
+TEST(ResolvedScene, TellsWhereEachFabricNumberComesFrom) {
+  Scene scene = default_scene();
+  set_key(scene, "fabric.friction", "0.5", "--fabric.friction");
+  const Json fabric = to_json(scene).at("fabric");
+  EXPECT_EQ(fabric.at("provenance").at("friction").at("confidence"), "given");
+  EXPECT_EQ(fabric.at("provenance").at("b2").at("confidence"), "published");
+  EXPECT_EQ(fabric.at("published").at("B").at("unit"), "gf cm^2/cm");
+}
+
+TEST(Keys, SayTheirUnitTypeAndPurpose) {
+  for (const KeyDescription& key : scene_keys()) {
+    EXPECT_FALSE(key.doc.empty()) << key.path;
+    EXPECT_FALSE(key.type.empty()) << key.path;
+  }
+}
+
+TEST(Vectors, MayBeWrittenWithSpacesOrCommas) {
+  for (const char* text : {"0 0 -9.81", "0,0,-9.81", "[0, 0, -9.81]"}) {
+    Scene scene;
+    set_key(scene, "gravity", text, "--gravity");
+    EXPECT_EQ(scene.gravity, Eigen::Vector3d(0, 0, -9.81)) << text;
+  }
+}
+
+TEST(NearestName, IsTheOneWithFewestEdits) {
+  EXPECT_EQ(nearest_name("fabric.b22", {"fabric.b1", "fabric.b2", "step"}), "fabric.b2");
+  EXPECT_EQ(nearest_name("gravty", {"gravity", "density"}), "gravity");
+}
+
+TEST(NearestName, IsEmptyWhereNothingIsNear) { EXPECT_EQ(nearest_name("velocity", {"step", "law"}), ""); }
+
+}  // namespace
+}  // namespace hysteron
