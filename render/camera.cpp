@@ -1,0 +1,115 @@
+#include "render/camera.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr float kMargin = 1.06f;  // free border around what is framed
+
+// Rows: right, up, backward of a camera that looks along `forward`.
+Eigen::Matrix3f view_axes(const Eigen::Vector3f& forward, const Eigen::Vector3f& up) {
+  const Eigen::Vector3f right = forward.cross(up).normalized();
+  Eigen::Matrix3f axes;
+  axes << right.transpose(), right.cross(forward).transpose(), -forward.transpose();
+  return axes;
+}
+
+Eigen::Vector3f corner(const Box& box, int index) {
+  return {index & 1 ? box.high.x() : box.low.x(), index & 2 ? box.high.y() : box.low.y(),
+          index & 4 ? box.high.z() : box.low.z()};
+}
+
+// A vertical view needs another `up` than z.
+Eigen::Vector3f up_for(const Eigen::Vector3f& forward) {
+  const bool vertical = std::abs(forward.normalized().z()) > 0.999f;
+  return vertical ? Eigen::Vector3f::UnitY() : Eigen::Vector3f::UnitZ();
+}
+
+}  // namespace
+
+Box box_of(std::span<const float> positions) {
+  if (positions.size() < 3) throw Error::request("bounding box: there are no points");
+  Box box{{positions[0], positions[1], positions[2]}, {positions[0], positions[1], positions[2]}};
+  for (size_t i = 0; i + 2 < positions.size(); i += 3) {
+    const Eigen::Vector3f point(positions[i], positions[i + 1], positions[i + 2]);
+    if (!point.allFinite()) throw Error::request("bounding box: point " + std::to_string(i / 3) + " is not finite");
+    box = box.merged({point, point});
+  }
+  return box;
+}
+
+Camera Camera::perspective(const Eigen::Vector3f& eye, const Eigen::Vector3f& target, float fov_degree) {
+  const float distance = (target - eye).norm();
+  if (!(distance > 0)) throw Error::request("camera: eye and target are the same point");
+  if (!(fov_degree > 0 && fov_degree < 170))
+    throw Error::request("camera: fov = " + std::to_string(fov_degree) + " degree; allowed: above 0, below 170");
+  Camera camera;
+  camera.eye_ = eye;
+  camera.target_ = target;
+  camera.up_ = up_for(target - eye);
+  camera.tan_half_fov_ = std::tan(fov_degree * std::numbers::pi_v<float> / 360);
+  camera.near_ = 0.02f * distance;
+  camera.far_ = 20 * distance;
+  return camera;
+}
+
+Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float fov_degree, float aspect) {
+  const Eigen::Vector3f backward = direction.normalized(), center = box.center();
+  const Eigen::Matrix3f axes = view_axes(-backward, up_for(backward));
+  const float slope = std::tan(fov_degree * std::numbers::pi_v<float> / 360) / kMargin;
+  float distance = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3f p = axes * (corner(box, i) - center);
+    distance = std::max({distance, p.z() + std::abs(p.y()) / slope, p.z() + std::abs(p.x()) / (slope * aspect)});
+  }
+  return perspective(center + std::max(distance, 1e-6f) * backward, center, fov_degree);
+}
+
+Camera Camera::top(const Box& box, float aspect) {
+  const Eigen::Vector3f size = box.high - box.low, center = box.center();
+  const float depth = std::max(size.z(), 1e-3f);
+  Camera camera;
+  camera.eye_ = {center.x(), center.y(), box.high.z() + depth};
+  camera.target_ = center;
+  camera.up_ = Eigen::Vector3f::UnitY();
+  camera.half_height_ = 0.5f * kMargin * std::max(size.y(), size.x() / aspect);
+  camera.near_ = 0.5f * depth;
+  camera.far_ = 3 * depth + 10 * size.norm();
+  return camera;
+}
+
+Eigen::Matrix4f Camera::view() const {
+  const Eigen::Matrix3f axes = view_axes((target_ - eye_).normalized(), up_);
+  Eigen::Matrix4f view = Eigen::Matrix4f::Identity();
+  view.topLeftCorner<3, 3>() = axes;
+  view.topRightCorner<3, 1>() = -axes * eye_;
+  return view;
+}
+
+Eigen::Matrix4f Camera::projection(float aspect) const {
+  Eigen::Matrix4f projection = Eigen::Matrix4f::Zero();
+  const float depth = far_ - near_;
+  if (is_orthographic()) {
+    projection.diagonal() << 1 / (half_height_ * aspect), 1 / half_height_, -2 / depth, 1;
+    projection(2, 3) = -(far_ + near_) / depth;
+    return projection;
+  }
+  projection.diagonal() << 1 / (tan_half_fov_ * aspect), 1 / tan_half_fov_, -(far_ + near_) / depth, 0;
+  projection(2, 3) = -2 * far_ * near_ / depth;
+  projection(3, 2) = -1;
+  return projection;
+}
+
+float Camera::metres_per_pixel(const Eigen::Vector3f& point, int height) const {
+  if (is_orthographic()) return 2 * half_height_ / static_cast<float>(height);
+  const float distance = (point - eye_).dot((target_ - eye_).normalized());
+  return 2 * tan_half_fov_ * distance / static_cast<float>(height);
+}
+
+}  // namespace hysteron::render

@@ -1,0 +1,47 @@
+// Where a picture is taken from.  World axes: z up, metres.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+namespace hysteron::render {
+
+struct Box {
+  Eigen::Vector3f low{0, 0, 0}, high{0, 0, 0};
+
+  Eigen::Vector3f center() const { return 0.5f * (low + high); }
+  float radius() const { return 0.5f * (high - low).norm(); }
+  Box merged(const Box& other) const { return {low.cwiseMin(other.low), high.cwiseMax(other.high)}; }
+};
+
+// Box of points given as x, y, z each.  Error::request if there are none or one is not finite.
+Box box_of(std::span<const float> positions);
+
+class Camera {
+ public:
+  // `fov_degree`: full vertical angle.
+  static Camera perspective(const Eigen::Vector3f& eye, const Eigen::Vector3f& target, float fov_degree);
+
+  // Perspective; looks at the box against `direction` (from the box to the eye), as near as the box stays whole in a
+  // picture of this aspect (width / height).  For a sequence give the box of all its frames.
+  static Camera framing(const Box& box, const Eigen::Vector3f& direction, float fov_degree, float aspect);
+
+  // Orthographic from above (against gravity), x to the right, y up in the picture: Cusick's view.
+  static Camera top(const Box& box, float aspect);
+
+  Eigen::Matrix4f view() const;
+  Eigen::Matrix4f projection(float aspect) const;  // clip depth from -1 to 1
+  const Eigen::Vector3f& eye() const { return eye_; }
+  bool is_orthographic() const { return half_height_ > 0; }
+
+  // Length at `point`, across the view, that one pixel of a picture `height` pixels high shows [m].
+  float metres_per_pixel(const Eigen::Vector3f& point, int height) const;
+
+ private:
+  Eigen::Vector3f eye_{1, 0, 0}, target_{0, 0, 0}, up_{0, 0, 1};
+  float tan_half_fov_ = 0.2f;
+  float half_height_ = 0;  // > 0: orthographic [m]
+  float near_ = 0.01f, far_ = 100.0f;
+};
+
+}  // namespace hysteron::render

@@ -1,0 +1,56 @@
+// The cloth on the GPU: positions that change every picture, normals computed from them there.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "render/gl/handles.h"
+#include "render/gl/program.h"
+
+namespace hysteron::render {
+
+struct ClothTopology {
+  size_t vertices = 0;
+  std::span<const int> triangles;   // 3 a triangle, counter-clockwise seen from the front
+  std::span<const float> pattern;   // (warp, weft) coordinates, 2 a vertex [m]; may be empty: no threads are drawn
+};
+
+// Texture units of the buffers that shaders read vertex by vertex.
+inline constexpr int kPositionUnit = 3;
+inline constexpr int kIndexUnit = 4;
+
+class ClothSurface {
+ public:
+  // Error::request for a triangle that names a vertex beyond `vertices`, or a pattern of another length.
+  ClothSurface(const GlFunctions& gl, const ClothTopology& topology);
+
+  size_t vertices() const { return vertices_; }
+  size_t triangles() const { return triangles_; }
+
+  // x, y, z each [m].  Error::request if their number is not the topology's.
+  void set_positions(std::span<const float> xyz);
+  // One a vertex, for the colour map; an empty span stands for zero everywhere.
+  void set_values(std::span<const float> values);
+  // The buffer of x, y, z floats, for a writer on the same GPU (CUDA interop); update_normals() reads it.
+  GLuint position_buffer() const { return positions_.name(); }
+
+  // Area-weighted normals from the position buffer, without the host; the sums' order is the adjacency's.
+  void update_normals() const;
+  // One draw call of all triangles with the program in use.
+  void draw() const;
+
+ private:
+  void upload_topology(const ClothTopology& topology);
+  void upload_adjacency(const ClothTopology& topology);
+  void bind_attributes(const ClothTopology& topology);
+  void bind_buffer_texture(int unit, const GlTexture& texture) const;
+
+  const GlFunctions* gl_;
+  size_t vertices_, triangles_;
+  Program normal_program_;
+  GlVertexArray arrays_, no_arrays_;
+  GlBuffer positions_, normals_, values_, pattern_, indices_, corner_start_, corners_;
+  GlTexture position_texture_, index_texture_, corner_start_texture_, corner_texture_;
+};
+
+}  // namespace hysteron::render

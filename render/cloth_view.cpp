@@ -1,0 +1,262 @@
+#include "render/cloth_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/srgb.h"
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr int kColorMapUnit = 2;
+// The ground reaches this many scene radii outward; by then its shadow has faded out.
+constexpr float kGroundReach = 4;
+
+Eigen::Vector3f linear(const Rgb8& color) {
+  const auto& table = linear_of_srgb8();
+  return {table[color[0]], table[color[1]], table[color[2]]};
+}
+
+ProgramFiles cloth_files(Show show) {
+  switch (show) {
+    case Show::curvature:
+    case Show::friction: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
+    case Show::wireframe: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
+    case Show::silhouette: return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
+    default: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
+  }
+}
+
+// Square grid from -1 to 1 in the plane z = 0, finer toward the middle, where shadows lie.
+TriangleMesh ground_grid() {
+  constexpr int kSide = 97;
+  const auto place = [](int i) {
+    const float t = 2.0f * static_cast<float>(i) / (kSide - 1) - 1;
+    return 0.45f * t + 0.55f * t * t * t;
+  };
+  TriangleMesh mesh;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) mesh.positions.emplace_back(place(i), place(j), 0.0f);
+  mesh.normals.assign(mesh.positions.size(), Eigen::Vector3f::UnitZ());
+  for (std::uint32_t i = 0; i + 1 < kSide; ++i)
+    for (std::uint32_t j = 0; j + 1 < kSide; ++j) {
+      const std::uint32_t a = i * kSide + j, b = a + kSide;
+      mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  return mesh;
+}
+
+Box mesh_box(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) throw Error::request("drawing an obstacle: it has no triangles");
+  Box box{mesh.positions.front(), mesh.positions.front()};
+  for (const Eigen::Vector3f& p : mesh.positions) box = box.merged({p, p});
+  return box;
+}
+
+Box placed_box(const Box& box, const Eigen::Matrix4f& placement) {
+  const Eigen::Vector3f half = 0.5f * (box.high - box.low);
+  const Eigen::Vector3f center = placement.topLeftCorner<3, 3>() * box.center() + placement.topRightCorner<3, 1>();
+  const Eigen::Vector3f reach = placement.topLeftCorner<3, 3>().cwiseAbs() * half;
+  return {center - reach, center + reach};
+}
+
+void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap map) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 256; ++i) {
+    const Rgb8 color = map_color8(map, static_cast<float>(i) / 255);
+    pixels.insert(pixels.end(), {color[0], color[1], color[2], 255});
+  }
+  gl.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
+  gl.BindTexture(GL_TEXTURE_2D, texture.name());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, 256, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+}
+
+}  // namespace
+
+ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
+    : offscreen_(offscreen), gl_(offscreen.gl()), size_(size),
+      target_((offscreen.make_current(), gl_), size.width * size.supersample, size.height * size.supersample,
+              size.samples),
+      shadows_(gl_), backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
+      ground_program_(gl_, {.vertex = "surface.vert", .fragment = "ground.frag", .defines = ""}),
+      matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}), color_map_(gl_),
+      no_arrays_(gl_) {
+  set_look(look_);
+}
+
+// The members' names must be deleted in their own context.
+ClothView::~ClothView() { offscreen_.make_current(); }
+
+void ClothView::set_cloth(const ClothTopology& topology) {
+  offscreen_.make_current();
+  cloth_.emplace(gl_, topology);
+  position_bounds_.reset();
+}
+
+void ClothView::set_positions(std::span<const float> xyz) {
+  if (!cloth_) throw Error::request("drawing a cloth: positions were given before its triangles");
+  offscreen_.make_current();
+  cloth_->set_positions(xyz);
+  if (!given_bounds_) position_bounds_ = box_of(xyz);
+}
+
+void ClothView::set_values(std::span<const float> values) {
+  if (!cloth_) throw Error::request("drawing a cloth: values were given before its triangles");
+  offscreen_.make_current();
+  cloth_->set_values(values);
+}
+
+GLuint ClothView::position_buffer() const { return cloth_ ? cloth_->position_buffer() : 0; }
+
+int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement) {
+  offscreen_.make_current();
+  obstacles_.push_back({StaticMesh(gl_, mesh), mesh_box(mesh), placement, true});
+  return static_cast<int>(obstacles_.size()) - 1;
+}
+
+ClothView::Obstacle& ClothView::obstacle(int number) {
+  if (number < 0 || number >= static_cast<int>(obstacles_.size()))
+    throw Error::request("obstacle " + std::to_string(number) + " is not among the " +
+                         std::to_string(obstacles_.size()) + " drawn");
+  return obstacles_[number];
+}
+
+void ClothView::move_obstacle(int number, const Eigen::Matrix4f& placement) { obstacle(number).placement = placement; }
+void ClothView::show_obstacle(int number, bool visible) { obstacle(number).visible = visible; }
+
+void ClothView::set_ground(std::optional<float> height) {
+  offscreen_.make_current();
+  ground_ = height;
+  if (height && !ground_mesh_) ground_mesh_.emplace(gl_, ground_grid());
+}
+
+void ClothView::set_bounds(const Box& bounds) { given_bounds_ = bounds; }
+
+void ClothView::set_look(const Look& look) {
+  offscreen_.make_current();
+  if (!cloth_program_ || look.show != look_.show) cloth_program_.emplace(gl_, cloth_files(look.show));
+  look_ = look;
+  upload_color_map(gl_, color_map_, look.map);
+}
+
+Box ClothView::bounds() const {
+  if (given_bounds_) return *given_bounds_;
+  std::optional<Box> box = position_bounds_;
+  for (const Obstacle& obstacle : obstacles_) {
+    if (!obstacle.visible) continue;
+    const Box here = placed_box(obstacle.box, obstacle.placement);
+    box = box ? box->merged(here) : here;
+  }
+  return box.value_or(Box{{-1, -1, -1}, {1, 1, 1}});
+}
+
+Image ClothView::draw(const Camera& camera) {
+  offscreen_.make_current();
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  if (cloth_) cloth_->update_normals();
+  if (look_.show != Show::silhouette) {
+    shadows_.aim(bounds(), look_.to_light);
+    shadows_.draw([this](const Program& program) { draw_casters(program); });
+  }
+  target_.begin();
+  draw_scene(camera);
+  Image image = target_.finish();
+  return size_.supersample > 1 ? shrink(image, size_.width, size_.height) : image;
+}
+
+void ClothView::draw_casters(const Program& program) const {
+  program.set("inset", look_.obstacle_inset);
+  for (const Obstacle& obstacle : obstacles_) {
+    if (!obstacle.visible) continue;
+    program.set("model", obstacle.placement);
+    obstacle.mesh.draw();
+  }
+  program.set("inset", 0.0f);
+  program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+  if (cloth_) cloth_->draw();
+}
+
+void ClothView::draw_scene(const Camera& camera) const {
+  draw_backdrop();
+  if (look_.show != Show::silhouette) {
+    if (ground_) draw_ground(camera, bounds());
+    draw_obstacles(camera);
+  }
+  if (cloth_) draw_cloth(camera);
+}
+
+void ClothView::set_backdrop(const Program& program) const {
+  program.set("backdrop_top", linear(look_.backdrop_top));
+  program.set("backdrop_bottom", linear(look_.backdrop_bottom));
+  program.set("picture_size", Eigen::Vector2f(target_.width(), target_.height()));
+  program.set("vignette", look_.show == Show::silhouette ? 0.0f : 0.22f);
+}
+
+void ClothView::begin_lit(const Program& program, const Camera& camera) const {
+  const float aspect = static_cast<float>(size_.width) / static_cast<float>(size_.height);
+  const Eigen::Matrix4f view = camera.view();
+  program.use();
+  program.set("view_projection", Eigen::Matrix4f(camera.projection(aspect) * view));
+  program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+  program.set("inset", 0.0f);
+  program.set("eye", camera.eye());
+  program.set("view_forward", Eigen::Vector3f(-view.row(2).head<3>().transpose()));
+  program.set("orthographic", camera.is_orthographic() ? 1.0f : 0.0f);
+  shadows_.bind(program);
+}
+
+void ClothView::draw_backdrop() const {
+  backdrop_program_.use();
+  set_backdrop(backdrop_program_);
+  gl_.BindVertexArray(no_arrays_.name());
+  gl_.DepthMask(GL_FALSE);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.DepthMask(GL_TRUE);
+}
+
+void ClothView::draw_ground(const Camera& camera, const Box& box) const {
+  const float reach = kGroundReach * box.radius();
+  Eigen::Matrix4f placement = Eigen::Matrix4f::Identity();
+  placement.diagonal() << reach, reach, 1, 1;
+  placement.topRightCorner<3, 1>() << box.center().x(), box.center().y(), *ground_;
+  begin_lit(ground_program_, camera);
+  set_backdrop(ground_program_);
+  ground_program_.set("model", placement);
+  ground_program_.set("shadow_center", box.center());
+  ground_program_.set("shadow_radius", reach);
+  ground_mesh_->draw();
+}
+
+void ClothView::draw_obstacles(const Camera& camera) const {
+  begin_lit(matte_program_, camera);
+  matte_program_.set("albedo", linear(look_.obstacle));
+  matte_program_.set("inset", look_.obstacle_inset);
+  for (const Obstacle& obstacle : obstacles_) {
+    if (!obstacle.visible) continue;
+    matte_program_.set("model", obstacle.placement);
+    obstacle.mesh.draw();
+  }
+}
+
+void ClothView::draw_cloth(const Camera& camera) const {
+  begin_lit(*cloth_program_, camera);
+  cloth_program_->set("front_albedo", linear(look_.front));
+  cloth_program_->set("back_albedo", linear(look_.back));
+  cloth_program_->set("thread_spacing", look_.thread_spacing);
+  cloth_program_->set("weave_strength", look_.weave);
+  cloth_program_->set("value_range", Eigen::Vector2f(look_.value_low, look_.value_high));
+  cloth_program_->set("color_map", kColorMapUnit);
+  cloth_program_->set("position", kPositionUnit);
+  cloth_program_->set("corner_index", kIndexUnit);
+  gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, color_map_.name());
+  cloth_->draw();
+}
+
+}  // namespace hysteron::render

@@ -1,0 +1,96 @@
+// Pictures of a cloth, its obstacles and their shadows.
+//
+// The view keeps everything on the GPU and changes nothing it is given.  Equal calls give equal pictures on one
+// driver; drivers differ by the last bits of their arithmetic, mostly along edges.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/cloth_surface.h"
+#include "render/frame_target.h"
+#include "render/image.h"
+#include "render/look.h"
+#include "render/offscreen.h"
+#include "render/shadow_maps.h"
+#include "render/static_mesh.h"
+
+namespace hysteron::render {
+
+struct PictureSize {
+  int width = 1280, height = 720;
+  int samples = 4;      // a pixel; clamped to the driver's maximum
+  int supersample = 1;  // 2: drawn twice as large and averaged, where pictures of two drivers are compared
+};
+
+class ClothView {
+ public:
+  // `offscreen` must outlive the view.  Error::request for a size the driver cannot draw.
+  ClothView(Offscreen& offscreen, const PictureSize& size);
+  ~ClothView();
+  ClothView(const ClothView&) = delete;
+  ClothView& operator=(const ClothView&) = delete;
+
+  // Replaces the cloth; positions are zero until set.
+  void set_cloth(const ClothTopology& topology);
+  // x, y, z each [m].
+  void set_positions(std::span<const float> xyz);
+  // One a vertex, for the looks that show a value.
+  void set_values(std::span<const float> values);
+  // Buffer object of the positions (x, y, z floats), for a writer on the same GPU; draw after it is written.
+  GLuint position_buffer() const;
+
+  // Returns the obstacle's number.
+  int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement);
+  void move_obstacle(int obstacle, const Eigen::Matrix4f& placement);
+  void show_obstacle(int obstacle, bool visible);
+  // Height of a ground that catches shadows [m]; none by default.
+  void set_ground(std::optional<float> height);
+
+  // Box of all that will cast a shadow in the whole sequence, so that shadows keep their sharpness; without it the
+  // box of each picture's positions and of the obstacles' placements at that time is used (positions written on the
+  // GPU are unknown here: then it is needed).
+  void set_bounds(const Box& bounds);
+  void set_look(const Look& look);
+
+  Image draw(const Camera& camera);
+
+ private:
+  struct Obstacle {
+    StaticMesh mesh;
+    Box box;  // of the mesh, before it is placed
+    Eigen::Matrix4f placement;
+    bool visible;
+  };
+
+  Obstacle& obstacle(int number);
+  Box bounds() const;
+  void draw_casters(const Program& program) const;
+  void draw_scene(const Camera& camera) const;
+  void draw_backdrop() const;
+  void draw_ground(const Camera& camera, const Box& box) const;
+  void draw_obstacles(const Camera& camera) const;
+  void draw_cloth(const Camera& camera) const;
+  void begin_lit(const Program& program, const Camera& camera) const;
+  void set_backdrop(const Program& program) const;
+
+  Offscreen& offscreen_;
+  const GlFunctions& gl_;
+  PictureSize size_;
+  FrameTarget target_;
+  ShadowMaps shadows_;
+  Program backdrop_program_, ground_program_, matte_program_;
+  std::optional<Program> cloth_program_;
+  GlTexture color_map_;
+  GlVertexArray no_arrays_;
+  std::optional<StaticMesh> ground_mesh_;
+  std::optional<ClothSurface> cloth_;
+  std::vector<Obstacle> obstacles_;
+  std::optional<float> ground_;
+  std::optional<Box> given_bounds_, position_bounds_;
+  Look look_;
+};
+
+}  // namespace hysteron::render

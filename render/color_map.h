@@ -1,0 +1,27 @@
+// Colour maps for scalar fields.
+//
+// Both are paths through Oklab (Ottosson 2020, "A perceptual color space for image processing"), computed here, not
+// taken from a table.  Lightness is linear in the value (in its distance from the middle for the diverging one), so
+// equal steps look equal and the order survives in grey; the hues run between blue and yellow or orange, which
+// remain apart under red-green colour blindness.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "render/image.h"
+
+namespace hysteron::render {
+
+enum class ColorMap {
+  sequential,  // dark blue - teal - pale yellow: amounts, 0 at the dark end
+  diverging,   // blue - near white - orange brown: signed values, 0 in the middle
+};
+
+// Linear-light red, green, blue at t in [0, 1] (clamped), always inside the sRGB gamut.
+Eigen::Vector3f map_color(ColorMap map, float t);
+
+// The same, sRGB-encoded.
+Rgb8 map_color8(ColorMap map, float t);
+
+}  // namespace hysteron::render

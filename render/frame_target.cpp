@@ -1,0 +1,86 @@
+#include "render/frame_target.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+void require_size(const GlFunctions& gl, int width, int height) {
+  GLint largest = 0;
+  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+  if (width < 1 || height < 1 || width > largest || height > largest)
+    throw Error::request("picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " pixels: this driver allows 1 to " + std::to_string(largest) + " a side");
+}
+
+void attach(const GlFunctions& gl, GLenum attachment, const GlRenderbuffer& buffer) {
+  gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
+}
+
+void require_complete(const GlFunctions& gl) {
+  const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error::machine("making the framebuffer: the driver calls it incomplete, status " + std::to_string(status));
+}
+
+Image flipped_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* from = &rgba[static_cast<size_t>(height - 1 - y) * width * 4];
+    std::uint8_t* to = image.at(0, y);
+    for (int x = 0; x < width; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
+  }
+  return image;
+}
+
+}  // namespace
+
+FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int samples)
+    : gl_(&gl), width_(width), height_(height), color_(gl), depth_(gl), resolved_color_(gl), multisampled_(gl),
+      resolved_(gl) {
+  require_size(gl, width, height);
+  GLint most_samples = 1;
+  gl.GetIntegerv(GL_MAX_SAMPLES, &most_samples);
+  const GLsizei count = std::clamp(samples, 1, most_samples);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, color_.name());
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_SRGB8_ALPHA8, width, height);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, depth_.name());
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width, height);
+  gl.BindRenderbuffer(GL_RENDERBUFFER, resolved_color_.name());
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
+
+  gl.BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
+  attach(gl, GL_COLOR_ATTACHMENT0, color_);
+  attach(gl, GL_DEPTH_ATTACHMENT, depth_);
+  require_complete(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+  attach(gl, GL_COLOR_ATTACHMENT0, resolved_color_);
+  require_complete(gl);
+  check_gl(gl, "making the framebuffer");
+}
+
+void FrameTarget::begin() const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
+  gl_->Viewport(0, 0, width_, height_);
+  gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  gl_->DepthMask(GL_TRUE);
+  gl_->Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+Image FrameTarget::finish() const {
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
+  gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
+  gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  std::vector<std::uint8_t> rgba(static_cast<size_t>(width_) * height_ * 4);
+  gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  check_gl(*gl_, "drawing a picture");
+  return flipped_rgb(rgba, width_, height_);
+}
+
+}  // namespace hysteron::render

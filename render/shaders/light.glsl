@@ -1,0 +1,42 @@
+// A studio: a large soft key light, a bright room around, a pale floor that throws light back, a weak fill.
+uniform vec3 eye;
+uniform vec3 view_forward;  // used instead of the eye where the camera is orthographic
+uniform float orthographic;
+uniform vec3 to_light;
+uniform sampler2DShadow key_map;
+uniform mat4 key_matrix;
+uniform float key_texel;  // size of a texel in the world [m]
+
+const vec3 kKeyLight = vec3(0.80, 0.775, 0.74);
+const vec3 kSkyLight = vec3(0.33, 0.345, 0.37);
+const vec3 kFloorLight = vec3(0.20, 0.195, 0.185);
+const float kBlur = 4.5;    // radius of the key shadow's edge in texels
+const int kKeyTaps = 16;
+
+// Points of a spiral that cover a disc evenly (Vogel 1979).
+vec2 spiral(int i) {
+  float angle = 2.39996323 * float(i);
+  return sqrt((float(i) + 0.5) / float(kKeyTaps)) * vec2(cos(angle), sin(angle));
+}
+
+vec3 toward_eye(vec3 point) { return orthographic > 0.5 ? -view_forward : normalize(eye - point); }
+
+// Share of the key light that reaches a point, tested beside the surface on the side that faces the light: a thin
+// sheet must neither shade itself nor let its shadow float.  `taps` = 0 skips the test where nothing casts shadows.
+float key_reaching(vec3 point, vec3 normal, int taps) {
+  float side = sign(dot(normal, to_light));
+  vec3 p = (key_matrix * vec4(point + side * 2.0 * key_texel * normal, 1)).xyz * 0.5 + 0.5;
+  float reach = kBlur / float(textureSize(key_map, 0).x);
+  // Depth rises across the blurred disc on tilted surfaces.
+  float slack = 0.0006 * reach;
+  float lit = 0.0;
+  for (int i = 0; i < taps; ++i)
+    lit += texture(key_map, vec3(p.xy + reach * spiral(i), min(p.z - slack, 1.0)));
+  return taps > 0 ? lit / float(taps) : 1.0;
+}
+
+// Soft light from the room and the floor on a surface that sees `seen` of the sky; `openness`: of the point itself.
+vec3 room_light(vec3 normal, float seen, float openness) {
+  float up = 0.5 + 0.5 * normal.z;
+  return kSkyLight * up * seen + kFloorLight * (1.0 - up) * (0.25 + 0.75 * openness);
+}

@@ -1,0 +1,16 @@
+// Obstacles: plain matte bodies that leave the eye to the cloth.
+in vec3 world;
+in vec3 world_normal;
+in vec3 sky;
+uniform vec3 albedo;
+out vec4 color;
+
+#include "light.glsl"
+
+void main() {
+  vec3 normal = normalize(world_normal);
+  float facing = max(dot(normal, to_light), 0.0);
+  vec3 light = room_light(normal, sky.x, sky.z);
+  light += kKeyLight * facing * key_reaching(world, normal, facing > 0.0 ? kKeyTaps : 0);
+  color = vec4(albedo * light, 1);
+}

@@ -1,0 +1,37 @@
+// Ambient light from the upper hemisphere, tested in a few directions (one tile of the sky map each).
+const int kSkyLights = 8;
+const int kSkyColumns = 4;
+uniform sampler2DShadow sky_map;
+uniform mat4 sky_matrix[kSkyLights];
+uniform vec3 sky_direction[kSkyLights];
+uniform float sky_texel;  // size of a texel in the world [m]
+
+float sky_open(int k, vec3 point) {
+  vec3 p = (sky_matrix[k] * vec4(point, 1)).xyz * 0.5 + 0.5;
+  vec2 tiles = vec2(kSkyColumns, kSkyLights / kSkyColumns);
+  vec2 texel = tiles / vec2(textureSize(sky_map, 0));
+  vec2 corner = vec2(k % kSkyColumns, k / kSkyColumns);
+  // Four bilinear lookups; clamped so that they stay in this direction's tile, whose border is empty.
+  float open = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    vec2 shift = (vec2(i & 1, i >> 1) * 2.0 - 1.0) * texel;
+    vec2 inside = clamp(p.xy + shift, texel, 1.0 - texel);
+    open += texture(sky_map, vec3((corner + inside) / tiles, min(p.z, 1.0)));
+  }
+  return 0.25 * open;
+}
+
+// x: share of the sky's light that reaches the side the normal points to, y: the other side, z: the point, whichever
+// way it faces.  1 = all that this side could see without obstruction.
+vec3 sky_seen(vec3 point, vec3 normal) {
+  vec3 seen = vec3(0), possible = vec3(1e-6);
+  for (int k = 0; k < kSkyLights; ++k) {
+    float facing = dot(normal, sky_direction[k]);
+    // Looked up beside the surface, on the side that faces this direction: the sheet must not hide the sky from itself.
+    float open = sky_open(k, point + sign(facing) * 1.6 * sky_texel * normal);
+    vec3 weight = vec3(max(facing, 0.0), max(-facing, 0.0), 1.0);
+    seen += weight * open;
+    possible += weight;
+  }
+  return seen / possible;
+}

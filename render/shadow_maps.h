@@ -1,0 +1,41 @@
+// What hides the light: one map for the key light, drawn sharp, and one small map for each of a few directions of the
+// sky.  The sky's are looked up per vertex and averaged, which gives the soft dark of folds and contacts for the
+// price of a few depth-only passes.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+
+#include "render/camera.h"
+#include "render/gl/handles.h"
+#include "render/gl/program.h"
+
+namespace hysteron::render {
+
+inline constexpr int kSkyLights = 8;
+
+class ShadowMaps {
+ public:
+  explicit ShadowMaps(const GlFunctions& gl);
+
+  // `casters`: box of everything that throws a shadow; `to_light`: direction to the key light.
+  void aim(const Box& casters, const Eigen::Vector3f& to_light);
+  // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
+  void draw(const std::function<void(const Program&)>& draw_casters) const;
+  // Gives the program in use the maps and how to look things up in them.
+  void bind(const Program& program) const;
+
+ private:
+  const GlFunctions* gl_;
+  Program depth_program_;
+  GlTexture key_map_, sky_map_;
+  GlFramebuffer key_target_, sky_target_;
+  std::array<Eigen::Vector3f, kSkyLights> sky_directions_;
+  std::array<Eigen::Matrix4f, kSkyLights> sky_matrices_;
+  Eigen::Matrix4f key_matrix_;
+  Eigen::Vector3f to_light_{0, 0, 1};
+  float radius_ = 1;  // of the casters [m]
+};
+
+}  // namespace hysteron::render

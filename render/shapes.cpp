@@ -1,0 +1,147 @@
+#include "render/shapes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kSectors = 128;  // around an axis: a 45 mm radius then deviates by 0.014 mm
+constexpr int kBands = 24;     // along a side, for the soft shadows' gradient
+constexpr int kRimBands = 6;
+
+void require_positive(const char* what, float length) {
+  if (!(length > 0) || !std::isfinite(length))
+    throw Error::request(std::string(what) + " = " + std::to_string(length) + " m must be > 0");
+}
+
+// Point of an outline in the (distance from the axis, z) half plane, with its outward normal.
+struct OutlinePoint {
+  float distance, z;
+  float normal_distance, normal_z;
+};
+
+void add_line(std::vector<OutlinePoint>& outline, Eigen::Vector2f from, Eigen::Vector2f to, int bands) {
+  const Eigen::Vector2f along = (to - from).normalized();
+  for (int i = 0; i <= bands; ++i) {
+    const Eigen::Vector2f p = from + (to - from) * (static_cast<float>(i) / bands);
+    outline.push_back({p.x(), p.y(), -along.y(), along.x()});
+  }
+}
+
+// Arc about `center` from elevation `from` to `to` [rad].
+void add_arc(std::vector<OutlinePoint>& outline, Eigen::Vector2f center, float radius, float from, float to, int bands) {
+  for (int i = 0; i <= bands; ++i) {
+    const float angle = from + (to - from) * static_cast<float>(i) / bands;
+    const float c = std::cos(angle), s = std::sin(angle);
+    outline.push_back({center.x() + radius * c, center.y() + radius * s, c, s});
+  }
+}
+
+void add_quads(TriangleMesh& mesh, std::uint32_t first, int rows, int columns) {
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int j = 0; j + 1 < columns; ++j) {
+      const std::uint32_t a = first + i * columns + j, b = a + columns;
+      mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+}
+
+// Outline from the top of the axis to its bottom, turned about z.
+TriangleMesh turned(const std::vector<OutlinePoint>& outline) {
+  TriangleMesh mesh;
+  for (const OutlinePoint& point : outline)
+    for (int j = 0; j <= kSectors; ++j) {
+      const float angle = 2 * kPi * static_cast<float>(j % kSectors) / kSectors;
+      const float c = std::cos(angle), s = std::sin(angle);
+      mesh.positions.emplace_back(point.distance * c, point.distance * s, point.z);
+      mesh.normals.emplace_back(point.normal_distance * c, point.normal_distance * s, point.normal_z);
+    }
+  add_quads(mesh, 0, static_cast<int>(outline.size()), kSectors + 1);
+  return mesh;
+}
+
+// One face of the rounded box: a grid on the cube's face, pushed from the inner box outward by the rim.
+void add_box_face(TriangleMesh& mesh, const Eigen::Vector3f& half, float rim, int axis, float sign) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  constexpr int kSide = kBands + 2 * kRimBands + 1;
+  const auto place = [&](int i, float half_edge) {
+    const float inner = half_edge - rim;
+    if (i <= kRimBands) return -inner - rim * std::tan(kPi / 4 * (1 - static_cast<float>(i) / kRimBands));
+    if (i >= kSide - 1 - kRimBands)
+      return inner + rim * std::tan(kPi / 4 * (1 - static_cast<float>(kSide - 1 - i) / kRimBands));
+    return -inner + 2 * inner * static_cast<float>(i - kRimBands) / kBands;
+  };
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      Eigen::Vector3f point;
+      point[axis] = sign * half[axis];
+      point[u] = place(sign > 0 ? i : kSide - 1 - i, half[u]);
+      point[v] = place(j, half[v]);
+      const Eigen::Vector3f reach = half.array() - rim;
+      const Eigen::Vector3f inner = point.cwiseMax(-reach).cwiseMin(reach);
+      const Eigen::Vector3f normal = (point - inner).normalized();
+      mesh.positions.push_back(inner + rim * normal);
+      mesh.normals.push_back(normal);
+    }
+  add_quads(mesh, first, kSide, kSide);
+}
+
+}  // namespace
+
+TriangleMesh sphere_mesh(float radius) {
+  require_positive("sphere radius", radius);
+  std::vector<OutlinePoint> outline;
+  add_arc(outline, {0, 0}, radius, kPi / 2, -kPi / 2, kSectors / 2);
+  return turned(outline);
+}
+
+TriangleMesh cylinder_mesh(float radius, float height, float rim) {
+  require_positive("cylinder radius", radius);
+  require_positive("cylinder height", height);
+  const float round = std::clamp(rim, 1e-4f * radius, std::min(radius, height / 2));
+  const float inner = radius - round, half = height / 2;
+  std::vector<OutlinePoint> outline;
+  add_line(outline, {0, half}, {inner, half}, kBands);
+  add_arc(outline, {inner, half - round}, round, kPi / 2, 0, kRimBands);
+  add_line(outline, {radius, half - round}, {radius, round - half}, kBands);
+  add_arc(outline, {inner, round - half}, round, 0, -kPi / 2, kRimBands);
+  add_line(outline, {inner, -half}, {0, -half}, 4);
+  return turned(outline);
+}
+
+TriangleMesh capsule_mesh(float radius, float height) {
+  require_positive("capsule radius", radius);
+  require_positive("capsule height", height);
+  std::vector<OutlinePoint> outline;
+  add_arc(outline, {0, height / 2}, radius, kPi / 2, 0, kSectors / 4);
+  add_line(outline, {radius, height / 2}, {radius, -height / 2}, kBands);
+  add_arc(outline, {0, -height / 2}, radius, 0, -kPi / 2, kSectors / 4);
+  return turned(outline);
+}
+
+TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
+  for (int axis = 0; axis < 3; ++axis) require_positive("box half edge", half_edges[axis]);
+  const float least = half_edges.minCoeff();
+  const float round = std::clamp(rim, 1e-3f * least, least);
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float sign : {-1.0f, 1.0f}) add_box_face(mesh, half_edges, round, axis, sign);
+  return mesh;
+}
+
+Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis) {
+  Eigen::Matrix4f transform = Eigen::Matrix4f::Identity();
+  transform.topLeftCorner<3, 3>() =
+      Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitZ(), axis.normalized()).toRotationMatrix();
+  transform.topRightCorner<3, 1>() = center;
+  return transform;
+}
+
+}  // namespace hysteron::render

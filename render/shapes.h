@@ -1,0 +1,31 @@
+// Obstacles as triangles: smooth enough to be looked at, and fine enough along every side to carry the soft shadows
+// that are computed per vertex.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace hysteron::render {
+
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> positions;  // [m]
+  std::vector<Eigen::Vector3f> normals;    // unit, outward
+  std::vector<std::uint32_t> triangles;    // 3 a triangle, counter-clockwise from outside
+
+  size_t triangle_count() const { return triangles.size() / 3; }
+};
+
+// All are centred at the origin; axes along z.  Error::request if a length is not positive.
+TriangleMesh sphere_mesh(float radius);
+// `rim`: radius of the rounded edge, at most radius and height / 2 [m].
+TriangleMesh cylinder_mesh(float radius, float height, float rim);
+// `height`: length of the axis between the two hemispheres' centres.
+TriangleMesh capsule_mesh(float radius, float height);
+// `rim` rounds edges and corners, at most the least half edge.
+TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim);
+
+// Rigid placement of a mesh whose z axis is to point along `axis`.
+Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis);
+
+}  // namespace hysteron::render
