@@ -3,11 +3,11 @@
 //   K_d = w_d . S,   M = omega/4 sum_d M_d w_d,   w_d = s (nu(n_d) + beta nu(t_d))
 //   nu(n) = (n_x^2, n_y^2, sqrt2 n_x n_y),   n_d at 22.5 + 45 d degrees, t_d across it
 //
-// beta = -(sqrt2 - 1)^2 = -tan^2(22.5 deg) makes a bend along x or y excite two directions and leave the other
-// two at exactly zero, and makes omega/4 sum w_d w_d^T a multiple of the identity (omega s^2 (1 - beta)^2/4).
-// s and omega are chosen here so that aligned bends follow the scalar law within 0.4 % and a bend in the worst
-// direction within 5 % of its largest moment.  Moment and energy derive from the same sum, so that
-// M . dS = omega/4 sum M_d dK_d exactly.
+// beta = -(sqrt2 - 1)^2 = -tan^2(22.5 deg) makes a bend along x or y excite two directions and leave the
+// other two at exactly zero, and makes omega/4 sum w_d w_d^T a multiple of the identity (omega s^2 (1 -
+// beta)^2/4). s and omega are chosen here so that aligned bends follow the scalar law within 0.4 % and a bend
+// in the worst direction within 5 % of its largest moment.  Moment and energy derive from the same sum, so
+// that M . dS = omega/4 sum M_d dK_d exactly.
 #pragma once
 
 #include <cmath>
@@ -55,7 +55,8 @@ struct FourDirections {
     return result;
   }
 
-  HYST_HD Tangent<Real, 3> tangent(const Vec<Real, 3>& curvature, const History<Real, kHistory>& before) const {
+  HYST_HD Tangent<Real, 3> tangent(const Vec<Real, 3>& curvature,
+                                   const History<Real, kHistory>& before) const {
     Tangent<Real, 3> result = Tangent<Real, 3>::Zero();
     for (int d = 0; d < kDirections; ++d) {
       const Vec<Real, 3> w = direction(d);

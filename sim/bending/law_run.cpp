@@ -89,7 +89,8 @@ LawRun run_pabst(const LawRequest& request, const std::vector<LawRow>& rows) {
 LawRun run_wong(const LawRequest& request, const std::vector<LawRow>& rows) {
   allow_only(request, {"recovery"});
   const bool reversible = word(request, "recovery", "masing", "reversible") == "reversible";
-  return drive(Wong<double>::make(request.curve, reversible ? Recovery::kReversible : Recovery::kMasing), rows);
+  return drive(Wong<double>::make(request.curve, reversible ? Recovery::kReversible : Recovery::kMasing),
+               rows);
 }
 
 LawRun run_stack(const LawRequest& request, const std::vector<LawRow>& rows) {
@@ -134,7 +135,8 @@ constexpr KnownLaw kLaws[] = {
     {"wong", "quadratic loop, last reversal remembered (Wong, Eqs. 4.2, 4.4, 4.5)", run_wong},
     {"prandtl", "quadratic loop, all reversals remembered (Prandtl-Ishlinskii; Iwan 1966)", run_prandtl},
     {"grinspun-edit", "rest curvature set on command (Grinspun et al. 2003)", nullptr},
-    {"terzopoulos", "viscoplastic rest curvature above a yield moment (Terzopoulos & Fleischer 1988)", nullptr},
+    {"terzopoulos", "viscoplastic rest curvature above a yield moment (Terzopoulos & Fleischer 1988)",
+     nullptr},
     {"obrien", "plastic rest curvature above a yield curvature (O'Brien et al. 2002)", nullptr},
     {"kim", "rest curvature creeps above a threshold, with loss of stiffness (Kim et al. 2011)", nullptr},
     {"narain", "plastic rest curvature with weakening (Narain et al. 2013)", nullptr},

@@ -42,9 +42,9 @@ struct LawEntry {
 const std::vector<LawEntry>& law_catalogue();
 
 // Drives the law through `rows` in double precision, D = 1.
-// Parameters: prandtl: memory = stack (default) | stops, stack = 4|8|16|32|64 (default 64, reversal points kept),
-// stops = 4|8|16|32 (default 8); wong: recovery = masing (default) | reversible.
-// Throws Error::request for an unknown or unbuilt law and for unknown or impossible parameters.
+// Parameters: prandtl: memory = stack (default) | stops, stack = 4|8|16|32|64 (default 64, reversal points
+// kept), stops = 4|8|16|32 (default 8); wong: recovery = masing (default) | reversible. Throws Error::request
+// for an unknown or unbuilt law and for unknown or impossible parameters.
 LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
 
 }  // namespace hysteron

@@ -46,8 +46,8 @@ struct Pabst {
   HYST_HD Real largest_stiffness() const { return b1; }
 
  private:
-  HYST_HD Real secant(Real k) const { return k <= k0 ? b1 + c1 * k : b2 + m0 / k; }          // M/K [N m]
-  HYST_HD Real secant_slope(Real k) const { return k <= k0 ? c1 : -m0 / (k * k); }  // d(M/K)/dK [N m^2]
+  HYST_HD Real secant(Real k) const { return k <= k0 ? b1 + c1 * k : b2 + m0 / k; }  // M/K [N m]
+  HYST_HD Real secant_slope(Real k) const { return k <= k0 ? c1 : -m0 / (k * k); }   // d(M/K)/dK [N m^2]
 };
 
 }  // namespace hysteron

@@ -2,10 +2,11 @@
 //
 // M = b2 K + F.  With g = b1 - b2 and x the curvature travelled since the branch began:
 //   virgin            |F| = g x - g x^2/(2 K0),             x <= K0     (Wong, Eq. 4.2)
-//   after a reversal  F = F_r + s (g x - g x^2/(4 K0)),     x <= 2 K0   (Wong, Eqs. 4.4, 4.5; Masing's doubling)
-// and F = s M0 where the branch has run out.  A branch that comes back to the reversal before it closes a loop:
-// both points are forgotten and the enclosing branch goes on; the mirror image of the first reversal leads
-// back to the virgin curve.  This is the limit of infinitely many stops (Whiteman 1959, Iwan 1966).
+//   after a reversal  F = F_r + s (g x - g x^2/(4 K0)),     x <= 2 K0   (Wong, Eqs. 4.4, 4.5; Masing's
+//   doubling)
+// and F = s M0 where the branch has run out.  A branch that comes back to the reversal before it closes a
+// loop: both points are forgotten and the enclosing branch goes on; the mirror image of the first reversal
+// leads back to the virgin curve.  This is the limit of infinitely many stops (Whiteman 1959, Iwan 1966).
 //
 // The stack is bounded: when a reversal finds it full, the innermost pair is dropped and counted.  With three
 // or more points a branch ends where its moment meets the enclosing branch of the same direction, which
@@ -13,8 +14,8 @@
 //
 // Energies: at distance x the stops with r < x/2 slip, hence the branch dissipates g x^3/(24 K0) (virgin
 // g x^3/(6 K0)), then M0 per curvature; friction energy = work - loss, kept at every reversal.  All stops
-// slipping hold M0 K0/3.  Chosen here, not in the chapter (it breaks off before partial reversals): all of the
-// memory.  K0 = 0 or b1 = b2 leave M = b2 K.
+// slipping hold M0 K0/3.  Chosen here, not in the chapter (it breaks off before partial reversals): all of
+// the memory.  K0 = 0 or b1 = b2 leave M = b2 K.
 #pragma once
 
 #include <cmath>
@@ -196,8 +197,10 @@ struct PrandtlStack {
   HYST_HD Real leave(const Branch& b, Real end, Memory& m) const {
     const Real at = b.start.curvature + b.direction * end;
     const bool full_slip = count(m) == 0 || (count(m) == 2 && m[kSlippedThrough] != 0);
-    if (full_slip) slip_through(b.direction, at, m);
-    else m[kCount] = count(m) <= 2 ? Real(0) : m[kCount] - 2;
+    if (full_slip)
+      slip_through(b.direction, at, m);
+    else
+      m[kCount] = count(m) <= 2 ? Real(0) : m[kCount] - 2;
     return at;
   }
 

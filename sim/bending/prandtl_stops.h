@@ -4,12 +4,12 @@
 //   r_j = (j - 1/2) K0/N,   p = (b1 - b2)/N,   j = 1..N
 //
 // The virgin curve of the chapter (Wong, Eq. 4.2) is that of stops spread evenly over [0, K0], because the
-// threshold density of a virgin curve f is -f'' (Whiteman 1959, Iwan 1966).  A branch after a reversal is then
-// the doubled virgin curve, slope b1 and quadratic coefficient -+M0/(2 K0^2) over 2 K0: the chapter's Eqs. 4.4
-// and 4.5.  N stops miss the virgin curve by at most M0/(4 N^2).  Chosen here, not in the chapter: the memory
-// itself (it breaks off before partial reversals), the even spread of finitely many thresholds, and the radial
-// return |E_j| <= r_j on the tensor, which makes a cylinder in any direction follow the scalar law.
-// Dissipated in a step: sum p r_j (|U_j| - r_j)+, never negative.  K0 = 0 or b1 = b2 leave M = b2 K.
+// threshold density of a virgin curve f is -f'' (Whiteman 1959, Iwan 1966).  A branch after a reversal is
+// then the doubled virgin curve, slope b1 and quadratic coefficient -+M0/(2 K0^2) over 2 K0: the chapter's
+// Eqs. 4.4 and 4.5.  N stops miss the virgin curve by at most M0/(4 N^2).  Chosen here, not in the chapter:
+// the memory itself (it breaks off before partial reversals), the even spread of finitely many thresholds,
+// and the radial return |E_j| <= r_j on the tensor, which makes a cylinder in any direction follow the scalar
+// law. Dissipated in a step: sum p r_j (|U_j| - r_j)+, never negative.  K0 = 0 or b1 = b2 leave M = b2 K.
 #pragma once
 
 #include "sim/bending/law.h"
@@ -20,11 +20,12 @@ namespace hysteron {
 template <class Real, int D, int N>
 struct PrandtlStops {
   static constexpr int kDimension = D;
-  static constexpr int kHistory = N * D;  // slip S_j [1/m], laid out [component][stop] so that stops vectorise
+  static constexpr int kHistory =
+      N * D;  // slip S_j [1/m], laid out [component][stop] so that stops vectorise
   using Scalar = Real;
 
-  Real b2 = 0;  // rigidity of the straight branch [N m]
-  Real p = 0;   // rigidity of one stop [N m]
+  Real b2 = 0;         // rigidity of the straight branch [N m]
+  Real p = 0;          // rigidity of one stop [N m]
   Real limit[N] = {};  // r_j: curvature at which stop j slips [1/m]
 
   static PrandtlStops make(const VirginCurve& curve) {
@@ -51,7 +52,8 @@ struct PrandtlStops {
     return result;
   }
 
-  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const History<Real, kHistory>& before) const {
+  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature,
+                                   const History<Real, kHistory>& before) const {
     const Stretch now = stretch(curvature, before);
     const PerStop squared = now.length * now.length;
     const PerStop slipping = (now.scale < Real(1)).select(now.scale / squared, PerStop::Zero());
@@ -104,7 +106,8 @@ struct PrandtlStops {
       return term[0];
     } else {
       static_assert(n % 2 == 0, "the number of stops is a power of two");
-      return sum<n / 2>(Eigen::Array<Real, n / 2, 1>(term.template head<n / 2>() + term.template tail<n / 2>()));
+      return sum<n / 2>(
+          Eigen::Array<Real, n / 2, 1>(term.template head<n / 2>() + term.template tail<n / 2>()));
     }
   }
 };

@@ -10,8 +10,8 @@
 //   M = M_r + b1 (K - K_r) -+ c1 (K - K_r)^2,
 // is virgin again there, and loses |c1| |K_r|^3/3; a reversal on it continues as a branch of the first kind.
 //
-// Minor loops do not close and the law is not passive: stored = b2 K^2/2 only, and `dissipated` is the work of
-// friction, int F dK, which may fall after a reversal.
+// Minor loops do not close and the law is not passive: stored = b2 K^2/2 only, and `dissipated` is the work
+// of friction, int F dK, which may fall after a reversal.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,8 @@ struct Wong {
   static Wong make(const VirginCurve& curve, Recovery recovery = Recovery::kMasing) {
     const bool friction = curve.k0 > 0 && curve.b1 > curve.b2;
     if (!friction) return {Real(curve.b2), 0, 0, 0, recovery};
-    return {Real(curve.b2), Real(curve.b1 - curve.b2), Real(curve.k0), Real(curve.friction_moment()), recovery};
+    return {Real(curve.b2), Real(curve.b1 - curve.b2), Real(curve.k0), Real(curve.friction_moment()),
+            recovery};
   }
 
   HYST_HD LawStep<Real, 1, kHistory> step(const Vec<Real, 1>& curvature, const Memory& before) const {

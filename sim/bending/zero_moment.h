@@ -1,8 +1,8 @@
 // The curvature at which a law carries no moment: the minimum of its incremental potential.
 //
-// From a given state W(K) = stored + dissipated is convex with dW/dK = M, so that damped Newton on W finds the
-// one curvature where a piece of cloth at rest would stay (the residual curvature, Anandjiwala & Leaf 1991).
-// Laws with a closed form use that instead.
+// From a given state W(K) = stored + dissipated is convex with dW/dK = M, so that damped Newton on W finds
+// the one curvature where a piece of cloth at rest would stay (the residual curvature, Anandjiwala & Leaf
+// 1991). Laws with a closed form use that instead.
 #pragma once
 
 #include "sim/bending/law.h"
@@ -15,7 +15,7 @@ template <class Law, class Real, int D, int N>
 HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history, Vec<Real, D> start) {
   constexpr int kMostSteps = 60, kMostHalvings = 30;
   constexpr Real kPrecision = sizeof(Real) == 8 ? Real(1e-12) : Real(1e-5);
-  constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
+  constexpr Real kEnoughDescent = Real(1e-4);                 // Armijo's fraction of the predicted decrease
   const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
   Vec<Real, D> curvature = start;
   LawStep<Real, D, N> here = law.step(curvature, history);
