@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/bending/law_run.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron {
@@ -11,10 +12,6 @@ using Json = nlohmann::ordered_json;
 using S = Scene;
 using C = ClothShape;
 using F = Fabric;
-
-constexpr const char* kLaws =
-    "linear | pabst | prandtl | wong | (bridson) | (spring) | (bilinear) | (grinspun-edit) | (terzopoulos) | "
-    "(obrien) | (kim) | (narain) | (dahl) | (gong)";
 
 // clang-format off
 const KeyRow<Scene> kSceneRows[] = {
@@ -39,7 +36,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "", "in-plane shear stiffness"},
     {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "", "viscous membrane damping time"},
     {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles"},
-    {"law", at<&S::law>, "", any(), kLaws, "moment-curvature law"},
+    {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name"},
     {"element", at<&S::element>, "", any(), "shape | hinge", "bending element"},
     {"force", at<&S::force>, "", any(), "energy | chapter", "bending force convention (chapter: hinge only)"},
@@ -133,9 +130,20 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
   scene.origin["fabric.name"] = origin;
 }
 
+// The laws are listed once, where they are written.
+void name_laws(KeyDescription& key) {
+  for (const LawEntry& law : law_catalogue()) (law.built ? key.choices : key.announced).push_back(law.name);
+}
+
 }  // namespace
 
-Keys bind_scene(Scene& scene) { return bind(kSceneRows, scene); }
+Keys bind_scene(Scene& scene) {
+  Keys keys = bind(kSceneRows, scene);
+  for (BoundKey& key : keys) {
+    if (key.description.path == "law") name_laws(key.description);
+  }
+  return keys;
+}
 Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
 Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
 Keys bind_keyframe(Keyframe& keyframe) { return bind(kKeyframeRows, keyframe); }

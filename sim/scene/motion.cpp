@@ -12,7 +12,8 @@ double slope(const std::vector<Keyframe>& keys, std::size_t i, const Track& valu
   return (value(keys[i + 1]) - value(keys[i])) / (keys[i + 1].time - keys[i].time);
 }
 
-// Tangent at key i: zero at the ends and where the motion turns or rests, else the harmonic mean of its neighbours'.
+// Tangent at key i: zero at the ends and where the motion turns or rests, else the harmonic mean of its
+// neighbours'.
 double tangent(const std::vector<Keyframe>& keys, std::size_t i, const Track& value) {
   if (i == 0 || i + 1 == keys.size()) return 0;
   const double a = slope(keys, i - 1, value), b = slope(keys, i, value);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/bending/law_parameters.h"
 #include "sim/error.h"
 #include "sim/scene/scene_reader.h"
 
@@ -96,55 +97,31 @@ void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string
   check_motion(scene, path, solid.motion);
 }
 
-// A parameter of a law, and which law takes it; "" = of the interface, not built yet.
-struct ParameterRow {
-  KeyRow<LawParameters> key;
-  const char* law;
-};
-
-using P = LawParameters;
-const ParameterRow kParameters[] = {
-    {{"memory", at<&P::memory>, "", any(), "stack | stops", "how prandtl remembers"}, "prandtl"},
-    {{"stack", at<&P::stack>, "", between(2, 64), "", "reversal points remembered"}, "prandtl"},
-    {{"stops", at<&P::stops>, "", between(1, 64), "", "friction elements"}, "prandtl"},
-    {{"recovery", at<&P::recovery>, "", any(), "masing | reversible", "first virgin branch"}, "wong"},
-};
+// Of the interface, but no law of today takes them.
 const std::vector<std::string> kAnnouncedParameters = {"fatigue.dc", "fatigue.m-inf", "fatigue.set", "yield",
                                                        "max-set",    "weakening",     "height",      "tau"};
 
-void set_parameter(const Scene& scene, const std::string& name, const std::string& text,
-                   LawParameters& values) {
-  const std::string origin = origin_of(scene, "param." + name);
-  std::vector<std::string> names;
-  for (const auto& [row, law] : kParameters) {
-    if (scene.law != law) continue;
-    names.push_back(row.path);
-    if (name != row.path) continue;
-    const Field field = row.field(values);
-    const std::string path = "param " + name;
-    const BoundKey key{describe(path.c_str(), field, row.unit, row.range, row.choices, row.doc), field};
-    return assign(key, parse_text(key.description, text), origin);
+void check_parameters(const Scene& scene) {
+  for (const auto& [name, text] : scene.param) {
+    const std::string origin = origin_of(scene, "param." + name);
+    if (std::count(kAnnouncedParameters.begin(), kAnnouncedParameters.end(), name)) {
+      throw Error::request("param " + name + " = " + text + " is not built yet (" + origin + ")");
+    }
+    try {
+      hysteresis_choice(scene.law, {{name, text}});
+    } catch (const Error& error) {
+      throw Error::request(std::string(error.what()) + " (" + origin + ")");
+    }
   }
-  if (std::count(kAnnouncedParameters.begin(), kAnnouncedParameters.end(), name)) {
-    throw Error::request("param " + name + " = " + text + " is not built yet (" + origin + ")");
-  }
-  throw Error::request("param " + name + " = " + text + " is no parameter of law " + scene.law + " (" +
-                       origin + "), which takes " + (names.empty() ? "none" : join(names, ", ")));
 }
 
 }  // namespace
-
-LawParameters law_parameters(const Scene& scene) {
-  LawParameters values;
-  for (const auto& [name, text] : scene.param) set_parameter(scene, name, text, values);
-  return values;
-}
 
 void check_scene(const Scene& scene) {
   check_fabric(scene);
   check_mesh(scene);
   check_method(scene);
-  law_parameters(scene);
+  check_parameters(scene);
   for (std::size_t i = 0; i < scene.pin.size(); ++i) {
     check_pin(scene, scene.pin[i], "pin[" + std::to_string(i) + "]");
   }

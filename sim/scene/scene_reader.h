@@ -31,15 +31,4 @@ void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra
 // pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::request.
 void check_scene(const Scene& scene);
 
-// Parameters of today's laws, typed, with defaults.
-struct LawParameters {
-  std::string memory = "stops";     // param memory    prandtl: stack | stops
-  int stack = 8;                    // param stack     prandtl: reversal points remembered
-  int stops = 8;                    // param stops     prandtl: number of friction elements
-  std::string recovery = "masing";  // param recovery  wong: masing | reversible
-};
-
-// Throws Error::request for a parameter that is unknown, not the law's, not built yet, or out of range.
-LawParameters law_parameters(const Scene& scene);
-
 }  // namespace hysteron

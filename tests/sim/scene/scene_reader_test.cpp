@@ -42,9 +42,11 @@ TEST(Precedence, ParametersAccumulateAndTheLastOneWins) {
   Scene scene = default_scene();
   apply_scene_file(scene, file.path());
   apply_flags(scene, {{"param", "stops=32"}});
-  EXPECT_EQ(law_parameters(scene).memory, "stops");
-  EXPECT_EQ(law_parameters(scene).stops, 32);
-  EXPECT_EQ(law_parameters(scene).stack, LawParameters{}.stack);
+  EXPECT_EQ(scene.param.at("memory"), "stops");
+  EXPECT_EQ(scene.param.at("stops"), "32");
+  EXPECT_EQ(scene.origin.at("param.memory"), file.line(2));
+  EXPECT_EQ(scene.origin.at("param.stops"), "--param");
+  EXPECT_NO_THROW(check_scene(scene));
 }
 
 TEST(SceneFile, MayNameItsFabricAtTheTopLevel) {

@@ -1,0 +1,73 @@
+#include "sim/scene/cloth.h"
+
+#include <Eigen/Geometry>
+
+#include "sim/error.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kSelectionSlack = 1e-9;  // [m]: box corners meet grid vertices in spite of rounding
+
+bool is_obj(const std::string& name) { return name.size() > 4 && name.substr(name.size() - 4) == ".obj"; }
+
+ClothMesh rest_mesh(const Scene& scene) {
+  const ClothShape& c = scene.cloth;
+  if (is_obj(scene.mesh)) return read_obj(scene.mesh, c.weld);
+  if (c.shape == "file") return read_obj(c.file, c.weld);
+  const MeshFamily family = mesh_family(scene.mesh);
+  if (c.shape == "disc") return make_disc(c.radius, scene.triangles, family, scene.seed);
+  const double width = c.shape == "square" ? c.length : c.width;
+  return make_rectangle(c.length, width, scene.triangles, family, scene.seed);
+}
+
+bool inside(const Eigen::Vector3d& x, const Pin& pin) {
+  return ((x - pin.low).array() >= -kSelectionSlack).all() &&
+         ((pin.high - x).array() >= -kSelectionSlack).all();
+}
+
+void select(const ClothMesh& mesh, const Pin& pin, int index, std::vector<int>& pin_of) {
+  if (pin.select == "nearest") {
+    int nearest = 0;
+    for (int i = 1; i < mesh.vertices(); ++i)
+      if ((mesh.rest[i] - pin.point).norm() < (mesh.rest[nearest] - pin.point).norm()) nearest = i;
+    pin_of[nearest] = index;
+  } else if (pin.select == "all-boundary") {
+    for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
+      pin_of[mesh.edge[e].p2] = pin_of[mesh.edge[e].p3] = index;
+  } else {
+    for (int i = 0; i < mesh.vertices(); ++i)
+      if (inside(mesh.rest[i], pin)) pin_of[i] = index;
+  }
+}
+
+}  // namespace
+
+std::vector<char> Cloth::held(const Scene& scene, double time) const {
+  std::vector<char> result(pin.size());
+  for (std::size_t i = 0; i < pin.size(); ++i) result[i] = pin[i] >= 0 && time < scene.pin[pin[i]].until;
+  return result;
+}
+
+Cloth make_cloth(const Scene& scene) {
+  Cloth cloth;
+  cloth.mesh = rest_mesh(scene);
+  const double warp = scene.cloth.warp_angle * kDegree;
+  cloth.mesh.warp_axis = {std::cos(warp), std::sin(warp), 0};
+  const Eigen::Vector3d angle = scene.cloth.rotation * kDegree;
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
+                                       .toRotationMatrix();
+  for (const Eigen::Vector3d& x : cloth.mesh.rest) cloth.start.push_back(rotation * x + scene.cloth.position);
+  cloth.pin.assign(cloth.mesh.vertices(), -1);
+  for (std::size_t p = 0; p < scene.pin.size(); ++p) {
+    select(cloth.mesh, scene.pin[p], static_cast<int>(p), cloth.pin);
+    if (std::find(cloth.pin.begin(), cloth.pin.end(), static_cast<int>(p)) == cloth.pin.end())
+      throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
+  }
+  return cloth;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,24 @@
+// The cloth of a scene: its mesh at rest, where it starts, and which vertices are held.
+#pragma once
+
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+struct Cloth {
+  ClothMesh mesh;
+  std::vector<Eigen::Vector3d> start;  // positions at t = 0 [m]
+  std::vector<int> pin;                // per vertex: index of its pin in the scene, -1 = free
+
+  // Vertices that no force moves at `time` [s].
+  std::vector<char> held(const Scene& scene, double time) const;
+};
+
+// Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for pins that
+// hold no vertex.
+Cloth make_cloth(const Scene& scene);
+
+}  // namespace hysteron
