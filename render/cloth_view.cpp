@@ -11,8 +11,6 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kColorMapUnit = 2;
-// The ground reaches this many scene radii outward; by then its shadow has faded out.
-constexpr float kGroundReach = 4;
 
 Eigen::Vector3f linear(const Rgb8& color) {
   const auto& table = linear_of_srgb8();
@@ -27,25 +25,6 @@ ProgramFiles cloth_files(Show show) {
     case Show::silhouette: return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
     default: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
   }
-}
-
-// Square grid from -1 to 1 in the plane z = 0, finer toward the middle, where shadows lie.
-TriangleMesh ground_grid() {
-  constexpr int kSide = 97;
-  const auto place = [](int i) {
-    const float t = 2.0f * static_cast<float>(i) / (kSide - 1) - 1;
-    return 0.45f * t + 0.55f * t * t * t;
-  };
-  TriangleMesh mesh;
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j) mesh.positions.emplace_back(place(i), place(j), 0.0f);
-  mesh.normals.assign(mesh.positions.size(), Eigen::Vector3f::UnitZ());
-  for (std::uint32_t i = 0; i + 1 < kSide; ++i)
-    for (std::uint32_t j = 0; j + 1 < kSide; ++j) {
-      const std::uint32_t a = i * kSide + j, b = a + kSide;
-      mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
-    }
-  return mesh;
 }
 
 Box mesh_box(const TriangleMesh& mesh) {
@@ -83,7 +62,6 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       target_((offscreen.make_current(), gl_), size.width * size.supersample, size.height * size.supersample,
               size.samples),
       shadows_(gl_), backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
-      ground_program_(gl_, {.vertex = "surface.vert", .fragment = "ground.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}), color_map_(gl_),
       no_arrays_(gl_) {
   set_look(look_);
@@ -131,8 +109,8 @@ void ClothView::show_obstacle(int number, bool visible) { obstacle(number).visib
 
 void ClothView::set_ground(std::optional<float> height) {
   offscreen_.make_current();
-  ground_ = height;
-  if (height && !ground_mesh_) ground_mesh_.emplace(gl_, ground_grid());
+  ground_height_ = height;
+  if (height && !ground_) ground_.emplace(gl_);
 }
 
 void ClothView::set_bounds(const Box& bounds) { given_bounds_ = bounds; }
@@ -163,6 +141,7 @@ Image ClothView::draw(const Camera& camera) {
   if (look_.show != Show::silhouette) {
     shadows_.aim(bounds(), look_.to_light);
     shadows_.draw([this](const Program& program) { draw_casters(program); });
+    if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
   }
   target_.begin();
   draw_scene(camera);
@@ -182,13 +161,14 @@ void ClothView::draw_casters(const Program& program) const {
   if (cloth_) cloth_->draw();
 }
 
+// From front to back, as far as that is known: hidden pixels cost a software renderer most.
 void ClothView::draw_scene(const Camera& camera) const {
-  draw_backdrop();
-  if (look_.show != Show::silhouette) {
-    if (ground_) draw_ground(camera, bounds());
-    draw_obstacles(camera);
-  }
   if (cloth_) draw_cloth(camera);
+  if (look_.show != Show::silhouette) {
+    draw_obstacles(camera);
+    if (ground_height_) draw_ground(camera);
+  }
+  draw_backdrop();
 }
 
 void ClothView::set_backdrop(const Program& program) const {
@@ -198,15 +178,18 @@ void ClothView::set_backdrop(const Program& program) const {
   program.set("vignette", look_.show == Show::silhouette ? 0.0f : 0.22f);
 }
 
-void ClothView::begin_lit(const Program& program, const Camera& camera) const {
+Eigen::Matrix4f ClothView::view_projection(const Camera& camera) const {
   const float aspect = static_cast<float>(size_.width) / static_cast<float>(size_.height);
-  const Eigen::Matrix4f view = camera.view();
+  return camera.projection(aspect) * camera.view();
+}
+
+void ClothView::begin_lit(const Program& program, const Camera& camera) const {
   program.use();
-  program.set("view_projection", Eigen::Matrix4f(camera.projection(aspect) * view));
+  program.set("view_projection", view_projection(camera));
   program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
   program.set("inset", 0.0f);
   program.set("eye", camera.eye());
-  program.set("view_forward", Eigen::Vector3f(-view.row(2).head<3>().transpose()));
+  program.set("view_forward", Eigen::Vector3f(-camera.view().row(2).head<3>().transpose()));
   program.set("orthographic", camera.is_orthographic() ? 1.0f : 0.0f);
   shadows_.bind(program);
 }
@@ -215,22 +198,14 @@ void ClothView::draw_backdrop() const {
   backdrop_program_.use();
   set_backdrop(backdrop_program_);
   gl_.BindVertexArray(no_arrays_.name());
-  gl_.DepthMask(GL_FALSE);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  gl_.DepthMask(GL_TRUE);
 }
 
-void ClothView::draw_ground(const Camera& camera, const Box& box) const {
-  const float reach = kGroundReach * box.radius();
-  Eigen::Matrix4f placement = Eigen::Matrix4f::Identity();
-  placement.diagonal() << reach, reach, 1, 1;
-  placement.topRightCorner<3, 1>() << box.center().x(), box.center().y(), *ground_;
-  begin_lit(ground_program_, camera);
-  set_backdrop(ground_program_);
-  ground_program_.set("model", placement);
-  ground_program_.set("shadow_center", box.center());
-  ground_program_.set("shadow_radius", reach);
-  ground_mesh_->draw();
+void ClothView::draw_ground(const Camera& camera) const {
+  const Program& program = ground_->begin();
+  program.set("view_projection", view_projection(camera));
+  set_backdrop(program);
+  ground_->draw();
 }
 
 void ClothView::draw_obstacles(const Camera& camera) const {

@@ -11,6 +11,7 @@
 #include "render/camera.h"
 #include "render/cloth_surface.h"
 #include "render/frame_target.h"
+#include "render/ground.h"
 #include "render/image.h"
 #include "render/look.h"
 #include "render/offscreen.h"
@@ -70,9 +71,10 @@ class ClothView {
   void draw_casters(const Program& program) const;
   void draw_scene(const Camera& camera) const;
   void draw_backdrop() const;
-  void draw_ground(const Camera& camera, const Box& box) const;
+  void draw_ground(const Camera& camera) const;
   void draw_obstacles(const Camera& camera) const;
   void draw_cloth(const Camera& camera) const;
+  Eigen::Matrix4f view_projection(const Camera& camera) const;
   void begin_lit(const Program& program, const Camera& camera) const;
   void set_backdrop(const Program& program) const;
 
@@ -81,14 +83,14 @@ class ClothView {
   PictureSize size_;
   FrameTarget target_;
   ShadowMaps shadows_;
-  Program backdrop_program_, ground_program_, matte_program_;
+  Program backdrop_program_, matte_program_;
   std::optional<Program> cloth_program_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
-  std::optional<StaticMesh> ground_mesh_;
+  std::optional<Ground> ground_;
   std::optional<ClothSurface> cloth_;
   std::vector<Obstacle> obstacles_;
-  std::optional<float> ground_;
+  std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
   Look look_;
 };

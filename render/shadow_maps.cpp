@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kKeyUnit = 0;
 constexpr int kSkyUnit = 1;
+constexpr int kDepthUnit = 8;
 constexpr int kKeySide = 1024;  // texels; 0.5 mm each for a 0.5 m scene
 constexpr int kSkySide = 160;   // texels of one direction's tile
 constexpr int kSkyColumns = 4;
@@ -20,7 +21,7 @@ constexpr float kBorder = 1.05f;
 GlTexture depth_texture(const GlFunctions& gl, int width, int height) {
   GlTexture texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, width, height, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -69,8 +70,13 @@ std::array<Eigen::Vector3f, kSkyLights> sky_directions() {
 ShadowMaps::ShadowMaps(const GlFunctions& gl)
     : gl_(&gl), depth_program_(gl, {.vertex = "depth.vert", .fragment = "depth.frag", .defines = ""}),
       key_map_(depth_texture(gl, kKeySide, kKeySide)),
-      sky_map_(depth_texture(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)), key_target_(depth_target(gl, key_map_)),
-      sky_target_(depth_target(gl, sky_map_)), sky_directions_(sky_directions()) {
+      sky_map_(depth_texture(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)), depth_sampler_(gl),
+      key_target_(depth_target(gl, key_map_)), sky_target_(depth_target(gl, sky_map_)), sky_directions_(sky_directions()) {
+  gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
+  gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   aim({{-1, -1, -1}, {1, 1, 1}}, to_light_);
   check_gl(gl, "making shadow maps");
 }
@@ -106,7 +112,7 @@ void ShadowMaps::draw(const std::function<void(const Program&)>& draw_casters) c
   gl_->Disable(GL_POLYGON_OFFSET_FILL);
 }
 
-void ShadowMaps::bind(const Program& program) const {
+void ShadowMaps::bind(const Program& program, float sky_blur) const {
   gl_->ActiveTexture(GL_TEXTURE0 + kKeyUnit);
   gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
   gl_->ActiveTexture(GL_TEXTURE0 + kSkyUnit);
@@ -116,6 +122,11 @@ void ShadowMaps::bind(const Program& program) const {
   program.set("to_light", to_light_);
   program.set("key_matrix", key_matrix_);
   program.set("key_texel", 2 * kBorder * radius_ / kKeySide);
+  gl_->ActiveTexture(GL_TEXTURE0 + kDepthUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
+  gl_->BindSampler(kDepthUnit, depth_sampler_.name());
+  program.set("key_depth", kDepthUnit);
+  program.set("sky_blur", sky_blur);
   program.set("sky_texel", 2 * kBorder * radius_ / kSkySide);
   for (int k = 0; k < kSkyLights; ++k) {
     const std::string index = "[" + std::to_string(k) + "]";

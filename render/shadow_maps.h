@@ -23,13 +23,16 @@ class ShadowMaps {
   void aim(const Box& casters, const Eigen::Vector3f& to_light);
   // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
-  // Gives the program in use the maps and how to look things up in them.
-  void bind(const Program& program) const;
+  // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in the sky
+  // maps in their texels.
+  void bind(const Program& program, float sky_blur = 1.6f) const;
+  const Eigen::Vector3f& to_light() const { return to_light_; }
 
  private:
   const GlFunctions* gl_;
   Program depth_program_;
   GlTexture key_map_, sky_map_;
+  GlSampler depth_sampler_;  // reads the key map's depths instead of comparing with them
   GlFramebuffer key_target_, sky_target_;
   std::array<Eigen::Vector3f, kSkyLights> sky_directions_;
   std::array<Eigen::Matrix4f, kSkyLights> sky_matrices_;

@@ -12,9 +12,9 @@ namespace hysteron::render {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr int kSectors = 128;  // around an axis: a 45 mm radius then deviates by 0.014 mm
-constexpr int kBands = 24;     // along a side, for the soft shadows' gradient
-constexpr int kRimBands = 6;
+constexpr int kSectors = 96;  // around an axis: a 45 mm radius then deviates by 0.024 mm
+constexpr int kBands = 12;    // along a side, for the soft shadows' gradient
+constexpr int kRimBands = 4;
 
 void require_positive(const char* what, float length) {
   if (!(length > 0) || !std::isfinite(length))

@@ -17,6 +17,7 @@ namespace hysteron::render {
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                             \
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                           \
   X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                         \
+  X(PFNGLBINDSAMPLERPROC, BindSampler)                                   \
   X(PFNGLBINDTEXTUREPROC, BindTexture)                                   \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                           \
   X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                           \
@@ -33,6 +34,7 @@ namespace hysteron::render {
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                     \
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                               \
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                   \
+  X(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                             \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                 \
   X(PFNGLDELETETEXTURESPROC, DeleteTextures)                             \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                     \
@@ -52,6 +54,7 @@ namespace hysteron::render {
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                     \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                           \
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                         \
+  X(PFNGLGENSAMPLERSPROC, GenSamplers)                                   \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                   \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                           \
   X(PFNGLGETERRORPROC, GetError)                                         \
@@ -69,6 +72,7 @@ namespace hysteron::render {
   X(PFNGLREADPIXELSPROC, ReadPixels)                                     \
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                   \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+  X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                       \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                 \
   X(PFNGLTEXBUFFERPROC, TexBuffer)                                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                     \

@@ -16,14 +16,12 @@ std::string shader_text(std::string_view file) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// GLSL has no #include; shared functions stand once in a file of their own and are put in here, one level deep.
+// GLSL has no #include; shared functions stand once in a file of their own and are put in here.
 std::string with_includes(std::string text) {
-  for (size_t at = text.find(kIncludeMark); at != std::string::npos; at = text.find(kIncludeMark, at)) {
+  for (size_t at = text.find(kIncludeMark); at != std::string::npos; at = text.find(kIncludeMark)) {
     const size_t begin = at + kIncludeMark.size();
     const size_t end = text.find('"', begin);
-    const std::string included = shader_text(text.substr(begin, end - begin));
-    text.replace(at, end + 1 - at, included);
-    at += included.size();
+    text.replace(at, end + 1 - at, shader_text(text.substr(begin, end - begin)));
   }
   return text;
 }

@@ -55,7 +55,7 @@ void main() {
   vec3 fine = with_threads(normal, weave.tilt);
 
   float facing = dot(normal, to_light);
-  float reaching = key_reaching(world, normal, kKeyTaps);
+  float reaching = key_reaching(world, normal);
   float direct = max(dot(fine, to_light), 0.0) * smoothstep(0.0, 0.12, facing);
   float through = kThrough * max(-facing, 0.0);
   vec3 light = room_light(fine, seen, sky.z) + kKeyLight * reaching * (direct + through);

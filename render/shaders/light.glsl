@@ -1,3 +1,4 @@
+#include "disc.glsl"
 // A studio: a large soft key light, a bright room around, a pale floor that throws light back, a weak fill.
 uniform vec3 eye;
 uniform vec3 view_forward;  // used instead of the eye where the camera is orthographic
@@ -12,26 +13,31 @@ const vec3 kSkyLight = vec3(0.33, 0.345, 0.37);
 const vec3 kFloorLight = vec3(0.20, 0.195, 0.185);
 const float kBlur = 4.5;    // radius of the key shadow's edge in texels
 const int kKeyTaps = 16;
-
-// Points of a spiral that cover a disc evenly (Vogel 1979).
-vec2 spiral(int i) {
-  float angle = 2.39996323 * float(i);
-  return sqrt((float(i) + 0.5) / float(kKeyTaps)) * vec2(cos(angle), sin(angle));
-}
+const int kRimTaps = 4;
 
 vec3 toward_eye(vec3 point) { return orthographic > 0.5 ? -view_forward : normalize(eye - point); }
 
 // Share of the key light that reaches a point, tested beside the surface on the side that faces the light: a thin
-// sheet must neither shade itself nor let its shadow float.  `taps` = 0 skips the test where nothing casts shadows.
-float key_reaching(vec3 point, vec3 normal, int taps) {
+// sheet must neither shade itself nor let its shadow float.
+float key_reaching(vec3 point, vec3 normal) {
   float side = sign(dot(normal, to_light));
   vec3 p = (key_matrix * vec4(point + side * 2.0 * key_texel * normal, 1)).xyz * 0.5 + 0.5;
   float reach = kBlur / float(textureSize(key_map, 0).x);
   // Depth rises across the blurred disc on tilted surfaces.
-  float slack = 0.0006 * reach;
+  float depth = min(p.z - 0.0006 * reach, 1.0);
+  // Most pixels lie outside the map or wholly in light or shadow: five taps around the rim tell, and a software
+  // renderer, which pays for every tap, skips the rest.
+  vec2 off = abs(p.xy - 0.5);
+  int taps = max(off.x, off.y) < 0.5 ? kRimTaps : 0;
   float lit = 0.0;
-  for (int i = 0; i < taps; ++i)
-    lit += texture(key_map, vec3(p.xy + reach * spiral(i), min(p.z - slack, 1.0)));
+  vec2 spoke = vec2(reach, 0);
+  for (int i = 0; i < taps; ++i) {
+    // From the rim inward.
+    float radius = sqrt(1.0 - (float(i) + 0.5) / float(kKeyTaps));
+    lit += texture(key_map, vec3(p.xy + radius * spoke, depth));
+    spoke = kGoldenTurn * spoke;
+    if (i == kRimTaps - 1 && lit > 0.001 && lit < float(kRimTaps) - 0.001) taps = kKeyTaps;
+  }
   return taps > 0 ? lit / float(taps) : 1.0;
 }
 

@@ -1,0 +1,33 @@
+// The ground under a scene: a patch of the backdrop's paper that carries the scene's shadow.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "render/camera.h"
+#include "render/gl/handles.h"
+#include "render/gl/program.h"
+#include "render/shadow_maps.h"
+#include "render/static_mesh.h"
+
+namespace hysteron::render {
+
+class Ground {
+ public:
+  explicit Ground(const GlFunctions& gl);
+
+  // Computes the light on the ground at `height` [m] under casters in `box`; the shadow maps are up to date.
+  void update(const ShadowMaps& shadows, const Box& box, float height);
+  // The program that draws the patch, in use; the caller sets the camera and the backdrop.
+  const Program& begin() const;
+  void draw() const;
+
+ private:
+  const GlFunctions* gl_;
+  Program light_program_, program_;
+  StaticMesh mesh_;
+  GlTexture light_;
+  GlFramebuffer target_;
+  Eigen::Matrix4f placement_;
+};
+
+}  // namespace hysteron::render
