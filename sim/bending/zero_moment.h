@@ -5,6 +5,8 @@
 // 1991). Laws with a closed form use that instead.
 #pragma once
 
+#include <Eigen/LU>
+
 #include "sim/bending/law.h"
 
 namespace hysteron {
@@ -24,10 +26,12 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
     Vec<Real, D> newton = -(tangent.inverse() * here.moment);
     if (!(newton.norm() > kPrecision * curvature.norm())) break;
     const Real energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
+    const Real half_moment = here.moment.norm() / 2;  // decides where the energy differs by rounding only
     Real fraction = 1;
     for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
       here = law.step(Vec<Real, D>(curvature + fraction * newton), history);
       if (here.stored + here.dissipated <= energy + fraction * descent) break;
+      if (here.moment.norm() <= half_moment) break;
     }
     curvature += fraction * newton;
   }

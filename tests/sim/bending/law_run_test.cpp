@@ -1,0 +1,89 @@
+// One law driven through a list of curvatures: names, parameters, rows.
+#include "sim/bending/law_run.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/bending/prandtl_stack.h"
+#include "sim/error.h"
+#include "tests/sim/bending/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+std::vector<LawRow> rows(const std::vector<double>& curvatures) {
+  std::vector<LawRow> result;
+  for (double k : curvatures) result.push_back({k});
+  return result;
+}
+
+std::string refusal(const LawRequest& request) {
+  try {
+    run_law(request, rows({1.0}));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LawRun, KnowsTheFourteenNamesAndWhichAreBuilt) {
+  std::vector<std::string> names, built;
+  for (const LawEntry& law : law_catalogue()) {
+    names.push_back(law.name);
+    if (law.built) built.push_back(law.name);
+    EXPECT_FALSE(law.description.empty());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"linear", "bridson", "spring", "pabst", "bilinear", "wong",
+                                             "prandtl", "grinspun-edit", "terzopoulos", "obrien", "kim",
+                                             "narain", "dahl", "gong"}));
+  EXPECT_EQ(built, (std::vector<std::string>{"linear", "pabst", "wong", "prandtl"}));
+}
+
+TEST(LawRun, RefusesWhatIsUnknownOrNotBuiltInOneLine) {
+  const VirginCurve c = cotton_broad();
+  EXPECT_NE(refusal({"dahl", c, {}}).find("'dahl' is not built yet"), std::string::npos);
+  EXPECT_NE(refusal({"dhal", c, {}}).find("unknown law 'dhal'"), std::string::npos);
+  EXPECT_NE(refusal({"wong", c, {{"stops", 8.0}}}).find("unknown parameter stops = 8"), std::string::npos);
+  EXPECT_NE(refusal({"prandtl", c, {{"stack", 7.0}}}).find("stack = 7 must be"), std::string::npos);
+  EXPECT_NE(refusal({"prandtl", c, {{"memory", std::string("tape")}}}).find("memory = tape"),
+            std::string::npos);
+  EXPECT_NE(refusal({"wong", c, {{"recovery", 1.0}}}).find("recovery = 1"), std::string::npos);
+}
+
+TEST(LawRun, PrandtlMeansAStackOfSixtyFourAndAccumulatesWhatIsLost) {
+  const VirginCurve c = cotton_broad();
+  const auto turns = random_turns(100, 2 * c.k0, 71);
+  const LawRun run = run_law({"prandtl", c, {}}, rows(turns));
+  Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
+  for (size_t i = 0; i < turns.size(); ++i) {
+    const double slope = cloth.law.tangent(Vec<double, 1>(turns[i]), cloth.history)(0, 0);
+    ASSERT_EQ(run.moment[i], cloth.moment(turns[i]));
+    ASSERT_EQ(run.tangent[i], slope);
+    ASSERT_EQ(run.stored[i], cloth.last.stored);
+    ASSERT_EQ(run.dissipated[i], cloth.dissipated);
+  }
+}
+
+TEST(LawRun, TheFirstRowIsTheFirstCurvatureVisitedFromRest) {
+  const VirginCurve c = cotton_broad();
+  const LawRun run = run_law({"wong", c, {}}, rows({c.k0}));
+  constexpr double kRounding = 1e-15;
+  EXPECT_NEAR(run.moment[0], c.elastic_limit_moment(), kRounding);
+  EXPECT_NEAR(run.dissipated[0], 2. / 3 * c.friction_moment() * c.k0, kRounding);  // work of friction
+}
+
+TEST(LawRun, ParametersChooseTheMemoryAndTheRecovery) {
+  const VirginCurve c = cotton_broad();
+  const auto path = rows({0.5 * c.k0, 0.0});
+  const double m0 = c.friction_moment();
+  const LawRun stack = run_law({"prandtl", c, {}}, path);
+  const LawRun stops = run_law({"prandtl", c, {{"memory", std::string("stops")}, {"stops", 32.0}}}, path);
+  EXPECT_NE(stack.moment[1], stops.moment[1]);
+  EXPECT_NEAR(stack.moment[1], stops.moment[1], 4 * m0 / (4 * 32 * 32));
+  constexpr double kRounding = 1e-16;
+  EXPECT_NEAR(run_law({"wong", c, {{"recovery", std::string("reversible")}}}, path).moment[1], 0, kRounding);
+  EXPECT_LT(run_law({"wong", c, {}}, path).moment[1], -0.1 * m0);
+}
+
+}  // namespace
+}  // namespace hysteron::testing
