@@ -1,7 +1,7 @@
 # Sources of fabrics and scenes, relative to the project's root.
 # Needs: Eigen3::Eigen; Debian's libtomlplusplus-dev (headers only, included by toml_file.cpp alone) and
 # nlohmann-json3-dev (headers only; json_fwd.hpp in keys.h).  sim/scene/assets.cpp needs the compile definition
-# HYSTERON_SOURCE_DIR="${PROJECT_SOURCE_DIR}", set here for that file.
+# HYSTERON_SOURCE_DIR="${PROJECT_SOURCE_DIR}".
 set(HYSTERON_SCENE_SOURCES
     sim/scene/assets.cpp
     sim/scene/fabric_reader.cpp
@@ -10,5 +10,3 @@ set(HYSTERON_SCENE_SOURCES
     sim/scene/scene_checks.cpp
     sim/scene/scene_reader.cpp
     sim/scene/toml_file.cpp)
-set_source_files_properties(${PROJECT_SOURCE_DIR}/sim/scene/assets.cpp
-                            PROPERTIES COMPILE_DEFINITIONS "HYSTERON_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")

@@ -1,0 +1,49 @@
+// The subcommands of `hysteron`.  To add one: declare its function here, list it in experiments.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/options.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron::experiments {
+
+// What the user typed after `hysteron`, taken apart but not yet interpreted.
+struct CommandLine {
+  std::string experiment;   // "drape"
+  std::string command;      // the whole line, quoted for a shell, for the manifest
+  std::vector<Flag> flags;  // {"fabric.b2", "1e-5"}, in the order of the keys; bare flags have text "true"
+  std::vector<std::string> names;  // arguments that are no flags: files, folders
+};
+
+struct Experiment {
+  const char* name;
+  const char* question;                      // one line for --help
+  int (*run)(const CommandLine&) = nullptr;  // returns the exit code; null: announced, not built yet
+  bool simulates = false;                    // takes the keys of scenes and Options
+  std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
+  const char* names = "";  // what CommandLine::names are ("DIR"); "": not allowed
+};
+
+// All subcommands of the interface, in the order of --help.
+const std::vector<Experiment>& experiments();
+
+// A scene and options, resolved and checked: defaults < scene file < flags.  `own` are the experiment's own
+// keys, bound to its own struct.  Throws Error::request, Error::machine.
+struct Setup {
+  Scene scene;
+  Options options;
+};
+Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {});
+
+// Descriptions of bound keys, for Experiment::own_keys.
+std::vector<KeyDescription> descriptions(const Keys& keys);
+
+int law(const CommandLine& line);
+int list(const CommandLine& line);
+int report(const CommandLine& line);
+
+std::vector<KeyDescription> law_keys();
+
+}  // namespace hysteron::experiments

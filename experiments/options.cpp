@@ -1,0 +1,68 @@
+#include "experiments/options.h"
+
+#include <charconv>
+#include <utility>
+
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using O = Options;
+
+// clang-format off
+const KeyRow<Options> kRows[] = {
+    {"scene", at<&O::scene>, "", any(), "", "a scene of assets/scenes or a TOML file"},
+    {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
+    {"size", at<&O::size>, "", any(), "", "of pictures, WIDTHxHEIGHT pixels"},
+    {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
+    {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
+    {"no-images", at<&O::no_images>, "", any(), "", "no pictures"},
+    {"look", at<&O::look>, "", any(), "cloth | curvature | friction | wireframe | silhouette", "what pictures show"},
+    {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
+    {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
+    {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},
+    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question"},
+    {"resume", at<&O::resume>, "", any(), "", "go on from a checkpoint"},
+    {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
+    {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
+    {"json", at<&O::json>, "", any(), "", "the manifest on stdout"},
+};
+// clang-format on
+
+constexpr int kSmallestSide = 16;    // [pixels] captions need some room
+constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
+
+// {0, 0} if the text is no WIDTHxHEIGHT.
+std::pair<int, int> sides(const std::string& size) {
+  int width = 0, height = 0;
+  const char* end = size.data() + size.size();
+  const auto first = std::from_chars(size.data(), end, width);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') return {0, 0};
+  const auto second = std::from_chars(first.ptr + 1, end, height);
+  if (second.ec != std::errc() || second.ptr != end) return {0, 0};
+  return {width, height};
+}
+
+bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; }
+
+}  // namespace
+
+int Options::width() const { return sides(size).first; }
+int Options::height() const { return sides(size).second; }
+
+Keys bind_options(Options& options) { return bind(kRows, options); }
+
+void check_options(const Options& options) {
+  if (!drawable(options.width()) || !drawable(options.height())) {
+    throw Error::request("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +
+                         std::to_string(kSmallestSide) + ", " + std::to_string(kLargestSide) +
+                         "] pixels (--size)");
+  }
+  if (options.camera_direction.isZero(0)) {
+    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)");
+  }
+  if (options.resume) throw Error::request("--resume is not built yet");
+}
+
+}  // namespace hysteron::experiments

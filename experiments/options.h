@@ -1,0 +1,38 @@
+// What a run does besides simulating: pictures, folder, verbosity.  The same key table style as scenes.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "sim/scene/key_table.h"
+
+namespace hysteron::experiments {
+
+struct Options {
+  std::string scene;              // scene      NAME|FILE.toml, "" = the experiment's own
+  std::string out;                // out        folder of the results, "" = out/<experiment>
+  std::string size = "1280x720";  // size       of pictures, WIDTHxHEIGHT pixels
+  double fps = 30;                // fps        pictures per simulated second
+  std::string renderer = "auto";  // renderer   auto | egl | osmesa
+  bool no_images = false;         // no-images
+  std::string look = "cloth";     // look       what the pictures show
+  Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
+  double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
+  std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
+  bool quick = false;                                // quick      a small version of the same question
+  bool resume = false;                               // resume
+  bool explain = false;                              // explain    print what the scene includes, and stop
+  bool quiet = false;                                // quiet      no progress on stderr
+  bool json = false;                                 // json       the manifest on stdout
+
+  int width() const;   // [pixels], of `size`
+  int height() const;  // [pixels]
+};
+
+Keys bind_options(Options& options);
+
+// A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction, options that are not
+// built yet: Error::request.
+void check_options(const Options& options);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,36 @@
+// A time series on disk, growing row by row.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace hysteron::experiments {
+
+// CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a run can be
+// watched in FILE.part; the file gets its name in finish() or, after an exception elsewhere, on destruction.
+// A file that could not be written (full disk) never gets it.
+class Record {
+ public:
+  // Throws Error::machine if the file cannot be created or written, like the others below.
+  Record(std::filesystem::path file, const std::vector<std::string>& columns);
+  ~Record();
+  Record(const Record&) = delete;
+  Record& operator=(const Record&) = delete;
+
+  // One number per column, with 17 significant digits.
+  void row(const std::vector<double>& values);
+  void finish();
+
+ private:
+  void write_line(const std::string& line);
+
+  std::filesystem::path file_, growing_;
+  std::ofstream stream_;
+  std::size_t columns_;
+  bool whole_ = true;  // every row so far is on disk
+  bool finished_ = false;
+};
+
+}  // namespace hysteron::experiments

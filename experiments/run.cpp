@@ -1,0 +1,141 @@
+#include "experiments/run.h"
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+
+#include "experiments/version.h"
+#include "sim/atomic_file.h"
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const char* const kStages[] = {"membrane", "bending", "solve",  "contact",
+                               "history",  "render",  "encode", "io"};
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+// What is known at the start, in the order in which the manifest shows it.
+Json first_entries(const CommandLine& line, const Scene& scene) {
+  Json entries;
+  entries["hysteron"] = {{"version", kVersion}, {"commit", kGitCommit}, {"dirty", kGitDirty}};
+  entries["experiment"] = line.experiment;
+  entries["command"] = line.command;
+  entries["started"] = utc_now();
+  entries["scene"] = to_json(scene);
+  for (const char* key : {"device", "renderer"}) entries[key] = nullptr;
+  entries["precision"] = scene.precision;
+  entries["element"] = scene.element;
+  entries["law"] = scene.law;
+  for (const char* key : {"triangles", "hinges", "steps", "seconds_simulated"}) entries[key] = nullptr;
+  entries["wall_seconds"] = nullptr;
+  for (const char* key : {"bytes_device", "energy", "state_hash"}) entries[key] = nullptr;
+  return entries;
+}
+
+bool stays_inside(const fs::path& name) {
+  return name.is_relative() && !name.empty() && std::find(name.begin(), name.end(), "..") == name.end();
+}
+
+// An earlier run's pictures must not stand beside this run's.  Only what its manifest lists is removed.
+void remove_earlier_run(const fs::path& folder) {
+  std::ifstream stream(folder / "manifest.json");
+  const Json earlier = Json::parse(stream, nullptr, false);
+  if (!earlier.is_object() || !earlier.contains("hysteron") || !earlier.contains("files")) return;
+  for (const Json& name : earlier["files"]) {
+    std::error_code ignored;
+    if (!name.is_string() || !stays_inside(name.get<std::string>())) continue;
+    const fs::path file = folder / name.get<std::string>();
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
+}
+
+}  // namespace
+
+std::string program_version() {
+  return std::string(kVersion) + " (commit " + kGitCommit + (kGitDirty ? ", modified)" : ")");
+}
+
+Run::Run(const CommandLine& line, const Setup& setup)
+    : folder_(setup.options.out),
+      json_(setup.options.json),
+      quiet_(setup.options.quiet),
+      entries_(first_entries(line, setup.scene)) {
+  make_folder(folder_);
+  remove_earlier_run(folder_);
+  write_manifest(false);
+}
+
+Run::~Run() {
+  if (finished_) return;
+  try {
+    write_manifest(false);
+  } catch (const Error& error) {
+    // The exception that ended the run is on its way; this one can only be mentioned.
+    std::cerr << "hysteron: " << error.what() << std::endl;
+  }
+}
+
+fs::path Run::path(const std::string& name) {
+  const fs::path file = folder_ / name;
+  make_folder(file.parent_path());
+  if (!std::count(files_.begin(), files_.end(), name)) files_.push_back(name);
+  return file;
+}
+
+void Run::note(const std::string& key, Json value) { entries_[key] = std::move(value); }
+
+void Run::metric(const std::string& name, Json value) { metrics_[name] = std::move(value); }
+
+void Run::energy(const std::vector<std::pair<std::string, double>>& terms) {
+  entries_["energy"] = Json::object();
+  for (const auto& [name, joules] : terms) entries_["energy"][name] = joules;
+}
+
+void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
+
+void Run::progress(const std::string& line) const {
+  if (!quiet_) std::cerr << line << std::endl;
+}
+
+Json Run::manifest(bool complete) const {
+  Json all = entries_;
+  Json& seconds = all["wall_seconds"];
+  seconds["total"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  for (const char* stage : kStages) seconds[stage] = 0.0;
+  for (const auto& [stage, spent] : seconds_) seconds[stage] = spent;
+  all["metrics"] = metrics_;
+  all["files"] = files_;
+  all["complete"] = complete;
+  return all;
+}
+
+void Run::write_manifest(bool complete) const {
+  AtomicFile file((folder_ / "manifest.json").string());
+  file.stream() << manifest(complete).dump(2) << "\n";
+  file.commit();
+}
+
+void Run::finish() {
+  write_manifest(true);
+  finished_ = true;
+  if (json_) std::cout << manifest(true).dump(2) << std::endl;
+}
+
+}  // namespace hysteron::experiments

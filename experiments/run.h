@@ -1,0 +1,83 @@
+// A run's folder and its manifest.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/experiments.h"
+
+namespace hysteron::experiments {
+
+using Json = nlohmann::ordered_json;
+
+// "0.1.0 (commit 1f3a..., modified)"
+std::string program_version();
+
+// Keeps what a run is and has found, and writes it as OUT/manifest.json: at the start (so that an unwritable
+// folder is known before any simulation), and at the end.  A run that is destroyed without finish(), because
+// of an exception, keeps its files and a manifest with "complete": false.
+class Run {
+ public:
+  // Creates the folder.  Files that an earlier run listed in its manifest there are removed.  Throws
+  // Error::machine.
+  Run(const CommandLine& line, const Setup& setup);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
+  // in the manifest.
+  std::filesystem::path path(const std::string& name);
+
+  // Entries of the manifest's top level: device, renderer, triangles, hinges, steps, seconds_simulated,
+  // bytes_device, state_hash, and others.
+  void note(const std::string& key, Json value);
+  // A result.  Its name ends in its unit, counts and booleans excepted: "drape_coefficient_percent".
+  void metric(const std::string& name, Json value);
+  // The ledger's closing balance, term by term [J].
+  void energy(const std::vector<std::pair<std::string, double>>& terms);
+
+  // Adds to wall_seconds of a stage (membrane, bending, solve, contact, history, render, encode, io, or
+  // other).
+  void add_seconds(const std::string& stage, double seconds);
+  // Measures from now until the end of the returned object's life.
+  class Stage {
+   public:
+    Stage(Run& run, std::string name) : run_(run), name_(std::move(name)) {}
+    ~Stage() { run_.add_seconds(name_, std::chrono::duration<double>(Clock::now() - start_).count()); }
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    Run& run_;
+    std::string name_;
+    Clock::time_point start_ = Clock::now();
+  };
+  [[nodiscard]] Stage stage(const std::string& name) { return {*this, name}; }
+
+  // A line of progress on stderr, unless --quiet.
+  void progress(const std::string& line) const;
+
+  // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::machine.
+  void finish();
+
+ private:
+  Json manifest(bool complete) const;
+  void write_manifest(bool complete) const;
+
+  std::filesystem::path folder_;
+  bool json_, quiet_, finished_ = false;
+  Json entries_;  // of the manifest, in its order; null where not known
+  Json metrics_ = Json::object();
+  std::map<std::string, double> seconds_;
+  std::vector<std::string> files_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace hysteron::experiments
