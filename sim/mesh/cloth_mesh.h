@@ -82,8 +82,8 @@ ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily 
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed);
 // Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius` and
 // evenly spaced.  Inside, the structured families are their lattice, axes along x and y, as far as 0.8 of its
-// spacing from the circle; a Delaunay triangulation joins it to the ring (angles above 22 degrees).  About
-// `triangles` triangles: within 3 % from 50 on.  Errors as make_rectangle.
+// spacing from the circle; a Delaunay triangulation joins it to the ring (angles above 28 degrees from 50
+// triangles on).  About `triangles` triangles: within 5 % or 8 triangles.  Errors as make_rectangle.
 ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned seed);
 
 // Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture

@@ -40,6 +40,13 @@ Error bad_line(const std::string& what, int line, const std::string& problem) {
   return Error::request(what + ": line " + std::to_string(line) + ": " + problem);
 }
 
+void check_weld(double distance, const std::string& what) {
+  if (distance >= 0 && std::isfinite(distance)) return;
+  std::ostringstream text;
+  text << what << ": weld = " << distance << " m must be >= 0";
+  throw Error::request(text.str());
+}
+
 std::string read_text(const std::string& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
@@ -229,8 +236,7 @@ void take_pattern(const std::vector<std::array<Uv, 3>>& uv, ClothMesh& mesh) {
 
 ClothMesh read_obj(const std::string& file, double weld) {
   MeshNames names{"mesh " + file, {}, {}};
-  if (!(weld >= 0) || !std::isfinite(weld))
-    throw Error::request(names.what + ": weld = " + std::to_string(weld) + " m must be >= 0");
+  check_weld(weld, names.what);
   const std::string text = read_text(file);
   const Lines lines = scan(text, names.what);
   const Faces faces(text, names.what, lines);

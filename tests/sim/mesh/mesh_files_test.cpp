@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "tests/sim/mesh/mesh_measures.h"
+
+namespace hysteron {
+namespace {
+
+using test::Folder;
+
+TEST(ObjFile, RoundTripKeepsEveryBit) {
+  const Folder folder;
+  const ClothMesh mesh = make_disc(0.15, 300, MeshFamily::random, 2);
+  write_obj(folder.file("disc.obj"), mesh, mesh.rest);
+  EXPECT_EQ(test::fingerprint(read_obj(folder.file("disc.obj"), 0)), test::fingerprint(mesh));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"disc.obj"});
+}
+
+TEST(ObjFile, WritesThePositionsGivenNotTheRestShape) {
+  const Folder folder;
+  const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
+  std::vector<Eigen::Vector3d> position = mesh.rest;
+  for (auto& x : position) x.z() += 2.5;
+  write_obj(folder.file("up.obj"), mesh, position);
+  for (const auto& x : read_obj(folder.file("up.obj"), 0).rest) EXPECT_EQ(x.z(), 2.5);
+}
+
+TEST(ObjFile, PatternTravelsAsTextureCoordinates) {
+  const Folder folder;
+  ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::unionjack, 0);
+  for (const auto& x : mesh.rest) mesh.pattern.emplace_back(x.y(), -x.x());  // warp along y
+  write_obj(folder.file("turned.obj"), mesh, mesh.rest);
+  const ClothMesh read = read_obj(folder.file("turned.obj"), 0);
+  ASSERT_EQ(read.pattern.size(), mesh.pattern.size());
+  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_EQ(read.pattern[v], mesh.pattern[v]);
+  for (int f = 0; f < read.faces(); ++f)
+    EXPECT_NEAR((read.face_axes(f)[0] - Eigen::Vector3d(0, 1, 0)).norm(), 0, 1e-15);
+}
+
+TEST(ObjFile, QuadIsCutAlongItsShorterDiagonal) {
+  const Folder folder;
+  const std::string file = folder.write("kite.obj", "v -1 0 0\nv 0 -3 0\nv 1 0 0\nv 0 3 0\nf 1 2 3 4\n");
+  const ClothMesh mesh = read_obj(file, 0);
+  ASSERT_EQ(mesh.interior_edges, 1);
+  EXPECT_EQ((mesh.rest[mesh.edge[0].p3] - mesh.rest[mesh.edge[0].p2]).norm(), 2);
+}
+
+TEST(ObjFile, DentedQuadIsCutAlongTheDiagonalInsideIt) {
+  const Folder folder;
+  for (const char* faces : {"f 1 2 3 4\n", "f 2 3 4 1\n"}) {  // arrow head; the short diagonal is outside
+    const std::string file =
+        folder.write("arrow.obj", std::string("v -1 0 0\nv 0 1 0\nv 1 0 0\nv 0 5 0\n") + faces);
+    const ClothMesh mesh = read_obj(file, 0);
+    EXPECT_EQ(test::total_area(mesh), 5 - 1);
+  }
+}
+
+TEST(ObjFile, GroupsCommentsRelativeIndicesNormalsAndCarriageReturnsAreUnderstood) {
+  const Folder folder;
+  const std::string file = folder.write("exported.obj",
+                                        "# exported\r\nmtllib none.mtl\r\no front\r\nv 0 0 0\r\nv +1 0 0\r\n"
+                                        "v 0 1e0 0\r\nvn 0 0 1\r\ng a\r\nusemtl red\r\nf 1//1 2//1 3//1\r\n"
+                                        "o back\r\nv 1 1 0\r\nf -2 -3 -1\r\n");
+  const ClothMesh mesh = read_obj(file, 0);
+  EXPECT_EQ(mesh.faces(), 2);
+  EXPECT_EQ(test::total_area(mesh), 1);
+  EXPECT_TRUE(mesh.pattern.empty());
+}
+
+// Two panels whose edge is stored twice, as exporters write at a seam of the texture.
+const char* const kSeam =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+    "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1.0000004 0\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "f 1/1 2/2 3/3 4/4\n"
+    "f 5/2 6/3 7/4 8/1\n";
+
+TEST(ObjFile, SeamStaysOpenWithoutWeldingAndCarriesAPattern) {
+  const Folder folder;
+  const ClothMesh mesh = read_obj(folder.write("seam.obj", kSeam), 0);
+  EXPECT_EQ(mesh.vertices(), 8);
+  EXPECT_EQ(mesh.interior_edges, 2);  // the quads' diagonals
+  EXPECT_EQ(mesh.pattern.size(), 8u);
+}
+
+TEST(ObjFile, WeldingClosesTheSeamAndKeepsEachSidesWarp) {
+  const Folder folder;
+  const ClothMesh mesh = read_obj(folder.write("seam.obj", kSeam), 1e-6);
+  EXPECT_EQ(mesh.vertices(), 6);
+  EXPECT_EQ(mesh.interior_edges, 3);
+  EXPECT_EQ(test::euler_characteristic(mesh), 1);
+  EXPECT_TRUE(mesh.pattern.empty());
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const Eigen::Vector3d expected = f < 2 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, -1, 0);
+    EXPECT_NEAR((mesh.face_axes(f)[0] - expected).norm(), 0, 1e-6);  // the seam's gap
+  }
+}
+
+template <class T>
+T take(const std::string& bytes, std::size_t& at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  at += sizeof(T);
+  return value;
+}
+
+TEST(PlyFile, HoldsPositionsCurvatureAndTriangles) {
+  const Folder folder;
+  const ClothMesh mesh = make_grid(1, 0.5, 3, 2, MeshFamily::aligned, 0);
+  std::vector<double> curvature;
+  for (int v = 0; v < mesh.vertices(); ++v) curvature.push_back(0.1 * v);
+  write_ply(folder.file("a.ply"), mesh, mesh.rest, curvature);
+  const std::string bytes = test::content_of(folder.file("a.ply"));
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 12\nproperty double x\nproperty double y\n"
+      "property double z\nproperty double curvature\nelement face 12\nproperty list uchar int "
+      "vertex_indices\n"
+      "end_header\n";
+  ASSERT_EQ(bytes.substr(0, header.size()), header);
+  ASSERT_EQ(bytes.size(), header.size() + 12 * 4 * 8 + 12 * (1 + 3 * 4));
+  std::size_t at = header.size();
+  for (int v = 0; v < 12; ++v) {
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(take<double>(bytes, at), mesh.rest[v][i]);
+    EXPECT_EQ(take<double>(bytes, at), curvature[v]);
+  }
+  for (int f = 0; f < 12; ++f) {
+    EXPECT_EQ(take<std::uint8_t>(bytes, at), 3);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(take<std::int32_t>(bytes, at), mesh.face[f][i]);
+  }
+}
+
+TEST(PlyFile, WithoutValuesHasNoCurvature) {
+  const Folder folder;
+  const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
+  write_ply(folder.file("a.ply"), mesh, mesh.rest, {});
+  EXPECT_EQ(test::content_of(folder.file("a.ply")).find("curvature"), std::string::npos);
+}
+
+TEST(MeshWriters, FailingOnesNameTheFileAndLeaveNothing) {
+  const Folder folder;
+  const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
+  const std::string file = folder.file("missing/frame.obj");
+  const Error error = test::error_of([&] { write_obj(file, mesh, mesh.rest); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_EQ(std::string(error.what()), "cannot create " + file + ": No such file or directory");
+  const Error counts = test::error_of([&] { write_ply(folder.file("a.ply"), mesh, mesh.rest, {1.0}); });
+  EXPECT_EQ(counts.exit_code(), 2);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace hysteron
