@@ -10,7 +10,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr float kMargin = 1.06f;  // free border around what is framed
+constexpr float kMargin = 1.02f;  // free border around what is framed
 
 // Rows: right, up, backward of a camera that looks along `forward`.
 Eigen::Matrix3f view_axes(const Eigen::Vector3f& forward, const Eigen::Vector3f& up) {

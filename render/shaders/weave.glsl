@@ -46,14 +46,15 @@ Weave weave_at(vec2 coordinates) {
   float crown = cos(3.14159265 * g.y) * (0.65 + 0.35 * cos(3.14159265 * g.x));
   result.shade *= mix(1.0, 0.72 + 0.45 * crown, near);
 
-  // Uneven yarn: single threads, then bundles of four and sixteen.
-  float scale = 1.0;
+  // Uneven yarn: single threads, then bundles of three and nine.
+  float scale = 1.0, strength = 0.10 * weave_strength;
   for (int octave = 0; octave < 3; ++octave) {
     vec2 q = p / scale, w = across / scale;
     float warp = visible(w.y) * streaks(vec2(q.x / 24.0, q.y), octave);
     float weft = visible(w.x) * streaks(vec2(q.y / 24.0, q.x), octave + 3);
-    result.shade *= 1.0 + weave_strength * 0.05 * (warp + weft);
-    scale *= 4.0;
+    result.shade *= 1.0 + strength * (warp + weft);
+    scale *= 3.0;
+    strength *= 0.6;
   }
   return result;
 }

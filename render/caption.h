@@ -1,0 +1,52 @@
+// Lettering on pictures: captions, scale bars, colour bars.  Everything is drawn on the CPU into an Image and grows
+// with its height, so that a thumbnail and a print carry the same proportions.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "render/color_map.h"
+#include "render/image.h"
+
+namespace hysteron::render {
+
+enum class Corner { top_left, top_right, bottom_left, bottom_right };
+
+// Colour and letter height (capital's, in pixels) of a text.
+struct TextStyle {
+  Rgb8 color{38, 40, 44};
+  float size = 16;
+};
+
+// Letter height and margin that suit a picture: 1/45 and 1/30 of its height, at least 9 pixels of letters.
+float text_size(const Image& image);
+int margin(const Image& image);
+
+// Width of one line in pixels.  Text is UTF-8; what the font lacks is drawn as its empty box.
+float text_width(std::string_view text, float size);
+// One line with the left end of its baseline at (x, y), blended in linear light.
+void draw_text(Image& image, std::string_view text, float x, float y, const TextStyle& style);
+// Filled rectangle; edges may fall between pixels.
+void draw_rectangle(Image& image, float left, float top, float right, float bottom, const Rgb8& color);
+
+// Lines ('\n') in a corner; the first line is set a little larger.
+void draw_caption(Image& image, std::string_view text, Corner corner);
+
+// The length 1, 2 or 5 times a power of ten [m] whose bar is nearest to a sixth of the picture's width.
+double scale_bar_length(const Image& image, double metres_per_pixel);
+// A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's centre").
+// Returns the bar's length in pixels.  Error::request if metres_per_pixel is not positive.
+double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std::string_view note = "");
+
+struct ColorBar {
+  ColorMap map = ColorMap::diverging;
+  double low = -1, high = 1;  // values at the ends
+  std::string label;          // what is shown, e.g. "curvature"
+  std::string unit;           // e.g. "1/m"; empty for a pure number
+  int ticks = 5;              // at equal steps, both ends included, at least 2
+};
+
+// Horizontal bar with ticks, label and unit.  Error::request unless low < high.
+void draw_color_bar(Image& image, const ColorBar& bar, Corner corner);
+
+}  // namespace hysteron::render

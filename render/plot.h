@@ -1,0 +1,40 @@
+// Line plots, drawn by gnuplot (a process of its own) as PNG and SVG.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hysteron::render {
+
+struct Series {
+  std::string label;  // empty: not in the key
+  std::vector<double> x, y;
+  enum class Style { line, points, line_and_points, dashed } style = Style::line;
+};
+
+struct Axis {
+  std::string label;  // with its unit: "curvature [1/m]"
+  bool logarithmic = false;
+  double low = 0, high = 0;  // low == high: from the data
+};
+
+struct Plot {
+  std::string title;
+  Axis x, y;
+  std::vector<Series> series;
+  int width = 1200, height = 800;  // of the PNG [pixels]
+  bool equal_scales = false;       // one unit is as long along x as along y: outlines
+};
+
+// Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
+// Error::request if the file or a column is missing or a cell is no number (the line is named); empty cells are gaps.
+Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
+                       const std::string& label);
+
+// Writes BASE.png and BASE.svg, each whole or not at all.  Numbers that are not finite make gaps.
+// Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to draw or x
+// and y differ in length.
+void write_plot(const std::filesystem::path& base, const Plot& plot);
+
+}  // namespace hysteron::render
