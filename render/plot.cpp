@@ -24,7 +24,7 @@ std::string number(double value) {
 }
 
 // A gnuplot string: single quotes are doubled, line ends become spaces.
-std::string quoted(const std::string& text) {
+std::string gnuplot_string(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
   return result + "'";
@@ -57,7 +57,7 @@ std::string label_text(const std::string& text) {
     if (std::string_view("_^@&~{}\\").find(c) != std::string_view::npos) plain += '\\';
     plain += c;
   }
-  return quoted(plain);
+  return gnuplot_string(plain);
 }
 
 std::string axis_commands(const char* name, const Axis& axis) {
@@ -104,7 +104,7 @@ std::string output_commands(const char* terminal, int width, int height, double 
                             const std::filesystem::path& file) {
   return std::string("set terminal ") + terminal + " enhanced size " + std::to_string(width) + "," +
          std::to_string(height) + " font 'DejaVu Sans," + number(letters) + "' background rgb 'white'\nset output " +
-         quoted(file.string()) + "\n";
+         gnuplot_string(file.string()) + "\n";
 }
 
 // The SVG gets the same page in its own units, so that both look alike.
