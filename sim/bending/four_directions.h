@@ -4,10 +4,11 @@
 //   nu(n) = (n_x^2, n_y^2, sqrt2 n_x n_y),   n_d at 22.5 + 45 d degrees, t_d across it
 //
 // beta = -(sqrt2 - 1)^2 = -tan^2(22.5 deg) makes a bend along x or y excite two directions and leave the
-// other two at exactly zero, and makes omega/4 sum w_d w_d^T a multiple of the identity (omega s^2 (1 -
-// beta)^2/4). s and omega are chosen here so that aligned bends follow the scalar law within 0.4 % and a bend
-// in the worst direction within 5 % of its largest moment.  Moment and energy derive from the same sum, so
-// that M . dS = omega/4 sum M_d dK_d exactly.
+// other two at exactly zero, and makes omega/4 sum w_d w_d^T = omega s^2 (1 - beta)^2/4 I, 0.9995 I here.
+// s and omega are chosen here so that bends along x, y and both diagonals follow the scalar law within 0.4 %.
+// In between friction is overrated: fully slipping it is omega s/2 = 1.21 M0 along a direction n_d.  That
+// ratio to its value along x, (1 + sqrt2)/2, is the same for any s and omega; it costs at most 6 % of the
+// moment of cotton broad.  Moment and energy derive from one sum, so that M . dS = omega/4 sum M_d dK_d.
 #pragma once
 
 #include <cmath>

@@ -6,9 +6,11 @@
 #ifdef __CUDACC__
 #define HYST_HD __host__ __device__
 #define HYST_KERNEL [=] __device__
+#define HYST_NOINLINE __noinline__
 #else
 #define HYST_HD
 #define HYST_KERNEL [=]
+#define HYST_NOINLINE __attribute__((noinline))  // large functions that several loops share: compile time
 #endif
 
 namespace hysteron {

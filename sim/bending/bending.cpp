@@ -1,0 +1,199 @@
+#include "sim/bending/bending.h"
+
+#include <numeric>
+
+namespace hysteron {
+
+namespace {
+
+template <class Real>
+std::vector<Real> cast(const std::vector<double>& values) {
+  return std::vector<Real>(values.begin(), values.end());
+}
+
+std::vector<Eigen::Vector4i> hinge_corners(const ClothMesh& mesh) {
+  std::vector<Eigen::Vector4i> corners;
+  for (int i = 0; i < mesh.interior_edges; ++i) {
+    const Edge& e = mesh.edge[i];
+    corners.emplace_back(e.p0, e.p1, e.p2, e.p3);
+  }
+  return corners;
+}
+
+Adjacency vertex_hinges(const ClothMesh& mesh) {
+  const std::vector<Eigen::Vector4i> corners = hinge_corners(mesh);
+  Adjacency a;
+  a.start.assign(mesh.vertices() + 1, 0);
+  for (const auto& c : corners)
+    for (int k = 0; k < 4; ++k) ++a.start[c[k] + 1];
+  std::partial_sum(a.start.begin(), a.start.end(), a.start.begin());
+  a.item.resize(4 * corners.size());
+  std::vector<int> next(a.start.begin(), a.start.end() - 1);
+  for (std::size_t h = 0; h < corners.size(); ++h)
+    for (int k = 0; k < 4; ++k) a.item[next[corners[h][k]]++] = static_cast<int>(4 * h + k);
+  return a;
+}
+
+// The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1), kept as printed: a factor 1/2, no |e|, and
+// one common t for both forces, which breaks angular momentum unless t = 1/2.
+template <class Real>
+HYST_HD void chapter_forces(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2,
+                            const Vec3<Real>& p3, Real moment, Vec3<Real>* force) {
+  const Vec3<Real> e = p3 - p2;
+  const Real t0 = e.dot(p0 - p2) / e.dot(e), t1 = e.dot(p1 - p2) / e.dot(e);
+  const Vec3<Real> l0 = p0 - (p2 + t0 * e), l1 = p1 - (p2 + t1 * e);
+  const Real h0 = l0.norm(), h1 = l1.norm(), t = t0 + (t1 - t0) * h0 / (h0 + h1);
+  force[0] = -(moment / (2 * h0)) * e.cross(l0).normalized();
+  force[1] = -(moment / (2 * h1)) * l1.cross(e).normalized();
+  force[2] = -(t * force[0] + (1 - t) * force[1]);
+  force[3] = -((1 - t) * force[0] + t * force[1]);
+}
+
+}  // namespace
+
+template <class Real, class Device>
+Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const CurvatureOperator& op,
+                               std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention)
+    : device_(device), dimension_(op.dimension), elements_(op.elements()), hinges_(mesh.interior_edges),
+      convention_(convention), law_(std::move(law)), area_(device, cast<Real>(op.area)),
+      coefficient_(device, cast<Real>(op.coefficient)), transposed_(device, cast<Real>(op.transposed)),
+      rest_angle_(device, cast<Real>(op.rest_angle)), row_start_(device, op.hinge.start),
+      row_hinge_(device, op.hinge.item), column_start_(device, op.element.start),
+      column_element_(device, op.element.item), corner_(device, hinge_corners(mesh)),
+      angle_(device, hinges_), gradient_(device, 8 * static_cast<std::size_t>(hinges_)),
+      moment_area_(device, static_cast<std::size_t>(elements_) * dimension_),
+      force_(device, 4 * static_cast<std::size_t>(hinges_)), energy_(device, elements_) {
+  const Adjacency a = vertex_hinges(mesh);
+  vertex_start_ = Buffer<int, Device>(device, a.start);
+  vertex_item_ = Buffer<int, Device>(device, a.item);
+}
+
+template <class Real, class Device>
+OperatorView<Real> Bending<Real, Device>::view() const {
+  return {elements_, area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data()};
+}
+
+template <class Real, class Device>
+BendingForceView<Real> Bending<Real, Device>::forces() const {
+  return {vertex_start_.data(), vertex_item_.data(), force_.data()};
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::commit(const Vec3<Real>* position) {
+  compute_angles(position);
+  law_->commit(device_, view(), angle_.data(), moment_area_.data());
+  compute_forces(position);
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::compute_angles(const Vec3<Real>* x) {
+  const Eigen::Vector4i* corner = corner_.data();
+  const Real* rest = rest_angle_.data();
+  Real* change = angle_.data();
+  Real* gradient = gradient_.data();
+  for_each(device_, "bending angles", hinges_, HYST_KERNEL(int h) {
+    const Eigen::Vector4i c = corner[h];
+    const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
+    change[h] = continued_angle(a.theta, change[h] + rest[h]) - rest[h];
+    Real* g = gradient + 8 * h;
+    for (int k = 0; k < 3; ++k) {
+      g[k] = a.g0[k];
+      g[3 + k] = a.g1[k];
+    }
+    g[6] = a.t0;
+    g[7] = a.t1;
+  });
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::compute_forces(const Vec3<Real>* x) {
+  const Eigen::Vector4i* corner = corner_.data();
+  const int d = dimension_;
+  const int *start = column_start_.data(), *element = column_element_.data();
+  const Real *coefficient = transposed_.data(), *moment_area = moment_area_.data();
+  const Real *gradient = gradient_.data(), *area = area_.data();
+  Vec3<Real>* force = force_.data();
+  if (convention_ == ForceConvention::chapter) {
+    for_each(device_, "bending forces as printed", hinges_, HYST_KERNEL(int h) {
+      const Eigen::Vector4i c = corner[h];
+      chapter_forces<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]], moment_area[h] / area[h], force + 4 * h);
+    });
+    return;
+  }
+  for_each(device_, "bending forces", hinges_, HYST_KERNEL(int h) {
+    Real torque = 0;
+    for (int j = start[h]; j < start[h + 1]; ++j)
+      for (int k = 0; k < d; ++k) torque += coefficient[j * d + k] * moment_area[element[j] * d + k];
+    const Real* g = gradient + 8 * h;
+    const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
+    const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
+    const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1);
+    force[4 * h] = f0;
+    force[4 * h + 1] = f1;
+    force[4 * h + 2] = -(f0 + f1 + f3);
+    force[4 * h + 3] = f3;
+  });
+}
+
+template <class Real, class Device>
+double Bending<Real, Device>::stored_energy() {
+  law_->stored(device_, view(), angle_.data(), energy_.data());
+  const std::vector<double> energy = energy_.download();
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+template <class Real, class Device>
+double Bending<Real, Device>::dissipated_energy() {
+  if (!law_->dissipated()) return 0;
+  std::vector<double> energy(elements_);
+  device_download(device_, energy.data(), law_->dissipated(), energy.size() * sizeof(double));
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::curvature() {
+  Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
+  const OperatorView<Real> op = view();
+  const Real* angle = angle_.data();
+  Real* k = result.data();
+  if (dimension_ == 1) {
+    for_each(device_, "curvature", elements_, HYST_KERNEL(int i) { k[i] = op.template curvature<1>(i, angle)[0]; });
+  } else {
+    for_each(device_, "curvature", elements_, HYST_KERNEL(int i) {
+      const Vec<Real, 3> s = op.template curvature<3>(i, angle);
+      for (int c = 0; c < 3; ++c) k[3 * i + c] = s[c];
+    });
+  }
+  const std::vector<Real> values = result.download();
+  return {values.begin(), values.end()};
+}
+
+template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::residual_curvature() {
+  Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
+  law_->residual(device_, elements_, result.data());
+  const std::vector<Real> values = result.download();
+  return {values.begin(), values.end()};
+}
+
+template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::slip() {
+  Buffer<Real, Device> result(device_, elements_);
+  law_->slip(device_, view(), angle_.data(), result.data());
+  const std::vector<Real> values = result.download();
+  return {values.begin(), values.end()};
+}
+
+template <class Real, class Device>
+std::size_t Bending<Real, Device>::bytes() const {
+  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() + rest_angle_.bytes() +
+                                   row_start_.bytes() + row_hinge_.bytes() + column_start_.bytes() +
+                                   column_element_.bytes();
+  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
+         gradient_.bytes() + moment_area_.bytes() + force_.bytes() + energy_.bytes();
+}
+
+template class Bending<double, ThisDevice>;
+template class Bending<float, ThisDevice>;
+
+}  // namespace hysteron

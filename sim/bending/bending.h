@@ -1,0 +1,75 @@
+// Bending of a whole cloth: angles -> curvatures -> law -> torques -> forces, on one device.
+#pragma once
+
+#include <memory>
+
+#include "sim/bending/angle.h"
+#include "sim/bending/law_loop.h"
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// Forces on the vertices, gathered in a fixed order from four forces per hinge.
+template <class Real>
+struct BendingForceView {
+  const int* start;         // rows: vertices
+  const int* item;          // 4*hinge + slot (p0, p1, p2, p3)
+  const Vec3<Real>* force;  // [N]
+  HYST_HD Vec3<Real> at(int vertex) const {
+    Vec3<Real> f = Vec3<Real>::Zero();
+    for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
+    return f;
+  }
+};
+
+enum class ForceConvention { energy, chapter };
+
+template <class Real, class Device>
+class Bending {
+ public:
+  Bending(Device& device, const ClothMesh& mesh, const CurvatureOperator& op,
+          std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention);
+
+  // Accepts the positions: angles continued, history committed, hinge forces ready in forces().
+  void commit(const Vec3<Real>* position);
+  BendingForceView<Real> forces() const;
+
+  // Measurements of the last accepted state; they change nothing.
+  double stored_energy();                  // [J]
+  double dissipated_energy();              // since the start [J]
+  std::vector<double> curvature();         // D per element [1/m]
+  std::vector<double> residual_curvature();  // D per element [1/m]
+  std::vector<double> slip();              // per element, 0..1
+  int dimension() const { return dimension_; }
+  int elements() const { return elements_; }
+  const LawLoop<Real, Device>& law() const { return *law_; }
+  std::size_t bytes() const;  // without the law's history
+
+  // The parts of commit(); public because nvcc allows no device lambda in a private member function.
+  void compute_angles(const Vec3<Real>* position);
+  void compute_forces(const Vec3<Real>* position);
+
+ private:
+  OperatorView<Real> view() const;
+
+  Device& device_;
+  int dimension_, elements_, hinges_;
+  ForceConvention convention_;
+  std::unique_ptr<LawLoop<Real, Device>> law_;
+  Buffer<Real, Device> area_, coefficient_, transposed_, rest_angle_;
+  Buffer<int, Device> row_start_, row_hinge_, column_start_, column_element_;
+  Buffer<Eigen::Vector4i, Device> corner_;   // p0, p1, p2, p3 of each hinge
+  Buffer<int, Device> vertex_start_, vertex_item_;
+  Buffer<Real, Device> angle_;               // continued angle minus rest angle [rad]
+  Buffer<Real, Device> gradient_;            // 8 Reals per hinge: g0, g1, t0, t1
+  Buffer<Real, Device> moment_area_;         // A M, D per element [N m^2]
+  Buffer<Vec3<Real>, Device> force_;         // 4 per hinge [N]
+  Buffer<double, Device> energy_;            // per element, scratch of measurements
+};
+
+// Largest eigenvalue of M^-1 J^T C^T A b C J at rest: the square of the highest bending frequency [1/s^2].
+// `held` vertices do not move.
+double bending_spectral_radius(const ClothMesh& mesh, const CurvatureOperator& op, double stiffness,
+                               const std::vector<double>& mass, const std::vector<char>& held);
+
+}  // namespace hysteron

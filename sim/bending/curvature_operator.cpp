@@ -1,0 +1,59 @@
+#include "sim/bending/curvature_operator.h"
+
+#include "sim/bending/angle.h"
+#include "sim/error.h"
+
+namespace hysteron {
+
+std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position) {
+  std::vector<double> angles(mesh.interior_edges);
+  for (int i = 0; i < mesh.interior_edges; ++i) {
+    const Edge& e = mesh.edge[i];
+    angles[i] =
+        dihedral_angle<double>(position[e.p0], position[e.p1], position[e.p2], position[e.p3]).theta;
+  }
+  return angles;
+}
+
+void transpose_rows(CurvatureOperator& op, int hinges) {
+  const int d = op.dimension, items = static_cast<int>(op.hinge.item.size());
+  op.element.start.assign(hinges + 1, 0);
+  for (int hinge : op.hinge.item) ++op.element.start[hinge + 1];
+  for (int h = 0; h < hinges; ++h) op.element.start[h + 1] += op.element.start[h];
+  op.element.item.resize(items);
+  op.transposed.resize(static_cast<std::size_t>(items) * d);
+  std::vector<int> next(op.element.start.begin(), op.element.start.end() - 1);
+  for (int i = 0; i < op.elements(); ++i)
+    for (int j = op.hinge.start[i]; j < op.hinge.start[i + 1]; ++j) {
+      const int to = next[op.hinge.item[j]]++;
+      op.element.item[to] = i;
+      for (int k = 0; k < d; ++k) op.transposed[to * d + k] = op.coefficient[j * d + k];
+    }
+}
+
+CurvatureOperator make_hinge_operator(const ClothMesh& mesh) {
+  CurvatureOperator op;
+  op.dimension = 1;
+  op.rest_angle = hinge_angles(mesh, mesh.rest);
+  op.hinge.start.push_back(0);
+  for (int i = 0; i < mesh.interior_edges; ++i) {
+    const Edge& e = mesh.edge[i];
+    const double length = (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
+    const double height = (mesh.face_area[e.face0] + mesh.face_area[e.face1]) / length;  // (h0 + h1)/2
+    op.area.push_back(length * height);
+    op.coefficient.push_back(1 / height);
+    op.hinge.item.push_back(i);
+    op.hinge.start.push_back(i + 1);
+  }
+  transpose_rows(op, mesh.interior_edges);
+  return op;
+}
+
+CurvatureOperator make_curvature_operator(const std::string& element, const ClothMesh& mesh,
+                                          const std::vector<char>& held) {
+  if (element == "hinge") return make_hinge_operator(mesh);
+  if (element == "shape") return make_shape_operator(mesh, held);
+  throw Error::request("element = " + element + " is not one of: shape, hinge");
+}
+
+}  // namespace hysteron

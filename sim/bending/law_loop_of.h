@@ -1,0 +1,93 @@
+// LawLoop for one law type.  Included by the files that instantiate it.
+#pragma once
+
+#include <cmath>
+
+#include "sim/bending/law_loop.h"
+
+namespace hysteron {
+
+// Numbers of a law's history, one set per element, in the device's preferred order.
+template <class Law, class Real>
+HYST_HD inline History<Real, Law::kHistory> load_history(const Real* memory, int i, int n) {
+  History<Real, Law::kHistory> h;
+  if constexpr (Law::kHistory > 0)
+    for (int k = 0; k < Law::kHistory; ++k) h[k] = memory[slot_index(i, k, Law::kHistory, n)];
+  return h;
+}
+
+template <class Law, class Real>
+HYST_HD inline void store_history(Real* memory, int i, int n, const History<Real, Law::kHistory>& h) {
+  if constexpr (Law::kHistory > 0)
+    for (int k = 0; k < Law::kHistory; ++k) memory[slot_index(i, k, Law::kHistory, n)] = h[k];
+}
+
+template <class Real, class Device, class Law>
+class LawLoopOf : public LawLoop<Real, Device> {
+ public:
+  static constexpr int D = Law::kDimension;
+
+  LawLoopOf(Device& device, const Law& law, const VirginCurve& curve, int elements)
+      : law_(law), curve_(curve), history_(device, static_cast<std::size_t>(elements) * Law::kHistory),
+        dissipated_(device, Law::kHistory > 0 ? elements : 0) {}
+
+  void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+              Real* moment_area) override {
+    const Law law = law_;
+    Real* history = history_.data();
+    double* lost = dissipated_.data();
+    for_each(device, "bending law", op.elements, HYST_KERNEL(int i) {
+      const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+      const auto step = law.step(k, load_history<Law>(history, i, op.elements));
+      for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * step.moment[d];
+      store_history<Law>(history, i, op.elements, step.history);
+      if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
+    });
+  }
+
+  void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+              double* energy) override {
+    const Law law = law_;
+    const Real* history = history_.data();
+    for_each(device, "bending energy", op.elements, HYST_KERNEL(int i) {
+      const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+      energy[i] = static_cast<double>(op.area[i] * law.step(k, load_history<Law>(history, i, op.elements)).stored);
+    });
+  }
+
+  void residual(Device& device, int elements, Real* curvature) override {
+    const Law law = law_;
+    const Real* history = history_.data();
+    for_each(device, "residual curvature", elements, HYST_KERNEL(int i) {
+      const Vec<Real, D> k = law.residual(load_history<Law>(history, i, elements));
+      for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
+    });
+  }
+
+  void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) override {
+    const Law law = law_;
+    const Real* history = history_.data();
+    const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
+    for_each(device, "friction state", op.elements, HYST_KERNEL(int i) {
+      share[i] = 0;
+      if (Law::kHistory > 0 && m0 > 0) {
+        const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+        const Vec<Real, D> m = law.step(k, load_history<Law>(history, i, op.elements)).moment;
+        share[i] = (m - b2 * k).norm() / m0;
+      }
+    });
+  }
+
+  double largest_stiffness() const override { return static_cast<double>(law_.largest_stiffness()); }
+  bool has_history() const override { return Law::kHistory > 0; }
+  std::size_t history_bytes() const override { return history_.bytes(); }
+  const double* dissipated() const override { return dissipated_.data(); }
+
+ private:
+  Law law_;
+  VirginCurve curve_;
+  Buffer<Real, Device> history_;
+  Buffer<double, Device> dissipated_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,207 @@
+#include "sim/contact/contact.h"
+
+#include <numeric>
+
+#include "sim/contact/penalty.h"
+#include "sim/error.h"
+#include "sim/scene/motion.h"
+
+namespace hysteron {
+
+namespace {
+
+// Tangential over normal penalty stiffness.
+constexpr double kTangential = 0.5;
+
+template <class Real>
+struct ContactModel {
+  Real shell, stiffness, tangential;
+};
+
+// Everything about one vertex in contact.
+template <class Real>
+struct Touch {
+  Vec3<Real> normal_force = Vec3<Real>::Zero();  // sum over obstacles [N]
+  Mat3<Real> normal_stiffness = Mat3<Real>::Zero();
+  double energy = 0;               // of the normal penalty [J]
+  Vec3<Real> obstacle_motion = Vec3<Real>::Zero();  // of the strongest obstacle's point over the step [m]
+  Vec3<Real> normal = Vec3<Real>::Zero();
+  Real strongest = 0, friction = 0;  // largest normal force [N], its coefficient
+  int index = -1;
+};
+
+template <class Real>
+HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const ContactModel<Real>& model, const Vec3<Real>& x,
+                          Real area) {
+  Touch<Real> t;
+  for (int o = 0; o < set.count; ++o) {
+    const Obstacle3<Real>& obstacle = set.item[o];
+    const Distance<Real> d = signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
+    const Real depth = model.shell - d.value;
+    if (!(depth > 0)) continue;
+    const Vec3<Real> n = obstacle.rotation * d.normal;
+    const Real k = model.stiffness * area, force = k * depth;
+    t.normal_force += force * n;
+    t.normal_stiffness += k * n * n.transpose();
+    t.energy += static_cast<double>(force * depth / 2);
+    if (force > t.strongest) {
+      t.strongest = force;
+      t.friction = obstacle.friction;
+      t.normal = n;
+      t.index = obstacle.index;
+      t.obstacle_motion = x - (obstacle.back_rotation * x + obstacle.back_translation);
+    }
+  }
+  return t;
+}
+
+// Trial slip, and the share of it that friction can hold.
+template <class Real>
+struct Slip {
+  Vec3<Real> trial;
+  Real share;
+};
+
+template <class Real>
+HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, Real area, const Vec3<Real>& moved,
+                        const Vec3<Real>& before, int touching) {
+  Vec3<Real> e = moved - t.obstacle_motion;
+  if (touching == t.index + 1) e += before;
+  e -= t.normal * t.normal.dot(e);
+  const Real limit = t.friction * t.strongest / (model.tangential * area), length = e.norm();
+  return {e, length > limit ? limit / length : Real(1)};
+}
+
+}  // namespace
+
+template <class Real, class Device>
+Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scene& scene)
+    : device_(device), obstacle_(scene.obstacle), fabric_friction_(scene.fabric.friction),
+      shell_(static_cast<Real>(scene.fabric.thickness)), vertices_(mesh.vertices()),
+      area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())), slip_(device, vertices_),
+      touching_(device, vertices_), loss_(device, vertices_), work_(device, vertices_), energy_(device, vertices_) {
+  if (obstacle_.size() > kMostObstacles)
+    throw Error::request("obstacle: " + std::to_string(obstacle_.size()) + " obstacles, at most " +
+                         std::to_string(kMostObstacles) + " are possible");
+  stiffness_ = static_cast<Real>(contact_stiffness_per_area(scene));
+  tangential_ = static_cast<Real>(kTangential) * stiffness_;
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::move(double start, double end) {
+  set_.count = 0;
+  for (std::size_t i = 0; i < obstacle_.size(); ++i) {
+    const Obstacle& o = obstacle_[i];
+    if (start >= o.until) continue;
+    const Placement now = placement(o.motion, end), then = placement(o.motion, start);
+    const Eigen::Matrix3d own =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
+    const Eigen::Matrix3d back = then.rotation * now.rotation.transpose();
+    Obstacle3<Real>& item = set_.item[set_.count++];
+    const bool box = o.kind == "box";
+    item.shape.kind = o.kind == "ground"     ? ShapeKind::ground
+                      : o.kind == "sphere"   ? ShapeKind::sphere
+                      : o.kind == "cylinder" ? ShapeKind::cylinder
+                      : box                  ? ShapeKind::box
+                                             : ShapeKind::capsule;
+    const Eigen::Vector3d half = box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
+    item.shape.half = half.cast<Real>();
+    item.shape.rim = static_cast<Real>(o.rim);
+    item.rotation = (now.rotation * own).cast<Real>();
+    item.center = now(o.center).cast<Real>();
+    item.back_rotation = back.cast<Real>();
+    item.back_translation = (then.translation - back * now.translation).cast<Real>();
+    item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction_ : o.friction);
+    item.index = static_cast<int>(i);
+  }
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
+                                Mat3<Real>* diagonal) {
+  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ObstacleSet<Real> set = set_;
+  const Real* area = area_.data();
+  const Vec3<Real>* slipped = slip_.data();
+  const int* touching = touching_.data();
+  for_each(device_, "contact", vertices_, HYST_KERNEL(int i) {
+    const Touch<Real> t = touch(set, model, x[i], area[i]);
+    if (t.index < 0) return;
+    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+    const Real kt = model.tangential * area[i] * s.share;
+    rhs[i] += step * (t.normal_force - kt * s.trial);
+    diagonal[i] += step * step *
+                   (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
+  });
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::add_forces(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* force) {
+  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ObstacleSet<Real> set = set_;
+  const Real* area = area_.data();
+  const Vec3<Real>* slipped = slip_.data();
+  const int* touching = touching_.data();
+  for_each(device_, "contact forces", vertices_, HYST_KERNEL(int i) {
+    const Touch<Real> t = touch(set, model, x[i], area[i]);
+    if (t.index < 0) return;
+    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+    force[i] += t.normal_force - model.tangential * area[i] * s.share * s.trial;
+  });
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before) {
+  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ObstacleSet<Real> set = set_;
+  const Real* area = area_.data();
+  Vec3<Real>* slipped = slip_.data();
+  int* touching = touching_.data();
+  double *loss = loss_.data(), *work = work_.data();
+  for_each(device_, "contact history", vertices_, HYST_KERNEL(int i) {
+    const Touch<Real> t = touch(set, model, x[i], area[i]);
+    const Real k = model.tangential * area[i];
+    if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
+      loss[i] += static_cast<double>(k * slipped[i].squaredNorm() / 2);
+      slipped[i].setZero();
+    }
+    touching[i] = t.index + 1;
+    if (t.index < 0) return;
+    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+    const Vec3<Real> held = s.share * s.trial;
+    loss[i] += static_cast<double>(k * held.dot(s.trial - held));
+    work[i] += static_cast<double>((t.normal_force - k * held).dot(t.obstacle_motion));
+    slipped[i] = held;
+  });
+}
+
+template <class Real, class Device>
+double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
+  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ObstacleSet<Real> set = set_;
+  const Real* area = area_.data();
+  const Vec3<Real>* slipped = slip_.data();
+  double* energy = energy_.data();
+  for_each(device_, "contact energy", vertices_, HYST_KERNEL(int i) {
+    energy[i] = touch(set, model, x[i], area[i]).energy +
+                static_cast<double>(model.tangential * area[i] * slipped[i].squaredNorm() / 2);
+  });
+  const std::vector<double> values = energy_.download();
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+template <class Real, class Device>
+ContactLoss Contact<Real, Device>::losses() const {
+  const std::vector<double> loss = loss_.download(), work = work_.download();
+  return {std::accumulate(loss.begin(), loss.end(), 0.0), std::accumulate(work.begin(), work.end(), 0.0)};
+}
+
+template <class Real, class Device>
+std::size_t Contact<Real, Device>::bytes() const {
+  return area_.bytes() + slip_.bytes() + touching_.bytes() + loss_.bytes() + work_.bytes() + energy_.bytes();
+}
+
+template class Contact<double, ThisDevice>;
+template class Contact<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,72 @@
+// Cloth against obstacles: a penalty shell with Coulomb friction, inside the implicit solve.
+//
+// Normal: energy k A (d - t)^2/2 per vertex where the distance d is less than the shell t (the cloth's thickness);
+// its Gauss-Newton Hessian k A n n^T is positive semidefinite.  Friction is a Prandtl stop in the tangent plane: an
+// elastic slip E with stiffness k_t, limited to mu f_n/k_t by radial return.  It holds a resting cloth for good,
+// where a velocity-smoothed friction would let it creep.
+#pragma once
+
+#include "sim/contact/signed_distance.h"
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/scene/scene.h"
+#include "sim/solve/block_rows.h"
+
+namespace hysteron {
+
+inline constexpr int kMostObstacles = 12;  // they travel with each kernel launch by value
+
+template <class Real>
+struct Obstacle3 {
+  Shape<Real> shape;
+  Mat3<Real> rotation;  // own frame -> world, at the end of the step
+  Vec3<Real> center;
+  Mat3<Real> back_rotation;  // world point of the obstacle at the step's end -> at its start
+  Vec3<Real> back_translation;
+  Real friction;
+  int index;  // in the scene
+};
+
+template <class Real>
+struct ObstacleSet {
+  int count = 0;
+  Obstacle3<Real> item[kMostObstacles];
+};
+
+struct ContactLoss {
+  double friction = 0;       // dissipated [J]
+  double obstacle_work = 0;  // done on the cloth by moving obstacles [J]
+};
+
+template <class Real, class Device>
+class Contact {
+ public:
+  Contact(Device& device, const ClothMesh& mesh, const Scene& scene);
+
+  // Places the obstacles for the step from `start` to `end` [s].
+  void move(double start, double end);
+  // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks.
+  void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs, Mat3<Real>* diagonal);
+  // Adds the forces at `position` (explicit integration).
+  void add_forces(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* force);
+  // Accepts the positions: slips and losses.
+  void commit(const Vec3<Real>* position, const Vec3<Real>* before);
+
+  double stored_energy(const Vec3<Real>* position);  // [J]
+  ContactLoss losses() const;                        // since the start
+  double stiffness() const { return stiffness_; }    // per area [N/m^3]
+  std::size_t bytes() const;
+
+ private:
+  Device& device_;
+  std::vector<Obstacle> obstacle_;
+  double fabric_friction_;
+  Real shell_, stiffness_, tangential_;  // t [m], k [N/m^3], k_t [N/m^3]
+  int vertices_;
+  ObstacleSet<Real> set_;
+  Buffer<Real, Device> area_;
+  Buffer<Vec3<Real>, Device> slip_;   // E [m]
+  Buffer<int, Device> touching_;      // obstacle index + 1, 0 = free
+  Buffer<double, Device> loss_, work_, energy_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,86 @@
+// Signed distances of the obstacles: negative inside, gradient = outward unit normal.
+#pragma once
+
+#include <cmath>
+
+#include "sim/device/host_device.h"
+
+namespace hysteron {
+
+enum class ShapeKind { ground, sphere, cylinder, box, capsule };
+
+// A shape in its own frame: ground z <= 0; cylinder and capsule along z, centred; box centred.
+template <class Real>
+struct Shape {
+  ShapeKind kind;
+  Vec3<Real> half;  // box: half edges; else x = radius, z = half height of the axis [m]
+  Real rim;         // rounding of the edges of cylinder and box [m]
+};
+
+template <class Real>
+struct Distance {
+  Real value;         // [m]
+  Vec3<Real> normal;  // outward unit vector
+};
+
+// Rounded corner in two or three dimensions: q is the position relative to the corner of the shrunken box.
+template <class Real, int N>
+HYST_HD inline Distance<Real> rounded_corner(const Vec<Real, N>& q, Real rim, Vec<Real, N>& normal) {
+  Vec<Real, N> outside = q.cwiseMax(Real(0));
+  const Real length = outside.norm();
+  if (length > 0) {
+    normal = outside / length;
+    return {length - rim, {}};
+  }
+  int nearest = 0;
+  for (int k = 1; k < N; ++k)
+    if (q[k] > q[nearest]) nearest = k;
+  normal = Vec<Real, N>::Unit(nearest);
+  return {q[nearest] - rim, {}};
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> sphere_distance(const Vec3<Real>& p, Real radius) {
+  const Real length = p.norm();
+  return {length - radius, length > 0 ? Vec3<Real>(p / length) : Vec3<Real>(Vec3<Real>::UnitZ())};
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> cylinder_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  using std::sqrt;
+  const Real r = sqrt(p[0] * p[0] + p[1] * p[1]);
+  const Real sign = p[2] < 0 ? Real(-1) : Real(1);
+  const Vec<Real, 2> q(r - s.half[0] + s.rim, sign * p[2] - s.half[2] + s.rim);
+  Vec<Real, 2> n;
+  Distance<Real> d = rounded_corner<Real, 2>(q, s.rim, n);
+  const Vec3<Real> radial = r > 0 ? Vec3<Real>(p[0] / r, p[1] / r, 0) : Vec3<Real>(1, 0, 0);
+  d.normal = n[0] * radial + Vec3<Real>(0, 0, sign * n[1]);
+  return d;
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> box_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  Vec3<Real> sign, q, n;
+  for (int k = 0; k < 3; ++k) {
+    sign[k] = p[k] < 0 ? Real(-1) : Real(1);
+    q[k] = sign[k] * p[k] - s.half[k] + s.rim;
+  }
+  Distance<Real> d = rounded_corner<Real, 3>(q, s.rim, n);
+  d.normal = n.cwiseProduct(sign);
+  return d;
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> signed_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  switch (s.kind) {
+    case ShapeKind::ground: return {p[2], Vec3<Real>::UnitZ()};
+    case ShapeKind::sphere: return sphere_distance(p, s.half[0]);
+    case ShapeKind::cylinder: return cylinder_distance(s, p);
+    case ShapeKind::box: return box_distance(s, p);
+    default: break;
+  }
+  const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);  // capsule
+  return sphere_distance(Vec3<Real>(p[0], p[1], p[2] - z), s.half[0]);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,56 @@
+// Memory that lives on one device.  Zero-initialised; moved, never copied by accident.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "sim/device/cpu.h"
+#ifdef __CUDACC__
+#include "sim/device/cuda.h"
+#endif
+
+namespace hysteron {
+
+template <class T, class Device>
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(Device& device, std::size_t size) : device_(&device), size_(size) {
+    if (size) data_ = static_cast<T*>(device_allocate(device, size * sizeof(T)));
+  }
+  Buffer(Device& device, const std::vector<T>& values) : Buffer(device, values.size()) { upload(values); }
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Buffer() {
+    if (data_) device_free(*device_, data_, size_ * sizeof(T));
+  }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const { return size_ * sizeof(T); }
+
+  void upload(const std::vector<T>& values) {
+    if (!values.empty()) device_upload(*device_, data_, values.data(), values.size() * sizeof(T));
+  }
+  std::vector<T> download() const {
+    std::vector<T> values(size_);
+    if (size_) device_download(*device_, values.data(), data_, bytes());
+    return values;
+  }
+
+ private:
+  void swap(Buffer& other) {
+    std::swap(device_, other.device_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
+  Device* device_ = nullptr;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,65 @@
+// The membrane of a whole cloth on one device: stresses by face, forces and implicit matrix by vertex.
+#pragma once
+
+#include "sim/membrane/green_lagrange.h"
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/scene/scene.h"
+#include "sim/solve/block_rows.h"
+
+namespace hysteron {
+
+// Rest geometry of every face in its warp-weft frame.
+std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh);
+
+// Largest eigenvalue of M^-1 K of the unstretched membrane [1/s^2], damping left out.
+double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, const std::vector<double>& mass,
+                                const std::vector<char>& held);
+
+template <class Real>
+struct MembraneForceView {
+  const int* start;  // rows: vertices
+  const int* item;   // 3*face + corner
+  const MembraneRest<Real>* rest;
+  const Deformation<Real>* deformation;
+  const MembraneStress<Real>* stress;
+  HYST_HD Vec3<Real> at(int vertex) const {
+    Vec3<Real> f = Vec3<Real>::Zero();
+    for (int j = start[vertex]; j < start[vertex + 1]; ++j) {
+      const int face = item[j] / 3;
+      f += membrane_force(rest[face], deformation[face], stress[face], item[j] % 3);
+    }
+    return f;
+  }
+};
+
+template <class Real, class Device>
+class Membrane {
+ public:
+  Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, const BlockRows<Real, Device>& rows);
+
+  // Strains and stresses (elastic, and viscous of `velocity`) at `position`; forces() then gathers them.
+  void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
+  MembraneForceView<Real> forces() const;
+  // matrix = step^2 * elastic + step * viscous stiffness at the last update, to which callers add mass and contact.
+  void assemble(Real step, BlockRowsView<Real> matrix);
+
+  double stored_energy(const Vec3<Real>* position);               // [J]
+  void add_viscous_loss(const Vec3<Real>* velocity, Real step);   // of the last update's geometry
+  double viscous_loss() const;                                    // since the start [J]
+  double largest_stretch(const Vec3<Real>* position);             // largest principal stretch minus 1
+  std::size_t bytes() const;
+
+ private:
+  Device& device_;
+  int faces_, vertices_;
+  MembraneStiffness<Real> stiffness_;
+  Real damping_;
+  Buffer<MembraneRest<Real>, Device> rest_;
+  Buffer<Eigen::Vector3i, Device> corner_;
+  Buffer<int, Device> vertex_start_, vertex_item_, slot_;  // slot_: two matrix blocks for each item
+  Buffer<Deformation<Real>, Device> deformation_;
+  Buffer<MembraneStress<Real>, Device> stress_, tension_;
+  Buffer<double, Device> measure_, viscous_;
+};
+
+}  // namespace hysteron

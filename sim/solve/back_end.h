@@ -1,0 +1,26 @@
+// What the CPU build and the GPU build of the numerical sources each offer to host code.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/bending/curvature_operator.h"
+#include "sim/solve/simulation.h"
+
+namespace hysteron {
+
+inline constexpr int kMostMovingPins = 12;  // their placements travel with a kernel launch by value
+
+std::unique_ptr<Simulation> make_cpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&);
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&);
+
+// Bound on dM/dK of the scene's law on an element of this dimension [N m].
+double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
+
+std::string cpu_description();
+int gpu_count(std::string& reason);  // usable GPUs; why there are none
+std::string gpu_description(int index);
+
+}  // namespace hysteron

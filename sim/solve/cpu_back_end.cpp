@@ -1,0 +1,22 @@
+#include "sim/solve/back_end.h"
+#include "sim/solve/stepper.h"
+
+namespace hysteron {
+
+std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
+                                                const StepLimits& limits) {
+  auto cpu = std::make_unique<Cpu>(scene.threads);
+  if (scene.precision == "float")
+    return std::make_unique<Stepper<float, Cpu>>(std::move(cpu), scene, cloth, op, limits);
+  return std::make_unique<Stepper<double, Cpu>>(std::move(cpu), scene, cloth, op, limits);
+}
+
+double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
+  Cpu cpu(1);
+  return make_law_loop<double>(cpu, scene.law, scene.param, scene.fabric.virgin_curve(), op.dimension, 0)
+      ->largest_stiffness();
+}
+
+std::string cpu_description() { return "cpu: " + Cpu(0).description(); }
+
+}  // namespace hysteron

@@ -1,0 +1,21 @@
+// Stands in for gpu_back_end.cpp in a build without CUDA.
+#include "sim/error.h"
+#include "sim/solve/back_end.h"
+
+namespace hysteron {
+
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&) {
+  std::string reason;
+  gpu_count(reason);
+  throw Error::machine("device = cuda: " + reason);
+}
+
+int gpu_count(std::string& reason) {
+  reason = "this build has no CUDA back end";
+  return 0;
+}
+
+std::string gpu_description(int) { return "cuda: none"; }
+
+}  // namespace hysteron

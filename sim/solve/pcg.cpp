@@ -1,0 +1,106 @@
+#include "sim/solve/pcg.h"
+
+#include <Eigen/LU>
+
+namespace hysteron {
+
+template <class Real, class Device>
+Pcg<Real, Device>::Pcg(Device& device, int rows)
+    : device_(device), rows_(rows), inverse_(device, rows), r_(device, rows), z_(device, rows), p_(device, rows),
+      q_(device, rows), scalars_(device, 1) {}
+
+template <class Real, class Device>
+std::size_t Pcg<Real, Device>::bytes() const {
+  return inverse_.bytes() + 4 * r_.bytes() + scalars_.bytes();
+}
+
+template <class Real, class Device>
+void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x,
+                              double tolerance) {
+  Mat3<Real>* inverse = inverse_.data();
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
+  Scalars* s = scalars_.data();
+  for_each_sum<2>(
+      device_, "solve: start", rows_,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        if (held[i]) {
+          r[i] = z[i] = p[i] = Vec3<Real>::Zero();
+          return;
+        }
+        inverse[i] = matrix.diagonal[i].inverse();
+        r[i] = rhs[i] - matrix.times(i, x);
+        z[i] = inverse[i] * r[i];
+        p[i] = z[i];
+        sums.term[0] += static_cast<double>(r[i].dot(z[i]));
+        sums.term[1] += static_cast<double>(rhs[i].dot(inverse[i] * rhs[i]));
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        s->residual = total.term[0];
+        s->target = tolerance * tolerance * total.term[1];
+        s->iterations = 0;
+        s->done = !(s->residual > s->target);
+      });
+}
+
+template <class Real, class Device>
+void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Vec3<Real>* x) {
+  const Mat3<Real>* inverse = inverse_.data();
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+  Scalars* s = scalars_.data();
+  for_each_sum<1>(
+      device_, "solve: product", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        if (s->done || held[i]) return;
+        q[i] = matrix.times(i, p);
+        sums.term[0] += static_cast<double>(p[i].dot(q[i]));
+      },
+      HYST_KERNEL(const Sums<1>& total) {
+        if (!s->done) s->alpha = s->residual / total.term[0];
+      });
+  for_each_sum<1>(
+      device_, "solve: advance", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        if (s->done || held[i]) return;
+        const Real alpha = static_cast<Real>(s->alpha);
+        x[i] += alpha * p[i];
+        r[i] -= alpha * q[i];
+        z[i] = inverse[i] * r[i];
+        sums.term[0] += static_cast<double>(r[i].dot(z[i]));
+      },
+      HYST_KERNEL(const Sums<1>& total) {
+        if (s->done) return;
+        s->beta = total.term[0] / s->residual;
+        s->residual = total.term[0];
+        s->iterations += 1;
+        s->done = !(s->residual > s->target);
+      });
+  for_each(device_, "solve: direction", rows_, HYST_KERNEL(int i) {
+    if (s->done || held[i]) return;
+    p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
+  });
+}
+
+// The device decides when it is done; the host only asks, at first after as many iterations as the last solve took.
+template <class Real, class Device>
+PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+                                    Vec3<Real>* x, double tolerance, int most_iterations) {
+  start(matrix, held, rhs, x, tolerance);
+  constexpr int kAskAgain = 4;
+  Scalars scalars{};
+  for (int sent = 0;;) {
+    const int batch = Device::kGpu ? (sent == 0 ? last_iterations_ + 1 : kAskAgain) : 1;
+    if (sent > 0 || !Device::kGpu) {
+      device_download(device_, &scalars, scalars_.data(), sizeof(Scalars));
+      if (scalars.done || sent >= most_iterations) break;
+    }
+    for (int i = 0; i < batch; ++i) iterate(matrix, held, x);
+    sent += batch;
+  }
+  last_iterations_ = scalars.iterations;
+  return {scalars.iterations, scalars.done != 0};
+}
+
+template class Pcg<double, ThisDevice>;
+template class Pcg<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,41 @@
+// Conjugate gradients for the implicit solve, preconditioned by the inverted diagonal blocks.
+#pragma once
+
+#include "sim/solve/block_rows.h"
+
+namespace hysteron {
+
+struct PcgOutcome {
+  int iterations = 0;
+  bool converged = false;
+};
+
+template <class Real, class Device>
+class Pcg {
+ public:
+  Pcg(Device& device, int rows);
+
+  // Solves matrix * x = rhs for the rows that are not held, starting from x; held rows of x stay as they are and
+  // count as zero.  Ends when sqrt(r' P r) <= tolerance * sqrt(b' P b), P the inverted diagonal blocks.
+  PcgOutcome solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x,
+                   double tolerance, int most_iterations);
+  std::size_t bytes() const;
+
+  struct Scalars {  // on the device, so that iterations need no word from the host
+    double residual, target, alpha, beta;
+    int iterations, done;
+  };
+  // The parts of solve(); public because nvcc allows no device lambda in a private member function.
+  void start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x, double tolerance);
+  void iterate(BlockRowsView<Real> matrix, const char* held, Vec3<Real>* x);
+
+ private:
+  Device& device_;
+  int rows_;
+  int last_iterations_ = 8;
+  Buffer<Mat3<Real>, Device> inverse_;
+  Buffer<Vec3<Real>, Device> r_, z_, p_, q_;
+  Buffer<Scalars, Device> scalars_;
+};
+
+}  // namespace hysteron

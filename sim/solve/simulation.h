@@ -1,0 +1,64 @@
+// A running simulation: one interface over both devices and both precisions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/scene/cloth.h"
+#include "sim/scene/scene.h"
+#include "sim/solve/ledger.h"
+
+namespace hysteron {
+
+// A part of a scene and what it costs; parts that the scene does not need have no bytes and say why.
+struct ScenePart {
+  std::string name;
+  bool included = false;
+  std::size_t bytes = 0;
+  std::string kernels;  // names of its loops
+  std::string reason;
+};
+
+struct StepLimits {
+  double bending_step = 0;   // largest stable explicit bending step, safety margin included [s]
+  double membrane_step = 0;  // the same for the membrane; 0 if the integrator treats it implicitly [s]
+  int substeps = 1;          // alpha in use
+  double substep = 0;        // he = hi/alpha [s]
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  virtual void advance(int steps) = 0;  // Error::run when the state is no longer finite
+  virtual double time() const = 0;      // [s]
+  virtual long steps() const = 0;
+
+  virtual std::vector<Eigen::Vector3d> positions() = 0;   // [m]
+  virtual std::vector<Eigen::Vector3d> velocities() = 0;  // [m/s]
+  virtual std::vector<double> curvature() = 0;            // `dimension` components per element [1/m]
+  virtual std::vector<double> residual_curvature() = 0;   // likewise, where the moment is zero [1/m]
+  virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
+  virtual int dimension() const = 0;                      // 1: elements are hinges, 3: elements are faces
+  virtual Ledger ledger() = 0;
+  virtual double largest_stretch() = 0;                   // largest principal stretch minus 1
+  virtual std::uint64_t state_hash() = 0;                 // of positions and velocities, bit for bit
+
+  virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
+  virtual double solver_iterations() const = 0;  // mean per step
+  virtual StepLimits limits() const = 0;
+  virtual std::vector<ScenePart> parts() const = 0;
+  virtual std::size_t device_bytes() const = 0;
+  virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
+};
+
+// Chooses device and precision as the scene asks.  Error::request for what cannot be simulated,
+// Error::machine for a missing GPU.
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth);
+
+// Names of the usable devices: the CPU, then the GPUs or the reason why there are none.
+std::vector<std::string> device_list();
+
+}  // namespace hysteron

@@ -1,0 +1,186 @@
+#include "sim/solve/stepper.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "sim/error.h"
+
+namespace hysteron {
+
+namespace {
+
+template <class Real>
+std::vector<Vec3<Real>> cast(const std::vector<Eigen::Vector3d>& values) {
+  std::vector<Vec3<Real>> result;
+  for (const auto& v : values) result.push_back(v.cast<Real>());
+  return result;
+}
+
+template <class Real>
+std::vector<Real> masses(const Scene& scene, const ClothMesh& mesh) {
+  std::vector<Real> mass;
+  for (double area : mesh.vertex_area) mass.push_back(static_cast<Real>(scene.fabric.density * area));
+  return mass;
+}
+
+std::uint64_t fnv1a(const void* memory, std::size_t bytes, std::uint64_t hash) {
+  const unsigned char* p = static_cast<const unsigned char*>(memory);
+  for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ p[i]) * 1099511628211ull;
+  return hash;
+}
+
+}  // namespace
+
+template <class Real, class Device>
+Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth,
+                               const CurvatureOperator& op, const StepLimits& limits)
+    : device_(std::move(device)), scene_(scene), explicit_(scene.integrator == "explicit"),
+      vertices_(cloth.mesh.vertices()), limits_(limits), clock_(*device_), matrix_(*device_, cloth.mesh),
+      membrane_(*device_, cloth.mesh, scene.fabric, matrix_),
+      bending_(*device_, cloth.mesh, op,
+               make_law_loop<Real>(*device_, scene.law, scene.param, scene.fabric.virgin_curve(), op.dimension,
+                                   op.elements()),
+               scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy),
+      pcg_(*device_, explicit_ ? 0 : vertices_), pin_host_(cloth.pin), x_(*device_, cast<Real>(cloth.start)),
+      v_(*device_, vertices_), rhs_(*device_, vertices_), mass_(*device_, masses<Real>(scene, cloth.mesh)),
+      held_(*device_, cloth.held(scene, 0)), ledger_(*device_, vertices_) {
+  if (!explicit_) {
+    change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    guess_[0] = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+  }
+  for (const Pin& pin : scene.pin) {
+    moving_pins_ |= !pin.motion.keys.empty();
+    held_changes_ |= pin.until < scene.seconds;
+  }
+  if (moving_pins_) {
+    start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
+    pin_ = Buffer<int, Device>(*device_, cloth.pin);
+  }
+  if (!scene.obstacle.empty()) {
+    contact_.emplace(*device_, cloth.mesh, scene);
+    before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    if (!explicit_) guess_[1] = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    contact_->move(0, 0);
+  }
+  bending_.commit(x_.data());
+  initial_ = measure();
+  initial_.initial =
+      initial_.kinetic + initial_.gravitational + initial_.membrane + initial_.bending + initial_.contact;
+}
+
+template <class Real, class Device>
+std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& x : x_.download()) result.push_back(x.template cast<double>());
+  return result;
+}
+
+template <class Real, class Device>
+std::vector<Eigen::Vector3d> Stepper<Real, Device>::velocities() {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& v : v_.download()) result.push_back(v.template cast<double>());
+  return result;
+}
+
+template <class Real, class Device>
+std::uint64_t Stepper<Real, Device>::state_hash() {
+  const auto x = x_.download(), v = v_.download();
+  std::uint64_t hash = 14695981039346656037ull;
+  hash = fnv1a(x.data(), x.size() * sizeof(Vec3<Real>), hash);
+  return fnv1a(v.data(), v.size() * sizeof(Vec3<Real>), hash);
+}
+
+// Energies at this moment.
+template <class Real, class Device>
+Ledger Stepper<Real, Device>::measure() {
+  Ledger ledger;
+  const auto x = x_.download(), v = v_.download();
+  const auto mass = mass_.download();
+  const auto held = held_.download();
+  for (int i = 0; i < vertices_; ++i) {
+    const double m = static_cast<double>(mass[i]);
+    ledger.gravitational -= m * scene_.gravity.dot(x[i].template cast<double>());
+    if (!held[i]) ledger.kinetic += m / 2 * v[i].template cast<double>().squaredNorm();
+  }
+  ledger.membrane = membrane_.stored_energy(x_.data());
+  ledger.bending = bending_.stored_energy();
+  if (contact_) ledger.contact = contact_->stored_energy(x_.data());
+  return ledger;
+}
+
+template <class Real, class Device>
+Ledger Stepper<Real, Device>::ledger() {
+  Ledger ledger = measure();
+  if (!std::isfinite(ledger.kinetic + ledger.membrane + ledger.bending))
+    throw Error::run("the simulation diverged before t = " + std::to_string(time()) +
+                     " s: take a smaller step (step = " + std::to_string(scene_.step) + " s)");
+  ledger.gravitational -= initial_.gravitational;
+  ledger.initial = initial_.initial - initial_.gravitational;
+  double bending_work = 0, gravity_work = 0, implicit_work = 0;
+  for (const VertexLedger& sum : ledger_.download()) {
+    bending_work += sum.bending_work;
+    gravity_work += sum.gravity_work;
+    implicit_work += sum.implicit_work;
+    ledger.air += sum.air;
+    ledger.inertia += sum.inertia;
+    ledger.handle_work += sum.handle_work;
+  }
+  ledger.bending_friction = bending_.dissipated_energy();
+  ledger.viscous = membrane_.viscous_loss();
+  if (contact_) {
+    const ContactLoss contact = contact_->losses();
+    ledger.contact_friction = contact.friction;
+    ledger.obstacle_work = contact.obstacle_work;
+  }
+  ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - bending_work;
+  ledger.gravity_gap = -ledger.gravitational - gravity_work;
+  ledger.implicit_gap = initial_.membrane - ledger.membrane + initial_.contact - ledger.contact -
+                        ledger.viscous - ledger.contact_friction + ledger.obstacle_work - implicit_work;
+  ledger.close();
+  return ledger;
+}
+
+template <class Real, class Device>
+std::vector<std::pair<std::string, double>> Stepper<Real, Device>::stage_seconds() {
+  const StageSeconds seconds = clock_.seconds();
+  std::vector<std::pair<std::string, double>> result;
+  for (int s = 0; s < kStages; ++s) result.emplace_back(kStageName[s], seconds[s]);
+  return result;
+}
+
+template <class Real, class Device>
+double Stepper<Real, Device>::solver_iterations() const {
+  return step_count_ ? static_cast<double>(solver_iterations_) / static_cast<double>(step_count_) : 0;
+}
+
+template <class Real, class Device>
+std::string Stepper<Real, Device>::device() const {
+  return (Device::kGpu ? "cuda: " : "cpu: ") + device_->description();
+}
+
+template <class Real, class Device>
+std::vector<ScenePart> Stepper<Real, Device>::parts() const {
+  const LawLoop<Real, Device>& law = bending_.law();
+  std::vector<ScenePart> parts;
+  const auto add = [&](const char* name, bool included, std::size_t bytes, const char* kernels, const char* why) {
+    parts.push_back({name, included, bytes, kernels, included ? "" : why});
+  };
+  add("state", true, x_.bytes() + v_.bytes() + mass_.bytes() + rhs_.bytes() + held_.bytes(), "substep", "");
+  add("membrane", true, membrane_.bytes(), "membrane stress, membrane matrix", "");
+  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + change_.bytes() + guess_[0].bytes() + guess_[1].bytes(),
+      "solve: start, product, advance, direction", "the integrator is explicit");
+  add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
+  add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");
+  add("membrane damping", scene_.fabric.damping > 0, 0, "viscous loss", "fabric.damping = 0");
+  add("air drag", scene_.air_drag > 0, 0, "substep", "air-drag = 0");
+  add("moving handles", moving_pins_, start_.bytes() + pin_.bytes(), "handles", "no pin moves");
+  add("obstacles", contact_.has_value(), contact_ ? contact_->bytes() + before_.bytes() : 0,
+      "contact, contact history", "no obstacles");
+  add("energy ledger", true, ledger_.bytes(), "substep, implicit ledger", "");
+  return parts;
+}
+
+template class Stepper<double, ThisDevice>;
+template class Stepper<float, ThisDevice>;
+
+}  // namespace hysteron

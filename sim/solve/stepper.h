@@ -1,0 +1,95 @@
+// The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp steps.
+#pragma once
+
+#include <optional>
+
+#include "sim/bending/bending.h"
+#include "sim/contact/contact.h"
+#include "sim/device/stage_clock.h"
+#include "sim/membrane/membrane.h"
+#include "sim/scene/motion.h"
+#include "sim/solve/back_end.h"
+#include "sim/solve/pcg.h"
+#include "sim/solve/simulation.h"
+
+namespace hysteron {
+
+// Running sums of one vertex [J]; their differences are the ledger's integrator terms.
+struct VertexLedger {
+  double bending_work = 0;   // of bending forces over the substeps' displacements
+  double gravity_work = 0;   // of gravity over the substeps' displacements
+  double air = 0;            // lost to air drag
+  double inertia = 0;        // m |dv|^2/2
+  double implicit_work = 0;  // of the implicit stage's impulse over step * velocity
+  double handle_work = 0;    // done on the cloth by the hand that moves this vertex
+};
+
+template <class Real>
+struct PinPlacements {
+  Mat3<Real> rotation[kMostMovingPins];
+  Vec3<Real> translation[kMostMovingPins];
+};
+
+template <class Real, class Device>
+class Stepper : public Simulation {
+ public:
+  Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
+          const StepLimits& limits);
+
+  void advance(int steps) override;
+  double time() const override { return static_cast<double>(step_count_) * scene_.step; }
+  long steps() const override { return step_count_; }
+  std::vector<Eigen::Vector3d> positions() override;
+  std::vector<Eigen::Vector3d> velocities() override;
+  std::vector<double> curvature() override { return bending_.curvature(); }
+  std::vector<double> residual_curvature() override { return bending_.residual_curvature(); }
+  std::vector<double> friction_share() override { return bending_.slip(); }
+  int dimension() const override { return bending_.dimension(); }
+  Ledger ledger() override;
+  double largest_stretch() override { return membrane_.largest_stretch(x_.data()); }
+  std::uint64_t state_hash() override;
+  std::vector<std::pair<std::string, double>> stage_seconds() override;
+  double solver_iterations() const override;
+  StepLimits limits() const override { return limits_; }
+  std::vector<ScenePart> parts() const override;
+  std::size_t device_bytes() const override { return device_->bytes; }
+  std::string device() const override;
+
+  // The parts of advance(); public because nvcc allows no device lambda in a private member function.
+  void hold();                 // pins: which vertices are held, and their velocity in this step
+  void substep(Real dt);       // bending and external forces, explicit
+  void explicit_substep(Real dt);  // every force, explicit
+  void implicit_stage();       // tension, damping and contact, implicit
+  void linear_system(Real h, bool first);
+  void accept_implicit();
+
+ private:
+  void choose_substeps(const Cloth& cloth, const CurvatureOperator& op,
+          const StepLimits& limits);
+  Ledger measure();
+
+  std::unique_ptr<Device> device_;
+  Scene scene_;
+  bool explicit_;
+  int vertices_;
+  long step_count_ = 0;
+  long solver_iterations_ = 0;
+  StepLimits limits_;
+  StageClock<Device> clock_;
+  BlockRows<Real, Device> matrix_;
+  Membrane<Real, Device> membrane_;
+  Bending<Real, Device> bending_;
+  Pcg<Real, Device> pcg_;
+  std::optional<Contact<Real, Device>> contact_;
+  bool moving_pins_ = false, held_changes_ = false;
+  std::vector<int> pin_host_;
+  Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_, change_;
+  Buffer<Vec3<Real>, Device> guess_[2];  // last corrections, one for each Newton step
+  Buffer<Real, Device> mass_;
+  Buffer<int, Device> pin_;
+  Buffer<char, Device> held_;
+  Buffer<VertexLedger, Device> ledger_;
+  Ledger initial_;
+};
+
+}  // namespace hysteron
