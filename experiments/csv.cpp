@@ -1,13 +1,12 @@
 #include "experiments/csv.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <string_view>
 
+#include "sim/atomic_file.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -117,9 +116,9 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
   return table;
 }
 
-void write_csv(const std::filesystem::path& file, const Table& table, const std::string& writer) {
-  const std::filesystem::path temporary = file.string() + ".part" + std::to_string(getpid());
-  std::ofstream out(temporary);
+void write_csv(const std::filesystem::path& file, const Table& table) {
+  AtomicFile target(file.string());
+  std::ostream& out = target.stream();
   out.precision(17);
   for (size_t c = 0; c < table.columns.size(); ++c) out << (c ? "," : "") << table.columns[c].name;
   out << '\n';
@@ -128,14 +127,7 @@ void write_csv(const std::filesystem::path& file, const Table& table, const std:
     for (size_t c = 0; c < table.columns.size(); ++c) out << (c ? "," : "") << table.columns[c].values[r];
     out << '\n';
   }
-  out.close();
-  std::error_code failure;
-  if (out) std::filesystem::rename(temporary, file, failure);
-  if (out && !failure) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw Error::machine(writer + ": cannot write " + file.string() +
-                       ": the folder is missing or not writable, or the disk is full");
+  target.commit();
 }
 
 }  // namespace hysteron::experiments

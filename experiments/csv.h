@@ -29,6 +29,6 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
 
 // Writes with 17 significant digits, so that reading gives the same doubles, under a temporary name that
 // becomes `file` once it is complete.  Throws Error::machine and leaves nothing if that fails.
-void write_csv(const std::filesystem::path& file, const Table& table, const std::string& writer);
+void write_csv(const std::filesystem::path& file, const Table& table);
 
 }  // namespace hysteron::experiments

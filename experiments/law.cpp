@@ -72,14 +72,12 @@ int run_law_command(const LawOptions& options) {
   for (double k : curvature) rows.push_back({k});
 
   LawRun run = run_law(request, rows);
-  write_csv(options.out,
-            {{{kCurvature, curvature},
-              {"moment [N]", std::move(run.moment)},
-              {"tangent [N m]", std::move(run.tangent)},
-              {"stored [J/m2]", std::move(run.stored)},
-              {"dissipated [J/m2]", std::move(run.dissipated)}},
-             {}},
-            "law");
+  write_csv(options.out, {{{kCurvature, curvature},
+                           {"moment [N]", std::move(run.moment)},
+                           {"tangent [N m]", std::move(run.tangent)},
+                           {"stored [J/m2]", std::move(run.stored)},
+                           {"dissipated [J/m2]", std::move(run.dissipated)}},
+                          {}});
   return 0;
 }
 

@@ -1,0 +1,74 @@
+// `hysteron law` from file to file.
+#include "experiments/law.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "experiments/csv.h"
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+class LawCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) / "hysteron_law_test";
+    std::filesystem::create_directories(folder_);
+    options_ = {"wong", {4e-5, 1e-5, 50}, {}, folder_ / "k.csv", folder_ / "m.csv"};
+    write("curvature [1/m],time [s]\n50,0\n100,1\n");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& text) { std::ofstream(options_.in) << text; }
+  std::string refusal() {
+    try {
+      run_law_command(options_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      EXPECT_FALSE(std::filesystem::exists(options_.out));
+      return error.what();
+    }
+    return "";
+  }
+  std::filesystem::path folder_;
+  LawOptions options_;
+};
+
+TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
+  EXPECT_EQ(run_law_command(options_), 0);
+  const Table out = read_csv(
+      options_.out, {"curvature [1/m]", "moment [N]", "tangent [N m]", "stored [J/m2]", "dissipated [J/m2]"},
+      {}, "law");
+  const double m0 = 3e-5 * 50 / 2, b2 = 1e-5;
+  constexpr double kRounding = 1e-15;
+  EXPECT_NEAR(out.columns[1].values[0], m0 + b2 * 50, kRounding);
+  EXPECT_NEAR(out.columns[2].values[1], b2, kRounding);
+  EXPECT_NEAR(out.columns[3].values[1], b2 * 100 * 100 / 2, kRounding);
+  EXPECT_NEAR(out.columns[4].values[1], m0 * (100 - 50. / 3), kRounding);
+}
+
+TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
+  options_.curve = {1e-5, 2e-5, 50};
+  EXPECT_NE(refusal().find("--b1 = 1e-05 N m must be finite and >= b2 = 2e-05 N m"), std::string::npos);
+}
+
+TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
+  options_.parameters = {"recovery"};
+  EXPECT_NE(refusal().find("'recovery' must have the form name=value"), std::string::npos);
+  options_.parameters = {"recovery=elastic"};
+  EXPECT_NE(refusal().find("recovery = elastic must be masing (default) or reversible"), std::string::npos);
+  options_.parameters = {};
+  write("curvature [1/m],time [s]\n50,1\n100,0\n");
+  EXPECT_NE(refusal().find("k.csv:3: time = 0 s must be >= 1 s"), std::string::npos);
+}
+
+TEST_F(LawCommand, ReadsParametersAsNumbersWhereTheyAreNumbers) {
+  EXPECT_EQ(std::get<double>(parse_parameter("stops=16").second), 16);
+  EXPECT_EQ(std::get<std::string>(parse_parameter("memory=stops").second), "stops");
+  EXPECT_EQ(parse_parameter("memory=stops").first, "memory");
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
