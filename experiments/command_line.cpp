@@ -92,11 +92,11 @@ void refuse_unknown(const Command& command) {
                             : "; did you mean " + nearest + "?"));
 }
 
-// What stands before the subcommand, or instead of one.
-void refuse_unknown_subcommand(const CLI::App& program) {
-  const std::string word = program.remaining().front();
+// A word before the subcommand, or instead of one.
+void refuse_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
+  if (word.starts_with('-')) throw Error::request("unknown option " + word + " before the subcommand");
   std::vector<std::string> known;
-  for (const Experiment& experiment : experiments()) known.push_back(experiment.name);
+  for (const Experiment& experiment : experiments) known.push_back(experiment.name);
   const std::string nearest = nearest_name(word, known);
   throw Error::request("unknown subcommand " + word +
                        (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
@@ -112,7 +112,7 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
   if (!command.experiment->run) return line;
   refuse_unknown(command);
   for (const auto& [path, option] : command.flags) {
-    for (const std::string& text : option->results()) line.flags.push_back({path, text});
+    for (const std::string& text : option->reduced_results()) line.flags.push_back({path, text});
   }
   return line;
 }
@@ -124,26 +124,32 @@ const Experiment& experiment_named(const std::string& name) {
   return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; });
 }
 
-std::optional<CommandLine> parse_command_line(int count, const char* const* words) {
+std::optional<CommandLine> parse_command_line(int count, const char* const* words,
+                                              const std::vector<Experiment>& known) {
   CLI::App program("Bending hysteresis of cloth: simulate, measure, picture", "hysteron");
   program.set_version_flag("--version", program_version());
   program.allow_extras();
   program.require_subcommand(0, 1);
-  std::vector<Command> commands(experiments().size());
-  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, experiments()[i], commands[i]);
+  std::vector<Command> commands(known.size());
+  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], commands[i]);
+  const auto chosen = [&]() -> const Command* {
+    for (const Command& command : commands) {
+      if (command.app->parsed()) return &command;
+    }
+    return nullptr;
+  };
   try {
     program.parse(count, words);
   } catch (const CLI::Success& asked) {
     program.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw Error::request(one_line(error.what()));
+    throw Error::request((chosen() ? chosen()->experiment->name + std::string(": ") : "") +
+                         one_line(error.what()));
   }
-  if (!program.remaining().empty()) refuse_unknown_subcommand(program);
-  for (const Command& command : commands) {
-    if (command.app->parsed()) return taken_apart(command, shell_command(count, words));
-  }
-  throw Error::request("needs a subcommand; see hysteron --help");
+  if (!program.remaining().empty()) refuse_stray_word(program.remaining().front(), known);
+  if (!chosen()) throw Error::request("needs a subcommand; see hysteron --help");
+  return taken_apart(*chosen(), shell_command(count, words));
 }
 
 }  // namespace hysteron::experiments

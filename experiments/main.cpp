@@ -11,11 +11,22 @@ namespace {
 using namespace hysteron;
 using namespace hysteron::experiments;
 
-// "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)"; a message may name its experiment itself.
-int fail(const std::string& experiment, std::string message, int exit_code) {
-  const std::string prefix = experiment + ": ";
-  if (!experiment.empty() && message.starts_with(prefix)) message.erase(0, prefix.size());
-  std::cerr << "hysteron" << (experiment.empty() ? "" : " " + experiment) << ": " << message << std::endl;
+// The experiment that a message names itself, "drape: ..."; "" if none.
+std::string experiment_in(const std::string& message) {
+  for (const Experiment& experiment : hysteron::experiments::experiments()) {
+    if (message.starts_with(std::string(experiment.name) + ": ")) return experiment.name;
+  }
+  return "";
+}
+
+// "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)"
+int fail(const std::string& experiment, const std::string& message, int exit_code) {
+  const std::string named = experiment_in(message);
+  std::cerr << "hysteron"
+            << (!named.empty()       ? " "
+                : experiment.empty() ? ": "
+                                     : " " + experiment + ": ")
+            << message << std::endl;
   return exit_code;
 }
 
