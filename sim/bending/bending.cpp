@@ -53,14 +53,16 @@ HYST_HD void chapter_forces(const Vec3<Real>& p0, const Vec3<Real>& p1, const Ve
 
 template <class Real, class Device>
 Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const CurvatureOperator& op,
-                               std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention)
+                               std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention,
+                               double viscosity)
     : device_(device), dimension_(op.dimension), elements_(op.elements()), hinges_(mesh.interior_edges),
-      convention_(convention), law_(std::move(law)), area_(device, cast<Real>(op.area)),
+      convention_(convention), viscosity_(static_cast<Real>(viscosity)), law_(std::move(law)), area_(device, cast<Real>(op.area)),
       coefficient_(device, cast<Real>(op.coefficient)), transposed_(device, cast<Real>(op.transposed)),
       rest_angle_(device, cast<Real>(op.rest_angle)), row_start_(device, op.hinge.start),
       row_hinge_(device, op.hinge.item), column_start_(device, op.element.start),
       column_element_(device, op.element.item), corner_(device, hinge_corners(mesh)),
-      angle_(device, hinges_), gradient_(device, 8 * static_cast<std::size_t>(hinges_)),
+      angle_(device, hinges_), rate_(device, viscosity > 0 ? hinges_ : 0),
+      viscous_(device, viscosity > 0 ? elements_ : 0), gradient_(device, 8 * static_cast<std::size_t>(hinges_)),
       moment_area_(device, static_cast<std::size_t>(elements_) * dimension_),
       force_(device, 4 * static_cast<std::size_t>(hinges_)), energy_(device, elements_) {
   const Adjacency a = vertex_hinges(mesh);
@@ -79,9 +81,11 @@ BendingForceView<Real> Bending<Real, Device>::forces() const {
 }
 
 template <class Real, class Device>
-void Bending<Real, Device>::commit(const Vec3<Real>* position) {
+void Bending<Real, Device>::commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt) {
   compute_angles(position);
-  law_->commit(device_, view(), angle_.data(), moment_area_.data());
+  if (viscosity_ > 0) compute_rates(velocity);
+  law_->commit(device_, view(), angle_.data(), {viscosity_, dt, rate_.data(), viscous_.data()},
+               moment_area_.data());
   compute_forces(position);
 }
 
@@ -102,6 +106,20 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x) {
     }
     g[6] = a.t0;
     g[7] = a.t1;
+  });
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
+  const Eigen::Vector4i* corner = corner_.data();
+  const Real* gradient = gradient_.data();
+  Real* rate = rate_.data();
+  for_each(device_, "bending rates", hinges_, HYST_KERNEL(int h) {
+    const Eigen::Vector4i c = corner[h];
+    const Real* g = gradient + 8 * h;
+    const Vec3<Real> along = v[c[3]] - v[c[2]];
+    rate[h] = Vec3<Real>(g[0], g[1], g[2]).dot(v[c[0]] - v[c[2]] - g[6] * along) +
+              Vec3<Real>(g[3], g[4], g[5]).dot(v[c[1]] - v[c[2]] - g[7] * along);
   });
 }
 
@@ -151,6 +169,12 @@ double Bending<Real, Device>::dissipated_energy() {
 }
 
 template <class Real, class Device>
+double Bending<Real, Device>::viscous_loss() {
+  const std::vector<double> energy = viscous_.download();
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::curvature() {
   Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
   const OperatorView<Real> op = view();
@@ -186,10 +210,10 @@ std::vector<double> Bending<Real, Device>::slip() {
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() + rest_angle_.bytes() +
+  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() + rest_angle_.bytes() + rate_.bytes() + viscous_.bytes() +
                                    row_start_.bytes() + row_hinge_.bytes() + column_start_.bytes() +
                                    column_element_.bytes();
-  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
+  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() + rate_.bytes() + viscous_.bytes() +
          gradient_.bytes() + moment_area_.bytes() + force_.bytes() + energy_.bytes();
 }
 

@@ -37,8 +37,14 @@ class LawLoop {
  public:
   virtual ~LawLoop() = default;
   // Accepts the angles: moment_area = A M (D per element), history updated, dissipation added [J].
+  // viscosity [N m s] > 0 adds a moment viscosity * C angle_rate and adds its work over dt [s] to viscous [J].
+  struct Viscous {
+    Real viscosity, dt;
+    const Real* angle_rate;  // per hinge [rad/s]
+    double* lost;            // per element [J]
+  };
   virtual void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change,
-                      Real* moment_area) = 0;
+                      const Viscous& viscous, Real* moment_area) = 0;
   // Recoverable energy of each element at the accepted state [J] (a measurement; changes nothing).
   virtual void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                       double* energy) = 0;

@@ -31,7 +31,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
       : law_(law), curve_(curve), history_(device, static_cast<std::size_t>(elements) * Law::kHistory),
         dissipated_(device, Law::kHistory > 0 ? elements : 0) {}
 
-  void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+  using typename LawLoop<Real, Device>::Viscous;
+
+  void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, const Viscous& viscous,
               Real* moment_area) override {
     const Law law = law_;
     Real* history = history_.data();
@@ -39,7 +41,14 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each(device, "bending law", op.elements, HYST_KERNEL(int i) {
       const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
       const auto step = law.step(k, load_history<Law>(history, i, op.elements));
-      for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * step.moment[d];
+      Vec<Real, D> moment = step.moment;
+      if (viscous.viscosity > 0) {
+        const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
+        moment += viscous.viscosity * rate;
+        viscous.lost[i] +=
+            static_cast<double>(viscous.dt * viscous.viscosity * op.area[i] * rate.squaredNorm());
+      }
+      for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
       store_history<Law>(history, i, op.elements, step.history);
       if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
     });

@@ -36,7 +36,7 @@ struct Fabric {
   double weft = 1000;           // fabric.weft       membrane stiffness along weft [N/m]
   double coupling = 0;          // fabric.coupling   warp-weft coupling C_12 [N/m], C_12^2 < warp * weft
   double shear = 60;            // fabric.shear      in-plane shear stiffness [N/m]
-  double damping = 1e-4;        // fabric.damping    viscous membrane damping: stress = damping * C * strain rate [s]
+  double damping = 1e-4;        // fabric.damping    viscosity over stiffness, of membrane and of bending (b1) [s]
   double friction = 0.3;        // fabric.friction   Coulomb coefficient against obstacles
 
   std::map<std::string, Provenance> provenance;      // of each parameter above, by its name

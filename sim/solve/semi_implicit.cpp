@@ -3,7 +3,9 @@
 //   alpha times   v += he M^-1 (f_bend(x) + m g + f_air),  x += he v;  bending history committed at each x
 //   then          M dv = hi (f_m(x + hi dv) + f_d(v + dv) + f_c(x + hi dv)),  v += dv,  x += hi dv
 //
-// with f_m membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with
+// Bending viscosity (fabric.damping times b1) is explicit too; it keeps bending waves whose period resonates with hi
+// from feeding on the tension's impulses, which come once per hi (the weakness of impulse splittings).
+// f_m is membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with
 // obstacles kNewtonWithObstacles of them) and the matrix kept positive definite.
 //
 // Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
@@ -81,7 +83,7 @@ void Stepper<Real, Device>::hold() {
 template <class Real, class Device>
 void Stepper<Real, Device>::substep(Real dt) {
   clock_.begin(Stage::bending);
-  bending_.commit(x_.data());
+  bending_.commit(x_.data(), v_.data(), dt);
   const BendingForceView<Real> bending = bending_.forces();
   const Vec3<Real> g = scene_.gravity.cast<Real>();
   const Real drag = static_cast<Real>(scene_.air_drag / scene_.fabric.density);
@@ -117,7 +119,7 @@ void Stepper<Real, Device>::substep(Real dt) {
 
 template <class Real, class Device>
 void Stepper<Real, Device>::explicit_substep(Real dt) {
-  bending_.commit(x_.data());
+  bending_.commit(x_.data(), v_.data(), dt);
   membrane_.update(x_.data(), v_.data());
   const BendingForceView<Real> bending = bending_.forces();
   const MembraneForceView<Real> membrane = membrane_.forces();

@@ -51,7 +51,7 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   const double b1 = law_largest_stiffness(scene, op);
   const double bending = bending_eigenvalue(scene, cloth, op, mass, held, b1);
   StepLimits limits;
-  limits.bending_step = stable_step(bending, 0);
+  limits.bending_step = stable_step(bending, scene.fabric.damping);
   double largest = limits.bending_step;
   if (scene.integrator == "explicit") {
     double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);

@@ -40,7 +40,8 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       bending_(*device_, cloth.mesh, op,
                make_law_loop<Real>(*device_, scene.law, scene.param, scene.fabric.virgin_curve(), op.dimension,
                                    op.elements()),
-               scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy),
+               scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
+               scene.fabric.damping * scene.fabric.b1),
       pcg_(*device_, explicit_ ? 0 : vertices_), pin_host_(cloth.pin), x_(*device_, cast<Real>(cloth.start)),
       v_(*device_, vertices_), rhs_(*device_, vertices_), mass_(*device_, masses<Real>(scene, cloth.mesh)),
       held_(*device_, cloth.held(scene, 0)), ledger_(*device_, vertices_) {
@@ -62,7 +63,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     if (!explicit_) guess_[1] = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     contact_->move(0, 0);
   }
-  bending_.commit(x_.data());
+  bending_.commit(x_.data(), v_.data(), 0);
   initial_ = measure();
   initial_.initial =
       initial_.kinetic + initial_.gravitational + initial_.membrane + initial_.bending + initial_.contact;
@@ -126,16 +127,18 @@ Ledger Stepper<Real, Device>::ledger() {
     ledger.handle_work += sum.handle_work;
   }
   ledger.bending_friction = bending_.dissipated_energy();
-  ledger.viscous = membrane_.viscous_loss();
+  const double viscous_bending = bending_.viscous_loss(), viscous_membrane = membrane_.viscous_loss();
+  ledger.viscous = viscous_bending + viscous_membrane;
   if (contact_) {
     const ContactLoss contact = contact_->losses();
     ledger.contact_friction = contact.friction;
     ledger.obstacle_work = contact.obstacle_work;
   }
-  ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - bending_work;
+  ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - viscous_bending -
+                       bending_work;
   ledger.gravity_gap = -ledger.gravitational - gravity_work;
   ledger.implicit_gap = initial_.membrane - ledger.membrane + initial_.contact - ledger.contact -
-                        ledger.viscous - ledger.contact_friction + ledger.obstacle_work - implicit_work;
+                        viscous_membrane - ledger.contact_friction + ledger.obstacle_work - implicit_work;
   ledger.close();
   return ledger;
 }
@@ -171,7 +174,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
       "solve: start, product, advance, direction", "the integrator is explicit");
   add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");
-  add("membrane damping", scene_.fabric.damping > 0, 0, "viscous loss", "fabric.damping = 0");
+  add("viscous damping", scene_.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene_.air_drag > 0, 0, "substep", "air-drag = 0");
   add("moving handles", moving_pins_, start_.bytes() + pin_.bytes(), "handles", "no pin moves");
   add("obstacles", contact_.has_value(), contact_ ? contact_->bytes() + before_.bytes() : 0,
