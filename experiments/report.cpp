@@ -107,13 +107,15 @@ std::string energy_table(const Json& energy) {
 
 std::string fabric_table(const Json& fabric) {
   Rows rows;
-  for (const auto& [name, from] : fabric.value("provenance", Json::object()).items()) {
+  const Json provenance = fabric.value("provenance", Json::object());
+  for (const auto& [name, from] : provenance.items()) {
     rows.push_back(
         {name, shown(fabric.value(name, Json())), shown(from.at("confidence")), shown(from.at("source"))});
   }
   std::string tables = html_table({"SI", "value", "", "source"}, rows, {1});
   rows.clear();
-  for (const auto& [name, number] : fabric.value("published", Json::object()).items()) {
+  const Json published = fabric.value("published", Json::object());
+  for (const auto& [name, number] : published.items()) {
     rows.push_back({name, shown(number.at("value")) + " " + shown(number.at("unit")),
                     shown(number.at("confidence")), shown(number.at("source"))});
   }
@@ -128,7 +130,8 @@ std::string run_table(const Json& manifest) {
     if (manifest.contains(key) && !manifest[key].is_null())
       rows.push_back({split_unit(key).name, shown(manifest[key])});
   }
-  for (const auto& [stage, seconds] : manifest.value("wall_seconds", Json::object()).items()) {
+  const Json wall = manifest.value("wall_seconds", Json::object());
+  for (const auto& [stage, seconds] : wall.items()) {
     if (seconds.is_number() && seconds.get<double>() > 0)
       rows.push_back({"wall time, " + stage, shown(seconds) + " s"});
   }

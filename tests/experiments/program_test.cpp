@@ -1,0 +1,85 @@
+// The program as a script meets it: exit codes, one line on stderr, results on stdout.
+#include <cstdio>
+
+#include "experiments/experiments.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct Outcome {
+  int exit_code;
+  std::string out, err;
+};
+
+Outcome program(const std::string& arguments) {
+  const Folder folder;
+  const std::string out = folder.path() / "out", err = folder.path() / "err";
+  const int status = std::system((HYSTERON_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
+  return {WEXITSTATUS(status), text_of(out), text_of(err)};
+}
+
+TEST(Program, RefusesEverySubcommandThatIsNotBuiltAndSaysSo) {
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.run) continue;
+    const Outcome outcome = program(std::string(experiment.name) + " --whatever 3");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, std::string("hysteron ") + experiment.name + ": not built yet\n");
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(Program, NamesTheExperimentOnceInAMessage) {
+  EXPECT_EQ(program("law --b1 -1 --in a --out b").err, "hysteron law: b1 = -1 N m must be >= 0 (--b1)\n");
+  EXPECT_EQ(program("law --lw x").err, "hysteron law: unknown option --lw; did you mean --law?\n");
+  EXPECT_EQ(program("lwa").err, "hysteron: unknown subcommand lwa; did you mean law?\n");
+}
+
+TEST(Program, ExitsWithTwoForAWrongRequestAndOneForAFailingMachine) {
+  EXPECT_EQ(program("law --b1 -1 --in a --out b").exit_code, 2);
+  EXPECT_EQ(program("").exit_code, 2);
+  EXPECT_EQ(program("list fabrics >/dev/full #").exit_code, 1);
+}
+
+TEST(Program, ListsTheFabricsWithTheirSource) {
+  const Outcome outcome = program("list fabrics");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  for (const char* part : {"cotton-broad", "wool-tropical", "polyester-tropical", "polyester-faille",
+                           "1.157e-05", "0.001216", "52.5", "0.1238", "Matsudaira"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(Program, ListsLawsScenesAndDevices) {
+  const Outcome outcome = program("list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* part : {"fabrics:", "laws:", "prandtl", "scenes:", "devices:", "cpu"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(program("list fabrcs").err,
+            "hysteron list: \"fabrcs\" must be fabrics | laws | scenes | devices\n");
+}
+
+TEST(Program, SaysItsVersionAndCommit) {
+  const Outcome outcome = program("--version");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("(commit "), std::string::npos) << outcome.out;
+}
+
+TEST(Program, DrivesALawThroughAFileOfCurvatures) {
+  const Folder folder;
+  const std::string in = folder.path() / "k.csv", out = folder.path() / "m.csv";
+  std::ofstream(in) << "curvature [1/m]\n50\n";
+  ASSERT_EQ(program("law --law linear --b1 1e-5 --b2 1e-5 --k0 50 --in " + in + " --out " + out).exit_code,
+            0);
+  const std::string table = text_of(out);
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "curvature [1/m],moment [N],tangent [N m],stored [J/m2],dissipated [J/m2]");
+  double curvature = 0, moment = 0;
+  ASSERT_EQ(std::sscanf(table.c_str() + table.find('\n'), "%lf,%lf", &curvature, &moment), 2);
+  EXPECT_DOUBLE_EQ(moment, 1e-5 * 50);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,67 @@
+#include "sim/error.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+CommandLine drape_with(std::vector<Flag> flags) { return {"drape", "hysteron drape", std::move(flags), {}}; }
+
+std::string refusal(std::vector<Flag> flags) {
+  try {
+    set_up(drape_with(std::move(flags)), {default_scene(), {}});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
+  const Folder folder;
+  const std::string file = folder.path() / "scene.toml";
+  std::ofstream(file) << "triangles = 10\nseconds = 2\nfps = 12\nstarch = 3\n";
+  experiments::Setup defaults{default_scene(), {}};
+  defaults.scene.step = 5e-4;
+  defaults.scene.seconds = 9;
+  double starch = 0;
+  const Field field = &starch;
+  const Keys own = {{describe("starch", field, "g", positive(), "", "the experiment's own key"), field}};
+  const auto setup =
+      set_up(drape_with({{"triangles", "20"}, {"scene", file}, {"size", "64x48"}}), defaults, own);
+  EXPECT_EQ(setup.scene.triangles, 20);
+  EXPECT_EQ(setup.scene.seconds, 2);
+  EXPECT_EQ(setup.scene.step, 5e-4);
+  EXPECT_EQ(setup.options.fps, 12);
+  EXPECT_EQ(starch, 3);
+  EXPECT_EQ(setup.options.width(), 64);
+  EXPECT_EQ(setup.options.height(), 48);
+  EXPECT_EQ(setup.options.out, "out/drape");
+}
+
+TEST(Setup, RefusesPicturesWithoutSize) {
+  EXPECT_EQ(refusal({{"size", "0x720"}}),
+            "size = 0x720 must be WIDTHxHEIGHT with sides in [16, 16384] pixels (--size)");
+  for (const char* size :
+       {"1280", "1280x", "x720", "1280x-1", "1280x720x3", "99999999999x720", "20000x720"}) {
+    EXPECT_NE(refusal({{"size", size}}).find("must be WIDTHxHEIGHT"), std::string::npos) << size;
+  }
+}
+
+TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
+  EXPECT_EQ(refusal({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
+  EXPECT_NE(refusal({{"renderer", "vulkan"}}).find("auto | egl | osmesa"), std::string::npos);
+  EXPECT_NE(refusal({{"export", "stl"}}).find("none | ply | obj"), std::string::npos);
+  EXPECT_NE(refusal({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
+}
+
+TEST(Setup, SaysThatResumingIsNotBuilt) {
+  EXPECT_EQ(refusal({{"resume", "true"}}), "--resume is not built yet");
+}
+
+TEST(Setup, ChecksTheSceneAsAWhole) {
+  EXPECT_NE(refusal({{"fabric.b1", "1e-9"}}).find("fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
