@@ -38,7 +38,8 @@ Box box_of(std::span<const float> positions) {
   Box box{{positions[0], positions[1], positions[2]}, {positions[0], positions[1], positions[2]}};
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
     const Eigen::Vector3f point(positions[i], positions[i + 1], positions[i + 2]);
-    if (!point.allFinite()) throw Error::request("bounding box: point " + std::to_string(i / 3) + " is not finite");
+    if (!point.allFinite())
+      throw Error::request("bounding box: point " + std::to_string(i / 3) + " is not finite");
     box = box.merged({point, point});
   }
   return box;
@@ -48,7 +49,8 @@ Camera Camera::perspective(const Eigen::Vector3f& eye, const Eigen::Vector3f& ta
   const float distance = (target - eye).norm();
   if (!(distance > 0)) throw Error::request("camera: eye and target are the same point");
   if (!(fov_degree > 0 && fov_degree < 170))
-    throw Error::request("camera: fov = " + std::to_string(fov_degree) + " degree; allowed: above 0, below 170");
+    throw Error::request("camera: fov = " + std::to_string(fov_degree) +
+                         " degree; allowed: above 0, below 170");
   Camera camera;
   camera.eye_ = eye;
   camera.target_ = target;
@@ -66,7 +68,8 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
   float distance = 0;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3f p = axes * (corner(box, i) - center);
-    distance = std::max({distance, p.z() + std::abs(p.y()) / slope, p.z() + std::abs(p.x()) / (slope * aspect)});
+    distance =
+        std::max({distance, p.z() + std::abs(p.y()) / slope, p.z() + std::abs(p.x()) / (slope * aspect)});
   }
   return perspective(center + std::max(distance, 1e-6f) * backward, center, fov_degree);
 }

@@ -22,8 +22,8 @@ class Camera {
   // `fov_degree`: full vertical angle.
   static Camera perspective(const Eigen::Vector3f& eye, const Eigen::Vector3f& target, float fov_degree);
 
-  // Perspective; looks at the box against `direction` (from the box to the eye), as near as the box stays whole in a
-  // picture of this aspect (width / height).  For a sequence give the box of all its frames.
+  // Perspective; looks at the box against `direction` (from the box to the eye), as near as the box stays
+  // whole in a picture of this aspect (width / height).  For a sequence give the box of all its frames.
   static Camera framing(const Box& box, const Eigen::Vector3f& direction, float fov_degree, float aspect);
 
   // Orthographic from above (against gravity), x to the right, y up in the picture: Cusick's view.

@@ -11,8 +11,9 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kInk{38, 40, 44};
-constexpr float kLineSpacing = 1.9f;    // of the letter height
-constexpr float kTitleGrowth = 1.25f;   // first line of a caption
+constexpr Rgb8 kPaper{240, 240, 240};
+constexpr float kLineSpacing = 1.9f;   // of the letter height
+constexpr float kTitleGrowth = 1.25f;  // first line of a caption
 
 bool is_right(Corner corner) { return corner == Corner::top_right || corner == Corner::bottom_right; }
 bool is_bottom(Corner corner) { return corner == Corner::bottom_left || corner == Corner::bottom_right; }
@@ -39,6 +40,16 @@ std::string length_text(double metres) {
   if (metres < 0.99e-2) return number_text(metres * 1e3) + " mm";
   if (metres < 0.99) return number_text(metres * 1e2) + " cm";
   return number_text(metres) + " m";
+}
+
+// Text with a pale rim, so that it can be read over dark cloth too.
+void draw_label(Image& image, std::string_view text, float x, float y, float size) {
+  const float rim = std::max(1.0f, size / 9);
+  for (int i = 0; i < 8; ++i) {
+    const float angle = 0.785398f * static_cast<float>(i);
+    draw_text(image, text, x + rim * std::cos(angle), y + rim * std::sin(angle), {kPaper, size});
+  }
+  draw_text(image, text, x, y, {kInk, size});
 }
 
 // Top left corner of a block of this size in a corner of the picture.
@@ -74,8 +85,9 @@ void draw_caption(Image& image, std::string_view text, Corner corner) {
   const float height = kTitleGrowth * size + spacing * (static_cast<float>(lines.size()) - 1);
   float baseline = place_block(image, corner, 0, height).y + kTitleGrowth * size;
   for (size_t i = 0; i < lines.size(); ++i, baseline += spacing) {
-    const TextStyle style{kInk, i == 0 ? kTitleGrowth * size : size};
-    draw_text(image, lines[i], place_block(image, corner, text_width(lines[i], style.size), 0).x, baseline, style);
+    const float letters = i == 0 ? kTitleGrowth * size : size;
+    draw_label(image, lines[i], place_block(image, corner, text_width(lines[i], letters), 0).x, baseline,
+               letters);
   }
 }
 
@@ -86,7 +98,8 @@ double scale_bar_length(const Image& image, double metres_per_pixel) {
   const double decade = std::pow(10, std::floor(std::log10(wanted)));
   double best = decade;
   for (const double factor : {2.0, 5.0, 10.0})
-    if (std::abs(std::log(factor * decade / wanted)) < std::abs(std::log(best / wanted))) best = factor * decade;
+    if (std::abs(std::log(factor * decade / wanted)) < std::abs(std::log(best / wanted)))
+      best = factor * decade;
   return best;
 }
 
@@ -98,19 +111,23 @@ double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std:
   const Place at = place_block(image, corner, length, 1.8f * size + thick);
   const float label_width = text_width(label, size);
   const float label_x = is_right(corner) ? at.x + length - label_width : at.x;
-  draw_text(image, label, label_x, at.y + size, {kInk, size});
+  draw_label(image, label, label_x, at.y + size, size);
   const float left = std::round(at.x), top = std::round(at.y + 1.8f * size);
+  draw_rectangle(image, left - 1, top - 1, left + length + 1, top + std::round(thick) + 1, kPaper);
   draw_rectangle(image, left, top, left + length, top + std::round(thick), kInk);
   return length;
 }
 
 void draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   if (!(bar.low < bar.high))
-    throw Error::request("colour bar: low = " + number_text(bar.low) + " must be below high = " + number_text(bar.high));
+    throw Error::request("colour bar: low = " + number_text(bar.low) +
+                         " must be below high = " + number_text(bar.high));
   const float size = text_size(image), width = 0.24f * static_cast<float>(image.width()), ramp = 0.9f * size;
-  const Place at = place_block(image, corner, width, 4.6f * size + ramp);
+  // The last number is centred under the bar's end.
+  const float overhang = 0.5f * text_width(number_text(bar.high), 0.85f * size);
+  const Place at = place_block(image, corner, width + overhang, 4.6f * size + ramp);
   const std::string title = bar.label + (bar.unit.empty() ? "" : " [" + bar.unit + "]");
-  draw_text(image, title, at.x, at.y + size, {kInk, size});
+  draw_label(image, title, at.x, at.y + size, size);
   const float top = std::round(at.y + 1.9f * size);
   draw_ramp(image, bar, std::round(at.x), top, std::round(width), std::round(ramp));
   const int ticks = std::max(2, bar.ticks);
@@ -119,7 +136,8 @@ void draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
     const float x = std::round(at.x) + share * std::round(width);
     draw_rectangle(image, x - 0.5f, top + ramp, x + 0.5f, top + ramp + 0.45f * size, kInk);
     const std::string number = number_text(bar.low + (bar.high - bar.low) * share);
-    draw_text(image, number, x - 0.5f * text_width(number, 0.85f * size), top + ramp + 1.6f * size, {kInk, 0.85f * size});
+    draw_label(image, number, x - 0.5f * text_width(number, 0.85f * size), top + ramp + 1.6f * size,
+               0.85f * size);
   }
 }
 

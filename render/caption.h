@@ -1,5 +1,5 @@
-// Lettering on pictures: captions, scale bars, colour bars.  Everything is drawn on the CPU into an Image and grows
-// with its height, so that a thumbnail and a print carry the same proportions.
+// Lettering on pictures: captions, scale bars, colour bars.  Everything is drawn on the CPU into an Image and
+// grows with its height, so that a thumbnail and a print carry the same proportions.
 #pragma once
 
 #include <string>
@@ -34,8 +34,8 @@ void draw_caption(Image& image, std::string_view text, Corner corner);
 
 // The length 1, 2 or 5 times a power of ten [m] whose bar is nearest to a sixth of the picture's width.
 double scale_bar_length(const Image& image, double metres_per_pixel);
-// A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's centre").
-// Returns the bar's length in pixels.  Error::request if metres_per_pixel is not positive.
+// A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's
+// centre"). Returns the bar's length in pixels.  Error::request if metres_per_pixel is not positive.
 double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std::string_view note = "");
 
 struct ColorBar {

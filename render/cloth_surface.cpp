@@ -53,17 +53,31 @@ void attribute(const GlFunctions& gl, Attribute index, const GlBuffer& buffer, G
 }  // namespace
 
 ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
-    : gl_(&gl), vertices_(topology.vertices), triangles_(topology.triangles.size() / 3),
-      normal_program_(gl, {.vertex = "normals.vert", .fragment = "", .defines = "", .captured = {"smooth_normal"}}),
-      arrays_(gl), no_arrays_(gl), positions_(gl), normals_(gl), values_(gl), pattern_(gl), indices_(gl),
-      corner_start_(gl), corners_(gl), position_texture_(gl), index_texture_(gl), corner_start_texture_(gl),
+    : gl_(&gl),
+      vertices_(topology.vertices),
+      triangles_(topology.triangles.size() / 3),
+      normal_program_(
+          gl, {.vertex = "normals.vert", .fragment = "", .defines = "", .captured = {"smooth_normal"}}),
+      arrays_(gl),
+      no_arrays_(gl),
+      positions_(gl),
+      normals_(gl),
+      values_(gl),
+      pattern_(gl),
+      indices_(gl),
+      corner_start_(gl),
+      corners_(gl),
+      position_texture_(gl),
+      index_texture_(gl),
+      corner_start_texture_(gl),
       corner_texture_(gl) {
   require_topology(topology);
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
   if (3 * std::max(vertices_, 2 * triangles_) > static_cast<size_t>(largest))
     throw Error::machine("drawing a cloth of " + std::to_string(triangles_) +
-                         " triangles: the driver's texture buffers hold " + std::to_string(largest) + " items");
+                         " triangles: the driver's texture buffers hold " + std::to_string(largest) +
+                         " items");
   upload_topology(topology);
   upload_adjacency(topology);
   bind_attributes(topology);
@@ -81,7 +95,8 @@ void ClothSurface::upload_topology(const ClothTopology& topology) {
   view_as_texture(*gl_, index_texture_, GL_R32I, indices_);
 }
 
-// For vertex a the pairs (b, c) of its triangles (a, b, c), those of vertex i at start[i] to start[i + 1] - 1.
+// For vertex a the pairs (b, c) of its triangles (a, b, c), those of vertex i at start[i] to start[i + 1]
+// - 1.
 void ClothSurface::upload_adjacency(const ClothTopology& topology) {
   const auto& triangles = topology.triangles;
   std::vector<int> start(vertices_ + 1, 0);

@@ -11,8 +11,9 @@ namespace hysteron::render {
 
 struct ClothTopology {
   size_t vertices = 0;
-  std::span<const int> triangles;   // 3 a triangle, counter-clockwise seen from the front
-  std::span<const float> pattern;   // (warp, weft) coordinates, 2 a vertex [m]; may be empty: no threads are drawn
+  std::span<const int> triangles;  // 3 a triangle, counter-clockwise seen from the front
+  std::span<const float>
+      pattern;  // (warp, weft) coordinates, 2 a vertex [m]; may be empty: no threads are drawn
 };
 
 // Texture units of the buffers that shaders read vertex by vertex.

@@ -20,10 +20,14 @@ Eigen::Vector3f linear(const Rgb8& color) {
 ProgramFiles cloth_files(Show show) {
   switch (show) {
     case Show::curvature:
-    case Show::friction: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
-    case Show::wireframe: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
-    case Show::silhouette: return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
-    default: return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
+    case Show::friction:
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
+    case Show::wireframe:
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
+    case Show::silhouette:
+      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
+    default:
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
   }
 }
 
@@ -36,7 +40,8 @@ Box mesh_box(const TriangleMesh& mesh) {
 
 Box placed_box(const Box& box, const Eigen::Matrix4f& placement) {
   const Eigen::Vector3f half = 0.5f * (box.high - box.low);
-  const Eigen::Vector3f center = placement.topLeftCorner<3, 3>() * box.center() + placement.topRightCorner<3, 1>();
+  const Eigen::Vector3f center =
+      placement.topLeftCorner<3, 3>() * box.center() + placement.topRightCorner<3, 1>();
   const Eigen::Vector3f reach = placement.topLeftCorner<3, 3>().cwiseAbs() * half;
   return {center - reach, center + reach};
 }
@@ -58,11 +63,15 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
 }  // namespace
 
 ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
-    : offscreen_(offscreen), gl_(offscreen.gl()), size_(size),
+    : offscreen_(offscreen),
+      gl_(offscreen.gl()),
+      size_(size),
       target_((offscreen.make_current(), gl_), size.width * size.supersample, size.height * size.supersample,
               size.samples),
-      shadows_(gl_), backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
-      matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}), color_map_(gl_),
+      shadows_(gl_),
+      backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
+      matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}),
+      color_map_(gl_),
       no_arrays_(gl_) {
   set_look(look_);
 }
@@ -104,7 +113,9 @@ ClothView::Obstacle& ClothView::obstacle(int number) {
   return obstacles_[number];
 }
 
-void ClothView::move_obstacle(int number, const Eigen::Matrix4f& placement) { obstacle(number).placement = placement; }
+void ClothView::move_obstacle(int number, const Eigen::Matrix4f& placement) {
+  obstacle(number).placement = placement;
+}
 void ClothView::show_obstacle(int number, bool visible) { obstacle(number).visible = visible; }
 
 void ClothView::set_ground(std::optional<float> height) {
@@ -232,6 +243,14 @@ void ClothView::draw_cloth(const Camera& camera) const {
   gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
   gl_.BindTexture(GL_TEXTURE_2D, color_map_.name());
   cloth_->draw();
+}
+
+double covered_area(const Image& silhouette, double metres_per_pixel) {
+  const auto& linear_light = linear_of_srgb8();
+  double covered = 0;
+  for (int y = 0; y < silhouette.height(); ++y)
+    for (int x = 0; x < silhouette.width(); ++x) covered += 1 - linear_light[silhouette.at(x, y)[1]];
+  return covered * metres_per_pixel * metres_per_pixel;
 }
 
 }  // namespace hysteron::render

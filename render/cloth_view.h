@@ -1,7 +1,7 @@
 // Pictures of a cloth, its obstacles and their shadows.
 //
-// The view keeps everything on the GPU and changes nothing it is given.  Equal calls give equal pictures on one
-// driver; drivers differ by the last bits of their arithmetic, mostly along edges.
+// The view keeps everything on the GPU and changes nothing it is given.  Equal calls give equal pictures on
+// one driver; drivers differ by the last bits of their arithmetic, mostly along edges.
 #pragma once
 
 #include <Eigen/Core>
@@ -50,9 +50,9 @@ class ClothView {
   // Height of a ground that catches shadows [m]; none by default.
   void set_ground(std::optional<float> height);
 
-  // Box of all that will cast a shadow in the whole sequence, so that shadows keep their sharpness; without it the
-  // box of each picture's positions and of the obstacles' placements at that time is used (positions written on the
-  // GPU are unknown here: then it is needed).
+  // Box of all that will cast a shadow in the whole sequence, so that shadows keep their sharpness; without
+  // it the box of each picture's positions and of the obstacles' placements at that time is used (positions
+  // written on the GPU are unknown here: then it is needed).
   void set_bounds(const Box& bounds);
   void set_look(const Look& look);
 
@@ -94,5 +94,9 @@ class ClothView {
   std::optional<Box> given_bounds_, position_bounds_;
   Look look_;
 };
+
+// Area of what is black in a silhouette seen from above [m^2]; partly covered pixels count by their share of
+// light.
+double covered_area(const Image& silhouette, double metres_per_pixel);
 
 }  // namespace hysteron::render

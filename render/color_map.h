@@ -1,9 +1,9 @@
 // Colour maps for scalar fields.
 //
-// Both are paths through Oklab (Ottosson 2020, "A perceptual color space for image processing"), computed here, not
-// taken from a table.  Lightness is linear in the value (in its distance from the middle for the diverging one), so
-// equal steps look equal and the order survives in grey; the hues run between blue and yellow or orange, which
-// remain apart under red-green colour blindness.
+// Both are paths through Oklab (Ottosson 2020, "A perceptual color space for image processing"), computed
+// here, not taken from a table.  Lightness is linear in the value (in its distance from the middle for the
+// diverging one), so equal steps look equal and the order survives in grey; the hues run between blue and
+// yellow or orange, which remain apart under red-green colour blindness.
 #pragma once
 
 #include <Eigen/Core>

@@ -20,7 +20,9 @@ struct Page {
   int width() const { return gap + columns * (cell_width + gap); }
   int height() const { return title_height + gap + rows * (cell_height + caption_height + gap); }
   int left(int entry) const { return gap + entry % columns * (cell_width + gap); }
-  int top(int entry) const { return title_height + gap + entry / columns * (cell_height + caption_height + gap); }
+  int top(int entry) const {
+    return title_height + gap + entry / columns * (cell_height + caption_height + gap);
+  }
 };
 
 Page page_of(const std::vector<SheetEntry>& entries, const SheetLayout& layout, int columns) {
@@ -35,7 +37,8 @@ Page page_of(const std::vector<SheetEntry>& entries, const SheetLayout& layout, 
   for (const SheetEntry& entry : entries)
     tallest = std::max(tallest, static_cast<double>(entry.image.height()) / entry.image.width());
   page.cell_height = std::max(1, static_cast<int>(std::lround(page.cell_width * tallest)));
-  const bool captions = std::any_of(entries.begin(), entries.end(), [](const auto& e) { return !e.caption.empty(); });
+  const bool captions =
+      std::any_of(entries.begin(), entries.end(), [](const auto& e) { return !e.caption.empty(); });
   page.caption_height = captions ? 2 * page.letters : 0;
   page.title_height = layout.title.empty() ? 0 : 3 * page.letters;
   return page;
@@ -44,7 +47,9 @@ Page page_of(const std::vector<SheetEntry>& entries, const SheetLayout& layout, 
 Page best_page(const std::vector<SheetEntry>& entries, const SheetLayout& layout) {
   if (layout.columns > 0) return page_of(entries, layout, layout.columns);
   Page best = page_of(entries, layout, 1);
-  const auto misfit = [](const Page& page) { return std::abs(std::log(page.width() / (1.5 * page.height()))); };
+  const auto misfit = [](const Page& page) {
+    return std::abs(std::log(page.width() / (1.5 * page.height())));
+  };
   for (int columns = 2; columns <= static_cast<int>(entries.size()); ++columns) {
     const Page page = page_of(entries, layout, columns);
     if (page.cell_width >= kLeastCellWidth && misfit(page) < misfit(best)) best = page;
@@ -65,7 +70,8 @@ Image fitted(const Image& image, const Page& page) {
 Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout) {
   if (entries.empty()) throw Error::request("contact sheet: there are no pictures");
   for (const SheetEntry& entry : entries)
-    if (entry.image.empty()) throw Error::request("contact sheet: the picture \"" + entry.caption + "\" is empty");
+    if (entry.image.empty())
+      throw Error::request("contact sheet: the picture \"" + entry.caption + "\" is empty");
   const Page page = best_page(entries, layout);
   if (page.cell_width < kLeastCellWidth)
     throw Error::request("contact sheet: " + std::to_string(page.columns) + " columns in " +
@@ -74,8 +80,8 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& l
   Image sheet(page.width(), page.height(), kPaper);
   const auto letters = static_cast<float>(page.letters);
   if (!layout.title.empty())
-    draw_text(sheet, layout.title, static_cast<float>(page.gap), static_cast<float>(page.gap) + 1.4f * letters,
-              {.size = 1.4f * letters});
+    draw_text(sheet, layout.title, static_cast<float>(page.gap),
+              static_cast<float>(page.gap) + 1.4f * letters, {.size = 1.4f * letters});
   for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
     const Image cell = fitted(entries[i].image, page);
     paste(sheet, cell, page.left(i) + (page.cell_width - cell.width()) / 2,

@@ -11,13 +11,16 @@ namespace {
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   for (const char c : line) {
-    if (c == ',') cells.emplace_back();
-    else if (c != '\r') cells.back() += c;
+    if (c == ',')
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
   }
   return cells;
 }
 
-size_t column_named(const std::vector<std::string>& names, const std::string& wanted, const std::string& file) {
+size_t column_named(const std::vector<std::string>& names, const std::string& wanted,
+                    const std::string& file) {
   std::string all;
   for (size_t i = 0; i < names.size(); ++i) {
     if (names[i] == wanted || names[i].substr(0, names[i].find(" [")) == wanted) return i;
@@ -31,7 +34,8 @@ double number_in(const std::vector<std::string>& cells, size_t column, const std
   char* end = nullptr;
   const double value = std::strtod(cells[column].c_str(), &end);
   if (*end != '\0')
-    throw Error::request("reading " + file + ":" + std::to_string(line) + ": \"" + cells[column] + "\" is no number");
+    throw Error::request("reading " + file + ":" + std::to_string(line) + ": \"" + cells[column] +
+                         "\" is no number");
   return value;
 }
 
@@ -44,7 +48,8 @@ Series series_from_csv(const std::filesystem::path& csv, const std::string& x, c
   if (!file || !std::getline(file, line))
     throw Error::request("reading " + csv.string() + ": the file is missing or empty");
   const auto names = cells_of(line);
-  const size_t x_column = column_named(names, x, csv.string()), y_column = column_named(names, y, csv.string());
+  const size_t x_column = column_named(names, x, csv.string()),
+               y_column = column_named(names, y, csv.string());
   Series series{.label = label, .x = {}, .y = {}};
   for (int number = 2; std::getline(file, line); ++number) {
     if (line.empty()) continue;

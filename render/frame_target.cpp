@@ -24,7 +24,8 @@ void attach(const GlFunctions& gl, GLenum attachment, const GlRenderbuffer& buff
 void require_complete(const GlFunctions& gl) {
   const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Error::machine("making the framebuffer: the driver calls it incomplete, status " + std::to_string(status));
+    throw Error::machine("making the framebuffer: the driver calls it incomplete, status " +
+                         std::to_string(status));
 }
 
 Image flipped_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) {
@@ -40,7 +41,13 @@ Image flipped_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) 
 }  // namespace
 
 FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int samples)
-    : gl_(&gl), width_(width), height_(height), color_(gl), depth_(gl), resolved_color_(gl), multisampled_(gl),
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      color_(gl),
+      depth_(gl),
+      resolved_color_(gl),
+      multisampled_(gl),
       resolved_(gl) {
   require_size(gl, width, height);
   GLint most_samples = 1;

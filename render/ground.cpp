@@ -6,10 +6,10 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSide = 448;       // texels of the light texture
-constexpr float kReach = 2.6f;   // half side of the patch in radii of the scene
+constexpr int kSide = 448;      // texels of the light texture
+constexpr float kReach = 2.6f;  // half side of the patch in radii of the scene
 constexpr int kLightUnit = 7;
-constexpr float kSkyBlur = 7.0f; // texels of the sky maps
+constexpr float kSkyBlur = 7.0f;  // texels of the sky maps
 
 // Square grid from -1 to 1 in the plane z = 0, finer toward the middle, where shadows lie.
 TriangleMesh ground_grid() {
@@ -45,9 +45,12 @@ GlTexture light_texture(const GlFunctions& gl) {
 
 Ground::Ground(const GlFunctions& gl)
     : gl_(&gl),
-      light_program_(gl, {.vertex = "surface.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
-      program_(gl, {.vertex = "ground.vert", .fragment = "ground.frag", .defines = ""}), mesh_(gl, ground_grid()),
-      light_(light_texture(gl)), target_(gl) {
+      light_program_(
+          gl, {.vertex = "surface.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
+      program_(gl, {.vertex = "ground.vert", .fragment = "ground.frag", .defines = ""}),
+      mesh_(gl, ground_grid()),
+      light_(light_texture(gl)),
+      target_(gl) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, light_.name(), 0);
   check_gl(gl, "making the ground");
@@ -60,7 +63,8 @@ void Ground::update(const ShadowMaps& shadows, const Box& box, float height) {
   const float shift = 0.5f * (center.z() - height) / std::max(to_light.z(), 0.3f);
   placement_ = Eigen::Matrix4f::Identity();
   placement_.diagonal() << reach, reach, 1, 1;
-  placement_.topRightCorner<3, 1>() << center.x() - shift * to_light.x(), center.y() - shift * to_light.y(), height;
+  placement_.topRightCorner<3, 1>() << center.x() - shift * to_light.x(), center.y() - shift * to_light.y(),
+      height;
   Eigen::Matrix4f from_above = placement_.inverse();
   from_above.row(2).setZero();
 

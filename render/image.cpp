@@ -24,7 +24,8 @@ std::vector<Footprint> footprints(int source, int target) {
     Footprint& footprint = result[i];
     footprint.first = static_cast<int>(begin);
     for (int k = footprint.first; k < end && k < source; ++k)
-      footprint.weights.push_back(static_cast<float>((std::min(end, k + 1.0) - std::max(begin, k * 1.0)) / scale));
+      footprint.weights.push_back(
+          static_cast<float>((std::min(end, k + 1.0) - std::max(begin, k * 1.0)) / scale));
   }
   return result;
 }
@@ -47,7 +48,8 @@ Image::Image(int width, int height, int channels) : width_(width), height_(heigh
     throw Error::request("picture of " + std::to_string(width) + " x " + std::to_string(height) +
                          " pixels: both sides must be >= 1");
   if (channels != 3 && channels != 4)
-    throw Error::request("picture of " + std::to_string(channels) + " channels: 3 (RGB) or 4 (RGBA) are allowed");
+    throw Error::request("picture of " + std::to_string(channels) +
+                         " channels: 3 (RGB) or 4 (RGBA) are allowed");
   pixels_.assign(row_bytes() * height, 0);
 }
 

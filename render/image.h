@@ -27,7 +27,9 @@ class Image {
   size_t row_bytes() const { return static_cast<size_t>(width_) * channels_; }
 
   std::uint8_t* at(int x, int y) { return &pixels_[y * row_bytes() + static_cast<size_t>(x) * channels_]; }
-  const std::uint8_t* at(int x, int y) const { return &pixels_[y * row_bytes() + static_cast<size_t>(x) * channels_]; }
+  const std::uint8_t* at(int x, int y) const {
+    return &pixels_[y * row_bytes() + static_cast<size_t>(x) * channels_];
+  }
   std::span<std::uint8_t> pixels() { return pixels_; }
   std::span<const std::uint8_t> pixels() const { return pixels_; }
 

@@ -6,6 +6,16 @@
 
 namespace hysteron::render {
 
+namespace {
+
+// Near white stands for values then: the paper must not.
+void shade_backdrop(Look& look) {
+  look.backdrop_top = {196, 199, 204};
+  look.backdrop_bottom = {224, 225, 226};
+}
+
+}  // namespace
+
 Look look_named(std::string_view name) {
   Look look;
   if (name == "cloth") return look;
@@ -15,10 +25,12 @@ Look look_named(std::string_view name) {
     look.back = {216, 210, 204};
   } else if (name == "curvature") {
     look.show = Show::curvature;
+    shade_backdrop(look);
   } else if (name == "friction") {
     look.show = Show::friction;
     look.map = ColorMap::sequential;
     look.value_low = 0;
+    shade_backdrop(look);
   } else if (name == "silhouette") {
     look.show = Show::silhouette;
     look.backdrop_top = look.backdrop_bottom = {255, 255, 255};

@@ -1,5 +1,5 @@
-// How things are shown: colours, light and what the cloth's surface carries.  A look is not physics: the same state
-// may be pictured in any of them.
+// How things are shown: colours, light and what the cloth's surface carries.  A look is not physics: the same
+// state may be pictured in any of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,16 +20,16 @@ enum class Show {
 
 struct Look {
   Show show = Show::cloth;
-  Rgb8 front{104, 132, 166};             // cloth, side of counter-clockwise triangles
-  Rgb8 back{168, 173, 178};              // the other side
-  Rgb8 obstacle{196, 190, 182};          // matte
-  Rgb8 backdrop_top{222, 223, 226};      // paper behind and below the scene
+  Rgb8 front{104, 132, 166};         // cloth, side of counter-clockwise triangles
+  Rgb8 back{168, 173, 178};          // the other side
+  Rgb8 obstacle{196, 190, 182};      // matte
+  Rgb8 backdrop_top{222, 223, 226};  // paper behind and below the scene
   Rgb8 backdrop_bottom{246, 246, 245};
   ColorMap map = ColorMap::diverging;
-  float value_low = -1, value_high = 1;  // ends of the colour map, in the value's unit
+  float value_low = -1, value_high = 1;             // ends of the colour map, in the value's unit
   Eigen::Vector3f to_light{-0.62f, -0.38f, 0.78f};  // key light's direction, any length
-  float thread_spacing = 0.45e-3f;       // [m]; cotton broadcloth has 20 to 40 threads a centimetre
-  float weave = 1;                       // strength of the threads' relief and unevenness, 0 = smooth
+  float thread_spacing = 0.45e-3f;  // [m]; cotton broadcloth has 20 to 40 threads a centimetre
+  float weave = 1;                  // strength of the threads' relief and unevenness, 0 = smooth
   // Obstacles are drawn this much smaller [m]: flat triangles laid over a round rim cut into it.
   float obstacle_inset = 0.8e-3f;
 };

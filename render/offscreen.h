@@ -1,4 +1,5 @@
-// An OpenGL 3.3 core context without a display: EGL on a GPU, EGL in software, or OSMesa, whichever answers first.
+// An OpenGL 3.3 core context without a display: EGL on a GPU, EGL in software, or OSMesa, whichever answers
+// first.
 #pragma once
 
 #include <memory>
@@ -28,13 +29,14 @@ struct Candidate {
 
 class Offscreen {
  public:
-  // The first candidate that gives a context; each failing one is tried twice, because GPU drivers fail now and then
-  // while another process starts.  `preferred_cuda_device` is tried first, so that positions need not leave it.
-  // Error::machine lists in one line what was tried.  The new context is current.
+  // The first candidate that gives a context; each failing one is tried twice, because GPU drivers fail now
+  // and then while another process starts.  `preferred_cuda_device` is tried first, so that positions need
+  // not leave it. Error::machine lists in one line what was tried.  The new context is current.
   static std::unique_ptr<Offscreen> create(Renderer renderer, int preferred_cuda_device = -1);
   static std::unique_ptr<Offscreen> create(const Candidate& candidate);
 
-  // In the order in which create() tries them: EGL hardware devices, EGL software devices, surfaceless, OSMesa.
+  // In the order in which create() tries them: EGL hardware devices, EGL software devices, surfaceless,
+  // OSMesa.
   static std::vector<Candidate> candidates(Renderer renderer, int preferred_cuda_device = -1);
 
   virtual ~Offscreen() = default;

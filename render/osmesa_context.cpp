@@ -7,8 +7,8 @@
 namespace hysteron::render {
 namespace {
 
-// Declared here because the header comes with libosmesa6-dev, which would also put libOSMesa on the linker's path.
-// Values from Mesa's GL/osmesa.h.
+// Declared here because the header comes with libosmesa6-dev, which would also put libOSMesa on the linker's
+// path. Values from Mesa's GL/osmesa.h.
 struct OSMesaContextRecord;
 constexpr int kFormat = 0x22;
 constexpr int kProfile = 0x33;
@@ -19,7 +19,8 @@ constexpr int kMinorVersion = 0x37;
 struct OSMesa {
   OSMesaContextRecord* (*CreateContextAttribs)(const int* attributes, OSMesaContextRecord* shared);
   void (*DestroyContext)(OSMesaContextRecord* context);
-  GLboolean (*MakeCurrent)(OSMesaContextRecord* context, void* buffer, GLenum type, GLsizei width, GLsizei height);
+  GLboolean (*MakeCurrent)(OSMesaContextRecord* context, void* buffer, GLenum type, GLsizei width,
+                           GLsizei height);
   void (*(*GetProcAddress)(const char* name))();
 
   OSMesa() {
@@ -39,7 +40,8 @@ const OSMesa& osmesa() {
 class OSMesaContext : public Offscreen {
  public:
   explicit OSMesaContext(const Candidate& candidate) : Offscreen(candidate) {
-    const int attributes[] = {kFormat, GL_RGBA, kProfile, kCoreProfile, kMajorVersion, 3, kMinorVersion, 3, 0};
+    const int attributes[] = {kFormat,       GL_RGBA, kProfile, kCoreProfile, kMajorVersion, 3,
+                              kMinorVersion, 3,       0};
     context_ = osmesa().CreateContextAttribs(attributes, nullptr);
     if (context_ == nullptr) throw Error::machine("OSMesa refuses an OpenGL 3.3 core context");
     try {

@@ -1,4 +1,5 @@
-// OpenGL contexts through OSMesa, Mesa's renderer into plain memory, opened at run time.  Mesa dropped it in 25.1.
+// OpenGL contexts through OSMesa, Mesa's renderer into plain memory, opened at run time.  Mesa dropped it
+// in 25.1.
 #pragma once
 
 #include <memory>

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "render/atomic_file.h"
 #include "render/process.h"
+#include "sim/atomic_file.h"
 #include "sim/error.h"
 
 namespace hysteron::render {
@@ -62,7 +62,8 @@ std::string label_text(const std::string& text) {
 
 std::string axis_commands(const char* name, const Axis& axis) {
   std::string script = std::string("set ") + name + "label " + label_text(axis.label) + "\n";
-  if (axis.logarithmic) script += std::string("set logscale ") + name + "\nset format " + name + " '10^{%L}'\n";
+  if (axis.logarithmic)
+    script += std::string("set logscale ") + name + "\nset format " + name + " '10^{%L}'\n";
   if (axis.low != axis.high)
     script += std::string("set ") + name + "range [" + number(axis.low) + ":" + number(axis.high) + "]\n";
   return script;
@@ -72,7 +73,7 @@ std::string frame_commands(const Plot& plot) {
   std::string script =
       "set border 3 lw 1.2 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
       "set grid lc rgb '#DDDDDD' lw 0.8 lt 1, lc rgb '#EEEEEE' lw 0.5 lt 1\n"
-      "set key top right reverse Left samplen 2.5 spacing 1.25\nset datafile missing 'NaN'\n"
+      "set key outside right top vertical reverse Left samplen 2.5 spacing 1.25\nset datafile missing 'NaN'\n"
       "set lmargin 11\nset bmargin 4\n";
   script += "set title " + label_text(plot.title) + " font ',19' offset 0,0.3\n";
   if (plot.equal_scales) script += "set size ratio -1\n";
@@ -82,10 +83,14 @@ std::string frame_commands(const Plot& plot) {
 std::string style_words(Series::Style style, const std::string& color) {
   const std::string lines = " lw 2.2 lc rgb '" + color + "'", dots = " pt 7 ps 0.9";
   switch (style) {
-    case Series::Style::points: return "points" + dots + " lc rgb '" + color + "'";
-    case Series::Style::line_and_points: return "linespoints" + lines + dots;
-    case Series::Style::dashed: return "lines dt 2" + lines;
-    default: return "lines" + lines;
+    case Series::Style::points:
+      return "points" + dots + " lc rgb '" + color + "'";
+    case Series::Style::line_and_points:
+      return "linespoints" + lines + dots;
+    case Series::Style::dashed:
+      return "lines dt 2" + lines;
+    default:
+      return "lines" + lines;
   }
 }
 
@@ -103,42 +108,37 @@ std::string plot_command(const Plot& plot) {
 std::string output_commands(const char* terminal, int width, int height, double letters,
                             const std::filesystem::path& file) {
   return std::string("set terminal ") + terminal + " enhanced size " + std::to_string(width) + "," +
-         std::to_string(height) + " font 'DejaVu Sans," + number(letters) + "' background rgb 'white'\nset output " +
-         gnuplot_string(file.string()) + "\n";
+         std::to_string(height) + " font 'DejaVu Sans," + number(letters) +
+         "' background rgb 'white'\nset output " + gnuplot_string(file.string()) + "\n";
 }
 
 // The SVG gets the same page in its own units, so that both look alike.
-std::string whole_script(const Plot& plot, const std::filesystem::path& png, const std::filesystem::path& svg) {
+std::string whole_script(const Plot& plot, const std::filesystem::path& png,
+                         const std::filesystem::path& svg) {
   const std::string drawing = plot_command(plot);
-  return "set encoding utf8\n" + data_blocks(plot) + output_commands("pngcairo", plot.width, plot.height, 15, png) +
-         frame_commands(plot) + drawing + output_commands("svg", plot.width, plot.height, 15, svg) + drawing +
-         "set output\n";
+  return "set encoding utf8\n" + data_blocks(plot) +
+         output_commands("pngcairo", plot.width, plot.height, 15, png) + frame_commands(plot) + drawing +
+         output_commands("svg", plot.width, plot.height, 15, svg) + drawing + "set output\n";
 }
 
-void remove_quietly(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
+bool has_content(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::file_size(file, error) > 0 && !error;
 }
 
 }  // namespace
 
 void write_plot(const std::filesystem::path& base, const Plot& plot) {
   require_drawable(base, plot);
-  const std::filesystem::path png = base.string() + ".png", svg = base.string() + ".svg";
-  const auto half_png = temporary_beside(png), half_svg = temporary_beside(svg);
-  const ProcessResult result = run_process({"gnuplot", "-"}, whole_script(plot, half_png, half_svg));
-  std::error_code ignored;
-  const bool drawn = result.exit_code == 0 && std::filesystem::file_size(half_png, ignored) > 0 && !ignored &&
-                     std::filesystem::file_size(half_svg, ignored) > 0 && !ignored;
-  if (drawn) {
-    rename_into_place(half_png, png);
-    return rename_into_place(half_svg, svg);
-  }
-  remove_quietly(half_png);
-  remove_quietly(half_svg);
+  AtomicFile png(base.string() + ".png"), svg(base.string() + ".svg");
+  const ProcessResult result =
+      run_process({"gnuplot", "-"}, whole_script(plot, png.temporary(), svg.temporary()));
   if (!result.started)
     throw Error::machine("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
-  throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+  if (result.exit_code != 0 || !has_content(png.temporary()) || !has_content(svg.temporary()))
+    throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+  png.commit();
+  svg.commit();
 }
 
 }  // namespace hysteron::render

@@ -28,13 +28,14 @@ struct Plot {
 };
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
-// Error::request if the file or a column is missing or a cell is no number (the line is named); empty cells are gaps.
+// Error::request if the file or a column is missing or a cell is no number (the line is named); empty cells
+// are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
 
 // Writes BASE.png and BASE.svg, each whole or not at all.  Numbers that are not finite make gaps.
-// Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to draw or x
-// and y differ in length.
+// Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to
+// draw or x and y differ in length.
 void write_plot(const std::filesystem::path& base, const Plot& plot);
 
 }  // namespace hysteron::render

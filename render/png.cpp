@@ -9,8 +9,8 @@
 #include <new>
 #include <string>
 
-#include "render/atomic_file.h"
 #include "render/image.h"
+#include "sim/atomic_file.h"
 #include "sim/error.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -47,7 +47,8 @@ void choose_effort(png_structp png, PngEffort effort) {
 }
 
 // libpng leaves through longjmp; this function holds no object with a destructor.
-bool encode(png_structp png, png_infop header, const Image& image, PngEffort effort, std::vector<std::uint8_t>& out) {
+bool encode(png_structp png, png_infop header, const Image& image, PngEffort effort,
+            std::vector<std::uint8_t>& out) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &out, append_bytes, no_flush);
   png_set_IHDR(png, header, image.width(), image.height(), 8,
@@ -76,7 +77,11 @@ std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort) {
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {
-  write_atomically(path, encode_png(image, effort));
+  const auto bytes = encode_png(image, effort);
+  AtomicFile file(path.string());
+  file.stream().write(reinterpret_cast<const char*>(bytes.data()),
+                      static_cast<std::streamsize>(bytes.size()));
+  file.commit();
 }
 
 Image read_png(const std::filesystem::path& path) {
@@ -89,7 +94,8 @@ Image read_png(const std::filesystem::path& path) {
   const bool known = stbi_info_from_memory(begin, size, &width, &height, &channels) != 0;
   const int kept = channels == 2 || channels == 4 ? 4 : 3;
   stbi_uc* pixels = known ? stbi_load_from_memory(begin, size, &width, &height, &channels, kept) : nullptr;
-  if (!pixels) throw Error::request("reading " + path.string() + ": not a PNG picture (" + stbi_failure_reason() + ")");
+  if (!pixels)
+    throw Error::request("reading " + path.string() + ": not a PNG picture (" + stbi_failure_reason() + ")");
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owner(pixels, &stbi_image_free);
   Image image(width, height, kept);
   std::copy_n(pixels, image.pixels().size(), image.pixels().data());

@@ -38,7 +38,8 @@ class Pipe {
   int out_ = -1, in_ = -1;
 };
 
-// The child's side: our pipes at its stdin and stderr, its stdout joined to stderr so that it stays out of ours.
+// The child's side: our pipes at its stdin and stderr, its stdout joined to stderr so that it stays out of
+// ours.
 bool spawn(const std::vector<std::string>& words, const Pipe& input, const Pipe& errors, pid_t& child) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

@@ -21,7 +21,8 @@ constexpr float kBorder = 1.05f;
 GlTexture depth_texture(const GlFunctions& gl, int width, int height) {
   GlTexture texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -68,10 +69,14 @@ std::array<Eigen::Vector3f, kSkyLights> sky_directions() {
 }  // namespace
 
 ShadowMaps::ShadowMaps(const GlFunctions& gl)
-    : gl_(&gl), depth_program_(gl, {.vertex = "depth.vert", .fragment = "depth.frag", .defines = ""}),
+    : gl_(&gl),
+      depth_program_(gl, {.vertex = "depth.vert", .fragment = "depth.frag", .defines = ""}),
       key_map_(depth_texture(gl, kKeySide, kKeySide)),
-      sky_map_(depth_texture(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)), depth_sampler_(gl),
-      key_target_(depth_target(gl, key_map_)), sky_target_(depth_target(gl, sky_map_)), sky_directions_(sky_directions()) {
+      sky_map_(depth_texture(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)),
+      depth_sampler_(gl),
+      key_target_(depth_target(gl, key_map_)),
+      sky_target_(depth_target(gl, sky_map_)),
+      sky_directions_(sky_directions()) {
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);

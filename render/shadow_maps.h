@@ -1,6 +1,6 @@
-// What hides the light: one map for the key light, drawn sharp, and one small map for each of a few directions of the
-// sky.  The sky's are looked up per vertex and averaged, which gives the soft dark of folds and contacts for the
-// price of a few depth-only passes.
+// What hides the light: one map for the key light, drawn sharp, and one small map for each of a few
+// directions of the sky.  The sky's are looked up per vertex and averaged, which gives the soft dark of folds
+// and contacts for the price of a few depth-only passes.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ class ShadowMaps {
   void aim(const Box& casters, const Eigen::Vector3f& to_light);
   // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
-  // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in the sky
-  // maps in their texels.
+  // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in
+  // the sky maps in their texels.
   void bind(const Program& program, float sky_blur = 1.6f) const;
   const Eigen::Vector3f& to_light() const { return to_light_; }
 

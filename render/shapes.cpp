@@ -36,7 +36,8 @@ void add_line(std::vector<OutlinePoint>& outline, Eigen::Vector2f from, Eigen::V
 }
 
 // Arc about `center` from elevation `from` to `to` [rad].
-void add_arc(std::vector<OutlinePoint>& outline, Eigen::Vector2f center, float radius, float from, float to, int bands) {
+void add_arc(std::vector<OutlinePoint>& outline, Eigen::Vector2f center, float radius, float from, float to,
+             int bands) {
   for (int i = 0; i <= bands; ++i) {
     const float angle = from + (to - from) * static_cast<float>(i) / bands;
     const float c = std::cos(angle), s = std::sin(angle);

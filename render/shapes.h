@@ -1,5 +1,5 @@
-// Obstacles as triangles: smooth enough to be looked at, and fine enough along every side to carry the soft shadows
-// that are computed per vertex.
+// Obstacles as triangles: smooth enough to be looked at, and fine enough along every side to carry the soft
+// shadows that are computed per vertex.
 #pragma once
 
 #include <Eigen/Core>

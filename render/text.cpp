@@ -76,14 +76,17 @@ void draw_glyph(Image& image, int glyph, float x, float y, float scale, const Rg
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   const float shift_x = x - static_cast<float>(column), shift_y = y - static_cast<float>(row);
   int left, top, right, bottom;
-  stbtt_GetGlyphBitmapBoxSubpixel(&font(), glyph, scale, scale, shift_x, shift_y, &left, &top, &right, &bottom);
+  stbtt_GetGlyphBitmapBoxSubpixel(&font(), glyph, scale, scale, shift_x, shift_y, &left, &top, &right,
+                                  &bottom);
   const int width = right - left, height = bottom - top;
   if (width <= 0 || height <= 0) return;
   std::vector<unsigned char> coverage(static_cast<size_t>(width) * height);
-  stbtt_MakeGlyphBitmapSubpixel(&font(), coverage.data(), width, height, width, scale, scale, shift_x, shift_y, glyph);
+  stbtt_MakeGlyphBitmapSubpixel(&font(), coverage.data(), width, height, width, scale, scale, shift_x,
+                                shift_y, glyph);
   for (int j = 0; j < height; ++j)
     for (int i = 0; i < width; ++i)
-      blend(image, column + left + i, row + top + j, color, static_cast<float>(coverage[j * width + i]) / 255);
+      blend(image, column + left + i, row + top + j, color,
+            static_cast<float>(coverage[j * width + i]) / 255);
 }
 
 }  // namespace
@@ -94,7 +97,8 @@ float text_width(std::string_view text, float size) {
 
 void draw_text(Image& image, std::string_view text, float x, float y, const TextStyle& style) {
   const float scale = font_scale(style.size);
-  for_each_glyph(text, scale, [&](int glyph, float at) { draw_glyph(image, glyph, x + at, y, scale, style.color); });
+  for_each_glyph(text, scale,
+                 [&](int glyph, float at) { draw_glyph(image, glyph, x + at, y, scale, style.color); });
 }
 
 void draw_rectangle(Image& image, float left, float top, float right, float bottom, const Rgb8& color) {

@@ -31,15 +31,15 @@ class Handle {
   GLuint name_ = 0;
 };
 
-#define HYSTERON_GL_HANDLE(Owner, Generate, Delete)                            \
-  struct Owner##Kind {                                                         \
-    static GLuint make(const GlFunctions& gl) {                                \
-      GLuint name = 0;                                                         \
-      gl.Generate(1, &name);                                                   \
-      return name;                                                             \
-    }                                                                          \
+#define HYSTERON_GL_HANDLE(Owner, Generate, Delete)                                  \
+  struct Owner##Kind {                                                               \
+    static GLuint make(const GlFunctions& gl) {                                      \
+      GLuint name = 0;                                                               \
+      gl.Generate(1, &name);                                                         \
+      return name;                                                                   \
+    }                                                                                \
     static void destroy(const GlFunctions& gl, GLuint name) { gl.Delete(1, &name); } \
-  };                                                                           \
+  };                                                                                 \
   using Owner = Handle<Owner##Kind>;
 
 HYSTERON_GL_HANDLE(GlBuffer, GenBuffers, DeleteBuffers)

@@ -43,7 +43,8 @@ GLuint compile(const GlFunctions& gl, GLenum stage, std::string_view file, std::
   throw Error::machine("compiling " + std::string(file) + ": " + first_line(log.data()));
 }
 
-void attach(const GlFunctions& gl, GLuint program, GLenum stage, std::string_view file, std::string_view defines) {
+void attach(const GlFunctions& gl, GLuint program, GLenum stage, std::string_view file,
+            std::string_view defines) {
   if (file.empty()) return;
   const GLuint shader = compile(gl, stage, file, defines);
   gl.AttachShader(program, shader);

@@ -15,8 +15,8 @@ namespace hysteron::render {
 struct ProgramFiles {
   std::string_view vertex;
   std::string_view fragment;
-  std::string_view defines;                              // lines put before every stage
-  std::initializer_list<const char*> captured = {};      // outputs captured by transform feedback
+  std::string_view defines;                          // lines put before every stage
+  std::initializer_list<const char*> captured = {};  // outputs captured by transform feedback
 };
 
 class Program {

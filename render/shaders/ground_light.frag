@@ -7,9 +7,9 @@ out vec4 color;
 
 #include "light.glsl"
 
-const float kLightSize = 0.075;  // half width of the key light over its distance
+const float kLightSize = 0.06;  // half width of the key light over its distance
 const int kSearchTaps = 12;
-const int kSoftTaps = 32;
+const int kSoftTaps = 48;
 
 // Half width of the shadow's edge [map units], from the mean depth of what lies between ground and light (Fernando
 // 2005, percentage-closer soft shadows); 0 where nothing does.

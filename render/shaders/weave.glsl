@@ -47,14 +47,14 @@ Weave weave_at(vec2 coordinates) {
   result.shade *= mix(1.0, 0.72 + 0.45 * crown, near);
 
   // Uneven yarn: single threads, then bundles of three and nine.
-  float scale = 1.0, strength = 0.10 * weave_strength;
+  float scale = 1.0, strength = 0.085 * weave_strength;
   for (int octave = 0; octave < 3; ++octave) {
     vec2 q = p / scale, w = across / scale;
     float warp = visible(w.y) * streaks(vec2(q.x / 24.0, q.y), octave);
     float weft = visible(w.x) * streaks(vec2(q.y / 24.0, q.x), octave + 3);
     result.shade *= 1.0 + strength * (warp + weft);
     scale *= 3.0;
-    strength *= 0.6;
+    strength *= 0.5;
   }
   return result;
 }

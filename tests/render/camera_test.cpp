@@ -1,0 +1,77 @@
+#include "render/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr float kRounding = 1e-4f;  // single precision through two matrices, coordinates of order one
+
+Eigen::Vector3f projected(const Camera& camera, float aspect, const Eigen::Vector3f& point) {
+  const Eigen::Vector4f clip = camera.projection(aspect) * camera.view() * point.homogeneous();
+  return clip.head<3>() / clip.w();
+}
+
+TEST(Camera, TargetIsInTheMiddleAndUpIsUp) {
+  const Camera camera = Camera::perspective({1, -2, 1}, {0.1f, 0.2f, 0.3f}, 30);
+  EXPECT_NEAR(projected(camera, 1.5f, {0.1f, 0.2f, 0.3f}).head<2>().norm(), 0, kRounding);
+  EXPECT_GT(projected(camera, 1.5f, {0.1f, 0.2f, 0.4f}).y(), 0.01f);
+}
+
+// A point at distance d that is d * tan(fov / 2) above the axis meets the picture's upper edge.
+TEST(Camera, FieldOfViewIsTheFullVerticalAngle) {
+  const Camera camera = Camera::perspective({0, -2, 0}, {0, 0, 0}, 40);
+  const float edge = 2 * std::tan(20 * std::numbers::pi_v<float> / 180);
+  EXPECT_NEAR(projected(camera, 1, {0, 0, edge}).y(), 1, kRounding);
+  EXPECT_NEAR(projected(camera, 2, {edge, 0, 0}).x(), 0.5f, kRounding);
+  EXPECT_NEAR(camera.metres_per_pixel({0, 0, 0}, 100), 2 * edge / 100, kRounding);
+}
+
+TEST(Camera, FramingKeepsTheWholeBoxAndWastesLittle) {
+  const Box box{{-0.2f, -0.1f, 0}, {0.3f, 0.2f, 0.25f}};
+  for (const Eigen::Vector3f& direction : {Eigen::Vector3f(0.4f, -1, 0.5f), Eigen::Vector3f(0, 0, 1),
+                                           Eigen::Vector3f(-1, 0, 0), Eigen::Vector3f(1, 1, -0.3f)})
+    for (const float aspect : {0.6f, 1.0f, 16.0f / 9}) {
+      const Camera camera = Camera::framing(box, direction, 25, aspect);
+      float reach = 0;
+      for (int i = 0; i < 8; ++i) {
+        const Eigen::Vector3f corner(i & 1 ? box.low.x() : box.high.x(), i & 2 ? box.low.y() : box.high.y(),
+                                     i & 4 ? box.low.z() : box.high.z());
+        reach = std::max(reach, projected(camera, aspect, corner).head<2>().cwiseAbs().maxCoeff());
+      }
+      EXPECT_LE(reach, 1.0f);
+      EXPECT_GE(reach, 0.9f);
+    }
+}
+
+TEST(Camera, TopViewHasXRightYUpAndOneScale) {
+  const Camera camera = Camera::top({{-0.3f, -0.15f, 0}, {0.3f, 0.15f, 0.1f}}, 1.5f);
+  EXPECT_TRUE(camera.is_orthographic());
+  EXPECT_GT(projected(camera, 1.5f, {0.1f, 0, 0}).x(), 0);
+  EXPECT_GT(projected(camera, 1.5f, {0, 0.1f, 0}).y(), 0);
+  EXPECT_LE(projected(camera, 1.5f, {0.3f, 0.15f, 0.1f}).head<2>().maxCoeff(), 1);
+  EXPECT_EQ(camera.metres_per_pixel({0, 0, 0}, 200), camera.metres_per_pixel({0.1f, 0, 0.1f}, 200));
+  // A length of 0.1 m spans 0.1 / metres_per_pixel of 200 pixels, and the picture's height spans 2 clip
+  // units.
+  const float span = projected(camera, 1.5f, {0, 0.1f, 0}).y() - projected(camera, 1.5f, {0, 0, 0.1f}).y();
+  EXPECT_NEAR(span / 2 * 200, 0.1f / camera.metres_per_pixel({0, 0, 0}, 200), 200 * kRounding);
+}
+
+TEST(Camera, ImpossibleViewsAreRefused) {
+  EXPECT_EQ(test::error_of([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
+  EXPECT_EQ(test::error_of([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
+  EXPECT_EQ(test::error_of([] { box_of({}); }).exit_code(), 2);
+  const std::vector<float> broken{0, 0, std::numeric_limits<float>::infinity()};
+  EXPECT_EQ(test::error_of([&] { box_of(broken); }).exit_code(), 2);
+}
+
+}  // namespace
+}  // namespace hysteron::render

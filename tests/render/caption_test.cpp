@@ -1,0 +1,126 @@
+#include "render/caption.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr Rgb8 kWhite{255, 255, 255};
+
+bool is_ink(const Image& image, int x, int y) { return image.at(x, y)[1] < 100; }
+
+// Longest run of dark pixels in any row.
+int longest_run(const Image& image) {
+  int longest = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0, run = 0; x < image.width(); ++x) {
+      run = is_ink(image, x, y) ? run + 1 : 0;
+      longest = std::max(longest, run);
+    }
+  return longest;
+}
+
+int ink_in(const Image& image, int left, int top, int right, int bottom) {
+  int count = 0;
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) count += is_ink(image, x, y);
+  return count;
+}
+
+TEST(ScaleBar, IsAsLongAsItsLabelSays) {
+  for (const double metres_per_pixel : {3.1e-4, 1e-3, 2.7e-6, 0.02}) {
+    for (const Corner corner : {Corner::bottom_left, Corner::top_right}) {
+      Image image(960, 540, kWhite);
+      const double length = draw_scale_bar(image, metres_per_pixel, corner);
+      EXPECT_NEAR(length * metres_per_pixel, scale_bar_length(image, metres_per_pixel),
+                  1e-6 * length * metres_per_pixel);
+      constexpr double kEnds = 1.0;  // pixels: the ends may fall between two
+      EXPECT_NEAR(longest_run(image), length, kEnds);
+    }
+  }
+}
+
+TEST(ScaleBar, LengthIsRoundAndNearASixthOfTheWidth) {
+  const Image image(1200, 700);
+  EXPECT_DOUBLE_EQ(scale_bar_length(image, 1e-3), 0.2);
+  EXPECT_DOUBLE_EQ(scale_bar_length(image, 2.5e-4), 0.05);
+  EXPECT_DOUBLE_EQ(scale_bar_length(image, 5e-4), 0.1);
+  for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(test::error_of([&] { scale_bar_length(image, bad); }).exit_code(), 2);
+}
+
+TEST(Text, WidthGrowsWithSizeAndLength) {
+  EXPECT_NEAR(text_width("curvature", 20), 2 * text_width("curvature", 10), 1e-3);
+  EXPECT_GT(text_width("mm", 10), text_width("m", 10));
+  EXPECT_EQ(text_width("", 10), 0);
+}
+
+// A capital is `size` pixels high above the baseline and has nothing below it.
+TEST(Text, CapitalsHaveTheStatedHeight) {
+  Image image(200, 100, kWhite);
+  draw_text(image, "H", 50, 80, {.size = 40});
+  constexpr int kHinting = 1;
+  EXPECT_GT(ink_in(image, 0, 40, 200, 41 + kHinting), 0);
+  EXPECT_EQ(ink_in(image, 0, 0, 200, 40 - kHinting), 0);
+  EXPECT_EQ(ink_in(image, 0, 80 + kHinting, 200, 100), 0);
+}
+
+TEST(Text, GreekAndSuperscriptsAreLetters) {
+  EXPECT_NE(text_width("µ", 20), text_width("\xEF\xBF\xBD", 20));
+  Image image(100, 40, kWhite);
+  draw_text(image, "m²", 10, 30, {.size = 20});
+  EXPECT_GT(ink_in(image, 30, 0, 60, 30), 10);
+}
+
+TEST(Text, WhatLeavesThePictureIsCutOff) {
+  Image image(20, 20, kWhite);
+  draw_text(image, "far too long for this", -15, 15, {.size = 12});
+  EXPECT_GT(ink_in(image, 0, 0, 20, 20), 0);
+  draw_text(image, "\xE2\x82", 2, 15, {.size = 12});  // a broken sequence must not be read beyond its end
+}
+
+TEST(Caption, StandsInItsCornerAndGrowsWithThePicture) {
+  int ink[2];
+  for (int i = 0; i < 2; ++i) {
+    Image image(640 << i, 360 << i, kWhite);
+    draw_caption(image, "cotton broad\nprandtl, t = 1.25 s", Corner::bottom_right);
+    const int w = image.width(), h = image.height();
+    ink[i] = ink_in(image, w / 2, h / 2, w, h);
+    EXPECT_GT(ink[i], 0);
+    EXPECT_EQ(ink_in(image, 0, 0, w, h), ink[i]);
+    EXPECT_EQ(ink_in(image, w - margin(image) + 2, 0, w, h), 0) << "the margin stays free";
+  }
+  EXPECT_NEAR(ink[1], 4.0 * ink[0], 1.2 * ink[0]);
+}
+
+TEST(ColorBar, RunsFromTheMapsLowToItsHighColour) {
+  Image image(1000, 600, kWhite);
+  draw_color_bar(image,
+                 {.map = ColorMap::diverging, .low = -50, .high = 50, .label = "curvature", .unit = "1/m"},
+                 Corner::top_left);
+  const Rgb8 low = map_color8(ColorMap::diverging, 0), high = map_color8(ColorMap::diverging, 1);
+  const auto has_near = [&](const Rgb8& color, int left, int right) {
+    for (int y = 0; y < 150; ++y)
+      for (int x = left; x < right; ++x) {
+        const std::uint8_t* p = image.at(x, y);
+        if (std::abs(p[0] - color[0]) + std::abs(p[1] - color[1]) + std::abs(p[2] - color[2]) < 6)
+          return true;
+      }
+    return false;
+  };
+  EXPECT_TRUE(has_near(low, 0, 60));
+  EXPECT_FALSE(has_near(low, 200, 400));
+  EXPECT_TRUE(has_near(high, 200, 400));
+  EXPECT_EQ(test::error_of([&] {
+              draw_color_bar(image, {.low = 1, .high = 1, .label = "", .unit = ""}, Corner::top_left);
+            }).exit_code(),
+            2);
+}
+
+}  // namespace
+}  // namespace hysteron::render

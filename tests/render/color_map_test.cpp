@@ -1,0 +1,74 @@
+#include "render/color_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/srgb.h"
+
+namespace hysteron::render {
+namespace {
+
+// CIE L* (0 to 100) of an sRGB colour, from its relative luminance (IEC 61966-2-1; CIE 15:2004).
+double lightness(const Rgb8& color) {
+  const auto& light = linear_of_srgb8();
+  const double y = 0.2126 * light[color[0]] + 0.7152 * light[color[1]] + 0.0722 * light[color[2]];
+  return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
+}
+
+// An 8-bit step changes L* by up to about half a unit in the dark.
+constexpr double kRounding = 0.6;
+
+TEST(ColorMap, SequentialLightnessRisesAllTheWay) {
+  double before = lightness(map_color8(ColorMap::sequential, 0));
+  const double first = before;
+  for (int i = 1; i <= 64; ++i) {
+    const double here = lightness(map_color8(ColorMap::sequential, static_cast<float>(i) / 64));
+    EXPECT_GT(here, before - kRounding);
+    if (i % 8 == 0)
+      EXPECT_GT(here, first + i * 0.8) << "equal steps must be seen as steps, at " << i << "/64";
+    before = here;
+  }
+  EXPECT_GT(before - first, 60);
+}
+
+TEST(ColorMap, DivergingLightnessFallsFromTheMiddleToBothEndsAlike) {
+  for (int i = 1; i <= 32; ++i) {
+    const float t = static_cast<float>(i) / 64, inner = static_cast<float>(i - 1) / 64;
+    const double left = lightness(map_color8(ColorMap::diverging, 0.5f - t));
+    const double right = lightness(map_color8(ColorMap::diverging, 0.5f + t));
+    EXPECT_LT(left, lightness(map_color8(ColorMap::diverging, 0.5f - inner)) + kRounding);
+    EXPECT_LT(right, lightness(map_color8(ColorMap::diverging, 0.5f + inner)) + kRounding);
+    // Oklab's lightness and L* weigh blue and orange a little differently.
+    EXPECT_NEAR(left, right, 8);
+  }
+  EXPECT_GT(lightness(map_color8(ColorMap::diverging, 0.5f)), 93);
+}
+
+TEST(ColorMap, DivergingEndsAreBlueAndOrange) {
+  const Rgb8 low = map_color8(ColorMap::diverging, 0), high = map_color8(ColorMap::diverging, 1);
+  EXPECT_GT(low[2], low[0] + 80);
+  EXPECT_GT(high[0], high[2] + 80);
+}
+
+TEST(ColorMap, ValuesBeyondTheEndsTakeTheEndsColour) {
+  for (const ColorMap map : {ColorMap::sequential, ColorMap::diverging}) {
+    EXPECT_EQ(map_color8(map, -3), map_color8(map, 0));
+    EXPECT_EQ(map_color8(map, 7), map_color8(map, 1));
+  }
+}
+
+// One 8-bit value every 1/256 must not jump: contours that are not in the field would be seen.
+TEST(ColorMap, NeighboursDifferByAFewStepsOnly) {
+  constexpr int kSteps = 256, kLargestJump = 6;
+  for (const ColorMap map : {ColorMap::sequential, ColorMap::diverging})
+    for (int i = 0; i < kSteps; ++i) {
+      const Rgb8 a = map_color8(map, static_cast<float>(i) / kSteps);
+      const Rgb8 b = map_color8(map, static_cast<float>(i + 1) / kSteps);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_LE(std::abs(a[c] - b[c]), kLargestJump) << "at " << i << "/256, channel " << c;
+    }
+}
+
+}  // namespace
+}  // namespace hysteron::render

@@ -1,0 +1,72 @@
+#include "render/contact_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::error_of;
+
+Rgb8 color_of(int i) { return {static_cast<std::uint8_t>(20 + 30 * i), 0, 0}; }
+
+std::vector<SheetEntry> entries(int count, int width = 640, int height = 360) {
+  std::vector<SheetEntry> list;
+  for (int i = 0; i < count; ++i)
+    list.push_back({Image(width, height, color_of(i)), "t = " + std::to_string(i) + " s"});
+  return list;
+}
+
+// Distinct entry colours along the middle of each picture row, in reading order.
+std::vector<int> reading_order(const Image& sheet) {
+  std::vector<int> order;
+  for (int y = 0; y < sheet.height(); ++y)
+    for (int x = 0; x < sheet.width(); ++x) {
+      const std::uint8_t* p = sheet.at(x, y);
+      if (p[1] != 0 || p[2] != 0 || p[0] < 20 || (p[0] - 20) % 30 != 0) continue;
+      const int entry = (p[0] - 20) / 30;
+      if (std::find(order.begin(), order.end(), entry) == order.end()) order.push_back(entry);
+    }
+  return order;
+}
+
+TEST(ContactSheet, ShowsEveryPictureInReadingOrder) {
+  const Image sheet = contact_sheet(entries(7), {"a title", 3, 900});
+  EXPECT_EQ(reading_order(sheet), (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_NEAR(sheet.width(), 900, 3) << "columns share what the gaps leave, rounded down";
+}
+
+TEST(ContactSheet, CellsKeepTheAspect) {
+  const Image sheet = contact_sheet(entries(1, 600, 300), {"", 1, 420});
+  int columns = 0, rows = 0;
+  for (int x = 0; x < sheet.width(); ++x) columns += sheet.at(x, sheet.height() / 3)[1] == 0;
+  for (int y = 0; y < sheet.height(); ++y) rows += sheet.at(sheet.width() / 2, y)[1] == 0;
+  EXPECT_NEAR(columns, 2 * rows, 2);
+  EXPECT_GT(columns, 350);
+}
+
+TEST(ContactSheet, ChoosesColumnsNearThreeToTwo) {
+  for (const int count : {4, 9, 12, 20}) {
+    const Image sheet = contact_sheet(entries(count, 400, 400), {"", 0, 1200});
+    const double aspect = static_cast<double>(sheet.width()) / sheet.height();
+    EXPECT_GT(aspect, 0.9) << count;
+    EXPECT_LT(aspect, 2.3) << count;
+  }
+}
+
+TEST(ContactSheet, ImpossiblePagesAreRefused) {
+  EXPECT_EQ(error_of([] { contact_sheet({}, {}); }).exit_code(), 2);
+  EXPECT_EQ(error_of([] { contact_sheet({{Image(), "x"}}, {}); }).exit_code(), 2);
+  EXPECT_EQ(error_of([] { contact_sheet(entries(5), {"", 5, 100}); }).exit_code(), 2);
+}
+
+TEST(Spread, KeepsFirstAndLast) {
+  EXPECT_EQ(spread(10, 4), (std::vector<int>{0, 3, 6, 9}));
+  EXPECT_EQ(spread(3, 12), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(spread(5, 1), (std::vector<int>{4}));
+  EXPECT_TRUE(spread(0, 4).empty());
+}
+
+}  // namespace
+}  // namespace hysteron::render

@@ -1,0 +1,150 @@
+#include "render/image.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "render/srgb.h"
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::error_of;
+using test::ScratchFolder;
+
+Image gradient(int width, int height, int channels) {
+  Image image(width, height, channels);
+  for (size_t i = 0; i < image.pixels().size(); ++i)
+    image.pixels()[i] = static_cast<std::uint8_t>(i * 7 + i / 256);
+  return image;
+}
+
+TEST(Png, KeepsEveryByteInBothFormatsAndEfforts) {
+  const ScratchFolder folder;
+  for (const int channels : {3, 4})
+    for (const PngEffort effort : {PngEffort::fast, PngEffort::best}) {
+      const Image image = gradient(61, 37, channels);
+      write_png(folder.file("a.png"), image, effort);
+      EXPECT_EQ(read_png(folder.file("a.png")), image);
+    }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
+}
+
+TEST(Png, OnePixelIsAPicture) {
+  const ScratchFolder folder;
+  const Image image(1, 1, Rgb8{1, 2, 3});
+  write_png(folder.file("a.png"), image);
+  EXPECT_EQ(read_png(folder.file("a.png")), image);
+}
+
+TEST(Png, BestIsNoLargerThanFast) {
+  const Image image = gradient(300, 200, 3);
+  EXPECT_LE(encode_png(image, PngEffort::best).size(), encode_png(image, PngEffort::fast).size());
+}
+
+TEST(Png, AMissingFolderIsTheMachinesFailure) {
+  const ScratchFolder folder;
+  const Error error = error_of([&] { write_png(folder.file("none/a.png"), Image(2, 2)); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_NE(std::string(error.what()).find("none/a.png"), std::string::npos);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+// Writes beyond `bytes` fail in this process, as on a full disk, until this goes out of scope.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
+  const ScratchFolder folder;
+  const Image old = gradient(8, 8, 3);
+  write_png(folder.file("a.png"), old);
+  const Image large = gradient(400, 300, 3);
+  ASSERT_GT(encode_png(large).size(), 4096u);
+  {
+    const SmallDisk disk(4096);
+    EXPECT_EQ(error_of([&] { write_png(folder.file("a.png"), large); }).exit_code(), 1);
+    EXPECT_EQ(error_of([&] { write_png(folder.file("b.png"), large); }).exit_code(), 1);
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
+  EXPECT_EQ(read_png(folder.file("a.png")), old);
+}
+
+TEST(Png, WhatIsNoPictureIsRefused) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("text.png")) << "no picture";
+  std::ofstream(folder.file("empty.png"));
+  for (const char* name : {"text.png", "empty.png", "missing.png"}) {
+    const Error error = error_of([&] { read_png(folder.file(name)); });
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+  }
+}
+
+TEST(Png, ATruncatedPictureIsRefused) {
+  const ScratchFolder folder;
+  const auto whole = encode_png(gradient(60, 60, 3));
+  std::ofstream(folder.file("half.png"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(whole.data()), static_cast<std::streamsize>(whole.size() / 2));
+  EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
+}
+
+TEST(Image, SizesBelowOneAreRefused) {
+  EXPECT_EQ(error_of([] { Image(0, 10); }).exit_code(), 2);
+  EXPECT_EQ(error_of([] { Image(10, -1); }).exit_code(), 2);
+  EXPECT_EQ(error_of([] { Image(10, 10, 2); }).exit_code(), 2);
+}
+
+// Half black, half white is half the light, not half the encoded value: 188, not 128.
+TEST(Shrink, AveragesInLinearLight) {
+  Image image(2, 1, Rgb8{0, 0, 0});
+  for (int c = 0; c < 3; ++c) image.at(1, 0)[c] = 255;
+  const Image small = shrink(image, 1, 1);
+  EXPECT_EQ(small.at(0, 0)[0], srgb8_of_linear(0.5f));
+  EXPECT_EQ(small.at(0, 0)[0], 188);
+}
+
+// Pixel 0 of 2 covers pixels 0 and half of 1 of three: light (1 + 0.5 * 0) / 1.5.
+TEST(Shrink, WeighsPartlyCoveredPixels) {
+  Image image(3, 1, Rgb8{0, 0, 0});
+  for (int c = 0; c < 3; ++c) image.at(0, 0)[c] = 255;
+  const Image small = shrink(image, 2, 1);
+  EXPECT_EQ(small.at(0, 0)[0], srgb8_of_linear(1 / 1.5f));
+  EXPECT_EQ(small.at(1, 0)[0], 0);
+}
+
+TEST(Shrink, KeepsAnEvenPictureAndRefusesToGrow) {
+  const Image even(97, 61, Rgb8{120, 7, 250});
+  EXPECT_EQ(shrink(even, 13, 10), Image(13, 10, Rgb8{120, 7, 250}));
+  EXPECT_EQ(error_of([&] { shrink(even, 98, 10); }).exit_code(), 2);
+}
+
+TEST(Paste, CutsOffWhatLiesOutside) {
+  Image target(4, 4, Rgb8{0, 0, 0});
+  paste(target, Image(3, 3, Rgb8{9, 9, 9}), -2, 2);
+  int painted = 0;
+  for (const std::uint8_t value : target.pixels()) painted += value == 9;
+  EXPECT_EQ(painted, 1 * 2 * 3);
+  EXPECT_EQ(target.at(0, 3)[0], 9);
+}
+
+}  // namespace
+}  // namespace hysteron::render

@@ -1,0 +1,127 @@
+#include "render/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "render/image.h"
+#include "render/process.h"
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::error_of;
+using test::ScratchFolder;
+
+Plot parabola() {
+  Plot plot{.title = "don't mix_up ^this^",
+            .x = {.label = "curvature [1/m]"},
+            .y = {.label = "energy [J/m²]"},
+            .series = {},
+            .width = 600,
+            .height = 400};
+  Series series{.label = "it's quoted", .x = {}, .y = {}};
+  for (int i = -10; i <= 10; ++i) series.x.push_back(i), series.y.push_back(i * i);
+  plot.series.push_back(series);
+  return plot;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool has_gnuplot() { return run_process({"gnuplot", "--version"}, "").exit_code == 0; }
+
+class PlotTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
+  write_plot(folder_.file("p"), parabola());
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  const Image image = read_png(folder_.file("p.png"));
+  EXPECT_EQ(image.width(), 600);
+  EXPECT_EQ(image.height(), 400);
+  int blue = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) blue += image.at(x, y)[2] > image.at(x, y)[0] + 100;
+  EXPECT_GT(blue, 300) << "the curve is drawn in the palette's first colour";
+}
+
+TEST_F(PlotTest, LabelsAreTextNotMarkup) {
+  write_plot(folder_.file("p"), parabola());
+  const std::string svg = text_of(folder_.file("p.svg"));
+  EXPECT_NE(svg.find("mix_up ^this^"), std::string::npos);
+  EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
+}
+
+TEST_F(PlotTest, GapsAndLogarithmicAxesAreDrawn) {
+  Plot plot = parabola();
+  plot.x.logarithmic = plot.y.logarithmic = true;
+  plot.series[0].y[15] = std::numeric_limits<double>::quiet_NaN();
+  write_plot(folder_.file("p"), plot);
+  EXPECT_EQ(folder_.names().size(), 2u);
+}
+
+TEST_F(PlotTest, WhatGnuplotCannotDrawFailsInOneLineAndLeavesNothing) {
+  Plot plot = parabola();
+  plot.series[0].y.assign(plot.series[0].y.size(), std::numeric_limits<double>::quiet_NaN());
+  const Error error = error_of([&] { write_plot(folder_.file("p"), plot); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_TRUE(folder_.names().empty());
+}
+
+TEST(Plot, MissingGnuplotNamesThePackage) {
+  const ScratchFolder folder;
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", folder.file("empty").c_str(), 1);
+  const Error error = error_of([&] { write_plot(folder.file("p"), parabola()); });
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_NE(std::string(error.what()).find("gnuplot-nox"), std::string::npos);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Plot, NothingToDrawIsRefused) {
+  const ScratchFolder folder;
+  EXPECT_EQ(error_of([&] { write_plot(folder.file("p"), Plot{}); }).exit_code(), 2);
+  Plot uneven = parabola();
+  uneven.series[0].x.pop_back();
+  EXPECT_EQ(error_of([&] { write_plot(folder.file("p"), uneven); }).exit_code(), 2);
+}
+
+TEST(SeriesFromCsv, ReadsColumnsByNameWithOrWithoutUnit) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("m.csv")) << "time [s],angle [degree],count\n0,10,1\n0.5,,2\r\n1,-3e1,3\n";
+  const Series series = series_from_csv(folder.file("m.csv"), "time", "angle [degree]", "angle");
+  EXPECT_EQ(series.x, (std::vector<double>{0, 0.5, 1}));
+  ASSERT_EQ(series.y.size(), 3u);
+  EXPECT_EQ(series.y[0], 10);
+  EXPECT_TRUE(std::isnan(series.y[1])) << "an empty cell is a gap";
+  EXPECT_EQ(series.y[2], -30);
+}
+
+TEST(SeriesFromCsv, BadFilesAreRefusedWithTheirPlace) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("m.csv")) << "t,y\n0,1\n1,oops\n";
+  EXPECT_EQ(error_of([&] { series_from_csv(folder.file("none.csv"), "t", "y", ""); }).exit_code(), 2);
+  EXPECT_NE(
+      std::string(error_of([&] { series_from_csv(folder.file("m.csv"), "t", "z", ""); }).what()).find("t, y"),
+      std::string::npos);
+  EXPECT_NE(std::string(error_of([&] { series_from_csv(folder.file("m.csv"), "t", "y", ""); }).what())
+                .find("m.csv:3"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::render

@@ -1,0 +1,57 @@
+#include "render/png_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::ScratchFolder;
+
+std::string frame(int i) { return "frame" + std::to_string(i) + ".png"; }
+
+TEST(PngWriter, WritesEveryPictureThatItWasGiven) {
+  const ScratchFolder folder;
+  PngWriter writer(2, 3);
+  for (int i = 0; i < 20; ++i)
+    writer.write(folder.file(frame(i)), Image(40, 30, Rgb8{static_cast<std::uint8_t>(i), 0, 0}));
+  writer.finish();
+  EXPECT_EQ(writer.written(), 20);
+  EXPECT_GT(writer.encode_seconds(), 0);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(read_png(folder.file(frame(i))).at(5, 5)[0], i);
+}
+
+TEST(PngWriter, FinishReportsTheFirstErrorAndKeepsTheOtherPictures) {
+  const ScratchFolder folder;
+  PngWriter writer(1, 8);
+  writer.write(folder.file("good.png"), Image(4, 4));
+  writer.write(folder.file("none/bad.png"), Image(4, 4));
+  const Error error = test::error_of([&] { writer.finish(); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_NE(std::string(error.what()).find("none/bad.png"), std::string::npos);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"good.png"});
+}
+
+TEST(PngWriter, WriteStopsARunAfterAnError) {
+  const ScratchFolder folder;
+  PngWriter writer(1, 2);
+  const Error error = test::error_of([&] {
+    for (int i = 0; i < 1000; ++i) writer.write(folder.file("none/bad.png"), Image(4, 4));
+  });
+  EXPECT_EQ(error.exit_code(), 1);
+}
+
+TEST(PngWriter, DestructionWritesWhatIsWaiting) {
+  const ScratchFolder folder;
+  {
+    PngWriter writer(1, 8);
+    for (int i = 0; i < 5; ++i) writer.write(folder.file(frame(i)), Image(64, 64));
+  }
+  EXPECT_EQ(folder.names().size(), 5u);
+}
+
+}  // namespace
+}  // namespace hysteron::render
