@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# From a fresh Debian or Ubuntu to pictures: installs what is missing, builds, runs an experiment.
+#   experiments/run.sh                     drape of cotton broad into out/drape
+#   experiments/run.sh --quick             the same with further options
+#   experiments/run.sh swing --seconds 2   another experiment of `hysteron`
+set -euo pipefail
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
+
+# out_of ARGUMENT...: the folder given with --out, if any.
+out_of() {
+  while [[ $# -gt 0 ]]; do
+    case $1 in
+      --out) printf '%s' "${2:-}" ;;
+      --out=*) printf '%s' "${1#--out=}" ;;
+    esac
+    shift
+  done
+}
+
+install_missing program_packages optional_program_packages
+# A new build folder needs no tests; one that has them keeps them.
+if [[ -f $build_folder/CMakeCache.txt ]]; then configure; else configure -DHYSTERON_TESTS=OFF; fi
+build --target hysteron
+
+[[ $# -gt 0 ]] || set -- drape --fabric cotton-broad
+[[ $1 != -* ]] || set -- drape "$@"
+case $1 in
+  list | law | fit | render | diff | report) exec "$build_folder/hysteron" "$@" ;;
+esac
+
+out=$(out_of "$@")
+if [[ -z $out ]]; then
+  out=$root/out/$1
+  set -- "$@" --out "$out"
+fi
+"$build_folder/hysteron" "$@"
+
+for place in "frames|picture sequence" "sheet.png|contact sheet" "report.html|report"; do
+  [[ ! -e $out/${place%%|*} ]] || say "$(printf '%-17s' "${place#*|}:") $out/${place%%|*}"
+done

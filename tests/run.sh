@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything, runs every test.  Arguments go to ctest: tests/run.sh -R Drape
+# The output ends with ctest's summary; tests that cannot run here (no GPU) are listed there as skipped.
+set -euo pipefail
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../experiments/setup.sh"
+
+test_packages=("${program_packages[@]}" "libgtest-dev|GoogleTest")
+optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|checks the style")
+
+install_missing test_packages optional_test_packages
+configure -DHYSTERON_TESTS=ON
+build
+exec ctest --test-dir "$build_folder" --output-on-failure --parallel "$(nproc)" "$@"
