@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "[[obstacle]]\nkind = \"cylinder\"\nheight = 0.01\nrim = 0.02\n",
                  1,
                  {"obstacle[0].rim = 0.02 m", "[0, 0.005]"}}),
-    [](const testing::TestParamInfo<BadScene>& info) { return std::string(info.param.name); });
+    [](const testing::TestParamInfo<BadScene>& test) { return std::string(test.param.name); });
 
 TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
   Scene scene = default_scene();

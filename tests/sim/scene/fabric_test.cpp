@@ -58,8 +58,8 @@ TEST_P(PublishedFabric, KeepsTheMeasuredDrapeForComparison) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kes, PublishedFabric, testing::ValuesIn(list_assets("fabrics")),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"UnknownParameter",
                   "b3 = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "unknown key fabric.b3"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Assets, AreTakenFromTheNamedFolderFirst) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "hysteron-assets";
