@@ -76,14 +76,15 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
 
 Camera Camera::top(const Box& box, float aspect) {
   const Eigen::Vector3f size = box.high - box.low, center = box.center();
-  const float depth = std::max(size.z(), 1e-3f);
+  // Far above: nothing that leaves the box a little is cut off by the near plane.
+  const float room = 2 * size.norm() + 1e-3f;
   Camera camera;
-  camera.eye_ = {center.x(), center.y(), box.high.z() + depth};
+  camera.eye_ = {center.x(), center.y(), box.high.z() + room};
   camera.target_ = center;
   camera.up_ = Eigen::Vector3f::UnitY();
   camera.half_height_ = 0.5f * kMargin * std::max(size.y(), size.x() / aspect);
-  camera.near_ = 0.5f * depth;
-  camera.far_ = 3 * depth + 10 * size.norm();
+  camera.near_ = 0.05f * room;
+  camera.far_ = size.z() + 3 * room;
   return camera;
 }
 

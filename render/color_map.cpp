@@ -34,15 +34,16 @@ Eigen::Vector3f shown(Oklch color) {
   return linear_srgb(color).cwiseMax(0.0f).cwiseMin(1.0f);
 }
 
+// Chroma stays inside the gamut all along: 0.09 is the most that sRGB has for teal.
 Oklch sequential(float t) {
-  const float chroma = 0.05f + 0.11f * std::sin(std::numbers::pi_v<float> * (0.12f + 0.76f * t));
-  return {0.24f + 0.70f * t, chroma, 285 - 180 * t};
+  const float rise = std::clamp((t - 0.5f) / 0.4f, 0.0f, 1.0f);
+  return {0.24f + 0.70f * t, 0.08f + 0.06f * rise * rise * (3 - 2 * rise), 285 - 180 * t};
 }
 
 Oklch diverging(float t) {
   const float side = 2 * t - 1, distance = std::abs(side);
-  const float chroma = 0.15f * std::pow(distance, 0.8f);
-  return {0.965f - 0.50f * distance, chroma, side < 0 ? 258.0f : 50.0f};
+  const float chroma = 0.135f * std::pow(distance, 0.8f);
+  return {0.965f - 0.46f * distance, chroma, side < 0 ? 258.0f : 50.0f};
 }
 
 }  // namespace

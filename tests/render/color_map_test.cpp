@@ -25,8 +25,9 @@ TEST(ColorMap, SequentialLightnessRisesAllTheWay) {
   for (int i = 1; i <= 64; ++i) {
     const double here = lightness(map_color8(ColorMap::sequential, static_cast<float>(i) / 64));
     EXPECT_GT(here, before - kRounding);
-    if (i % 8 == 0)
+    if (i % 8 == 0) {
       EXPECT_GT(here, first + i * 0.8) << "equal steps must be seen as steps, at " << i << "/64";
+    }
     before = here;
   }
   EXPECT_GT(before - first, 60);

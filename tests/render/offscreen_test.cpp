@@ -1,8 +1,10 @@
 #include "render/offscreen.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -41,16 +43,23 @@ TEST(Offscreen, EveryEglCandidateIsUsableOrSaysWhyNot) {
   EXPECT_GE(usable, 1);
 }
 
-TEST(Offscreen, OSMesaAloneOpensNoOtherGl) {
-  std::unique_ptr<Offscreen> offscreen;
-  try {
-    offscreen = Offscreen::create(Renderer::osmesa);
-  } catch (const Error&) {
-    GTEST_SKIP() << "no OSMesa on this machine (Mesa 25.1 and later have none)";
-  }
-  EXPECT_TRUE(is_loaded("libOSMesa"));
-  EXPECT_FALSE(is_loaded("libEGL"));
-  EXPECT_FALSE(is_loaded("libGL.so"));
+// In a process of its own, because other tests of this one open EGL.
+TEST(OffscreenDeathTest, OSMesaAloneOpensNoOtherGl) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  enum { kClean = 10, kOthersOpen = 11, kNoOSMesa = 12 };
+  const auto open_osmesa = [] {
+    try {
+      const auto offscreen = Offscreen::create(Renderer::osmesa);
+      std::_Exit(is_loaded("libEGL") || is_loaded("libGL.so") || !is_loaded("libOSMesa") ? kOthersOpen
+                                                                                         : kClean);
+    } catch (const Error&) {
+      std::_Exit(kNoOSMesa);  // Mesa 25.1 and later have none
+    }
+  };
+  const auto clean_or_missing = [](int status) {
+    return WIFEXITED(status) && (WEXITSTATUS(status) == kClean || WEXITSTATUS(status) == kNoOSMesa);
+  };
+  EXPECT_EXIT(open_osmesa(), clean_or_missing, "");
 }
 
 TEST(Offscreen, HardwareIsTriedFirstAndOSMesaLast) {
