@@ -40,10 +40,14 @@ Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {});
 // Descriptions of bound keys, for Experiment::own_keys.
 std::vector<KeyDescription> descriptions(const Keys& keys);
 
+int drape(const CommandLine& line);
+int swing(const CommandLine& line);
+int bench(const CommandLine& line);
 int law(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
 
+std::vector<KeyDescription> drape_keys();
 std::vector<KeyDescription> law_keys();
 
 }  // namespace hysteron::experiments

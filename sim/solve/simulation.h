@@ -33,6 +33,7 @@ class Simulation {
   virtual ~Simulation() = default;
 
   virtual void advance(int steps) = 0;  // Error::run when the state is no longer finite
+  virtual void wait() = 0;              // until the device has done what advance() ordered
   virtual double time() const = 0;      // [s]
   virtual long steps() const = 0;
 
@@ -51,6 +52,7 @@ class Simulation {
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;
+  virtual double copy_bandwidth() = 0;  // of this device, bytes read plus written [byte/s], measured
   virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
 };
 

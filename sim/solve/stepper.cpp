@@ -1,5 +1,6 @@
 #include "sim/solve/stepper.h"
 
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -149,6 +150,23 @@ std::vector<std::pair<std::string, double>> Stepper<Real, Device>::stage_seconds
   std::vector<std::pair<std::string, double>> result;
   for (int s = 0; s < kStages; ++s) result.emplace_back(kStageName[s], seconds[s]);
   return result;
+}
+
+template <class Real, class Device>
+double Stepper<Real, Device>::copy_bandwidth() {
+  constexpr int kDoubles = 1 << 24, kRounds = 5;  // 128 MiB each way: more than any cache
+  Buffer<double, Device> from(*device_, kDoubles), to(*device_, kDoubles);
+  const double* source = from.data();
+  double* target = to.data();
+  double best = 1e30;
+  for (int round = 0; round < kRounds; ++round) {
+    wait();
+    const auto start = std::chrono::steady_clock::now();
+    for_each(*device_, "copy", kDoubles, HYST_KERNEL(int i) { target[i] = source[i]; });
+    wait();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return 2.0 * kDoubles * sizeof(double) / best;
 }
 
 template <class Real, class Device>

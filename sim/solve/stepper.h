@@ -37,6 +37,8 @@ class Stepper : public Simulation {
           const StepLimits& limits);
 
   void advance(int steps) override;
+  void wait() override { device_->synchronize(); }
+  double copy_bandwidth() override;
   double time() const override { return static_cast<double>(step_count_) * scene_.step; }
   long steps() const override { return step_count_; }
   std::vector<Eigen::Vector3d> positions() override;

@@ -1,0 +1,134 @@
+// Time and memory of a step: a square of 0.5 m, hanging from two corners.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "experiments/experiments.h"
+#include "experiments/run.h"
+#include "sim/scene/cloth.h"
+#include "sim/solve/simulation.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct Case {
+  const char* element;
+  const char* law;
+};
+constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", "wong"},
+                           {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "wong"}};
+constexpr int kBatches = 7;  // the median of their times is reported
+
+Setup defaults() {
+  Setup setup;
+  Scene& scene = setup.scene = default_scene();
+  scene.cloth.length = 0.5;
+  scene.mesh = "aligned";
+  scene.triangles = 4608;
+  Pin corner;
+  corner.select = "nearest";
+  scene.pin.assign(2, corner);
+  scene.pin[0].point = {0, 0.5, 0};
+  scene.pin[1].point = {0.5, 0.5, 0};
+  return setup;
+}
+
+// Bytes that the stages of a step must move, each array that a loop reads or writes counted once per pass: angles, law
+// and forces per substep, the membrane per Newton step, matrix and vectors per iteration of the solve.
+double bytes_per_step(const Simulation& simulation) {
+  double bending = 0, history = 0, membrane = 0, solve = 0, state = 0;
+  for (const ScenePart& part : simulation.parts()) {
+    const double bytes = static_cast<double>(part.bytes);
+    if (part.name == "bending") bending = bytes;
+    if (part.name == "bending history") history = bytes;
+    if (part.name == "membrane") membrane = bytes;
+    if (part.name == "implicit solve") solve = bytes;
+    if (part.name == "state") state = bytes;
+  }
+  return simulation.limits().substeps * (bending + 2 * history + state) + 2 * membrane +
+         simulation.solver_iterations() * solve;
+}
+
+// One row of the table.
+Json measure(Simulation& simulation, const Scene& scene, int triangles, int steps) {
+  simulation.advance(steps);  // warm caches, and away from the flat start
+  std::vector<double> ms;
+  const auto before = simulation.stage_seconds();
+  for (int batch = 0; batch < kBatches; ++batch) {
+    const auto start = std::chrono::steady_clock::now();
+    simulation.advance(steps);
+    simulation.wait();
+    ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / steps);
+  }
+  std::sort(ms.begin(), ms.end());
+  const double median = ms[kBatches / 2];
+  Json row;
+  row["scene"] = "hanging-square";
+  row["triangles"] = triangles;
+  row["device"] = simulation.device();
+  row["precision"] = scene.precision;
+  row["element"] = scene.element;
+  row["law"] = scene.law;
+  row["integrator"] = scene.integrator;
+  row["substeps"] = simulation.limits().substeps;
+  row["solver_iterations"] = simulation.solver_iterations();
+  row["ms_per_step"] = median;
+  row["ms_per_step_fastest"] = ms.front();
+  const auto after = simulation.stage_seconds();
+  for (std::size_t s = 0; s < after.size(); ++s)
+    row["ms_" + after[s].first] = 1e3 * (after[s].second - before[s].second) / (kBatches * steps);
+  const double bytes = bytes_per_step(simulation);
+  row["bytes_device"] = simulation.device_bytes();
+  row["bytes_per_triangle"] = static_cast<double>(simulation.device_bytes()) / triangles;
+  row["bytes_per_step"] = bytes;
+  row["fraction_of_copy_bandwidth"] = bytes / (1e-3 * median) / simulation.copy_bandwidth();
+  char hash[20];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation.state_hash()));
+  row["state_hash"] = hash;
+  return row;
+}
+
+void print(const Json& row) {
+  std::printf("%8d %-7s %-6s %-8s %3d %7.1f %10.3f %9.1f   %s\n", row["triangles"].get<int>(),
+              row["precision"].get<std::string>().c_str(), row["element"].get<std::string>().c_str(),
+              row["law"].get<std::string>().c_str(), row["substeps"].get<int>(),
+              row["solver_iterations"].get<double>(), row["ms_per_step"].get<double>(),
+              row["bytes_per_triangle"].get<double>(), row["device"].get<std::string>().c_str());
+  std::fflush(stdout);
+}
+
+// All laws of an element take the substeps of the stiffest, so that the rows differ by the law alone.
+int common_substeps(Scene scene, const Cloth& cloth) {
+  int most = scene.substeps;
+  for (const Case& c : kCases) {
+    scene.law = c.law;
+    scene.element = c.element;
+    scene.substeps = 0;
+    most = std::max(most, make_simulation(scene, cloth)->limits().substeps);
+  }
+  return most;
+}
+
+}  // namespace
+
+int bench(const CommandLine& line) {
+  const Setup setup = set_up(line, defaults());
+  Json rows = Json::array();
+  const Cloth cloth = make_cloth(setup.scene);
+  Scene scene = setup.scene;
+  scene.substeps = common_substeps(setup.scene, cloth);
+  if (!setup.options.json)
+    std::printf("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
+  for (const Case& c : kCases) {
+    scene.element = c.element;
+    scene.law = c.law;
+    const auto simulation = make_simulation(scene, cloth);
+    rows.push_back(measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? 4 : 40));
+    if (!setup.options.json) print(rows.back());
+  }
+  if (setup.options.json) std::cout << rows.dump(2) << std::endl;
+  return 0;
+}
+
+}  // namespace hysteron::experiments

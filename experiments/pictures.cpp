@@ -1,0 +1,191 @@
+#include "experiments/pictures.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "render/caption.h"
+#include "render/shapes.h"
+#include "sim/scene/motion.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSheetCells = 12;       // pictures on the contact sheet
+constexpr int kThumbnailWidth = 640;  // kept in memory until then [pixels]
+constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
+
+std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<float> xyz;
+  xyz.reserve(3 * points.size());
+  for (const auto& p : points)
+    for (int k = 0; k < 3; ++k) xyz.push_back(static_cast<float>(p[k]));
+  return xyz;
+}
+
+std::vector<float> pattern_of(const ClothMesh& mesh) {
+  std::vector<float> uv;
+  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
+  for (int i = 0; i < mesh.vertices(); ++i) {
+    const bool given = !mesh.pattern.empty();
+    uv.push_back(static_cast<float>(given ? mesh.pattern[i].x() : mesh.rest[i].dot(mesh.warp_axis)));
+    uv.push_back(static_cast<float>(given ? mesh.pattern[i].y() : mesh.rest[i].dot(weft)));
+  }
+  return uv;
+}
+
+render::TriangleMesh body_of(const Obstacle& o) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  if (o.kind == "sphere") return render::sphere_mesh(f(o.radius));
+  if (o.kind == "capsule") return render::capsule_mesh(f(o.radius), f(o.height));
+  if (o.kind == "box") return render::box_mesh(o.size.cast<float>(), f(o.rim));
+  return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
+}
+
+Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
+  const Placement at = placement(o.motion, time);
+  Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
+  motion.topLeftCorner<3, 3>() = at.rotation.cast<float>();
+  motion.topRightCorner<3, 1>() = at.translation.cast<float>();
+  return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
+}
+
+}  // namespace
+
+std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>& element, int dimension) {
+  const ClothMesh& mesh = cloth.mesh;
+  std::vector<float> sum(mesh.vertices(), 0), weight(mesh.vertices(), 0);
+  const auto add = [&](int vertex, double value, double area) {
+    sum[vertex] += static_cast<float>(area * value);
+    weight[vertex] += static_cast<float>(area);
+  };
+  for (std::size_t e = 0; e < element.size(); ++e) {
+    if (dimension == 3) {
+      for (int k = 0; k < 3; ++k) add(mesh.face[e][k], element[e], mesh.face_area[e]);
+    } else {
+      const Edge& edge = mesh.edge[e];
+      const double area = mesh.face_area[edge.face0] + mesh.face_area[edge.face1];
+      for (int vertex : {edge.p2, edge.p3}) add(vertex, element[e], area);
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (weight[i] > 0) sum[i] /= weight[i];
+  return sum;
+}
+
+std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double>& element, int dimension) {
+  if (dimension == 1) return vertex_average(cloth, element, 1);
+  std::vector<double> trace(element.size() / 3);
+  for (std::size_t f = 0; f < trace.size(); ++f) trace[f] = element[3 * f] + element[3 * f + 1];
+  return vertex_average(cloth, trace, 3);
+}
+
+Pictures::Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds, std::optional<float> floor)
+    : scene_(setup.scene), options_(setup.options), cloth_(cloth), bounds_(bounds),
+      offscreen_(render::Offscreen::create(render::renderer_named(setup.options.renderer))) {
+  view_ = std::make_unique<render::ClothView>(*offscreen_,
+                                              render::PictureSize{options_.width(), options_.height()});
+  std::vector<int> triangles;
+  for (const auto& t : cloth.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
+  const std::vector<float> pattern = pattern_of(cloth.mesh);
+  view_->set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
+  for (const Obstacle& o : scene_.obstacle) {
+    const bool body = o.kind != "ground" && o.visible;
+    obstacle_.push_back(body ? view_->add_obstacle(body_of(o), placed_at(o, 0)) : -1);
+    if (o.kind == "ground" && !floor) floor = static_cast<float>(o.center.z());
+  }
+  view_->set_ground(floor);
+  view_->set_bounds(bounds);
+}
+
+render::Camera Pictures::camera() const {
+  const float aspect = static_cast<float>(options_.width()) / static_cast<float>(options_.height());
+  return render::Camera::framing(bounds_, options_.camera_direction.cast<float>(),
+                                 static_cast<float>(options_.camera_fov), aspect);
+}
+
+void Pictures::show(Simulation& simulation, render::ClothView& view, const std::string& look_name) {
+  render::Look look = render::look_named(look_name);
+  if (look.show == render::Show::curvature) {
+    look.value_high = static_cast<float>(kCurvatureRange * scene_.fabric.k0);
+    look.value_low = -look.value_high;
+    view.set_values(vertex_curvature(cloth_, simulation.curvature(), simulation.dimension()));
+  } else if (look.show == render::Show::friction) {
+    look.value_low = 0;
+    look.value_high = 1;
+    view.set_values(vertex_average(cloth_, simulation.friction_share(), simulation.dimension()));
+  }
+  view.set_look(look);
+  view.set_positions(flat(simulation.positions()));
+}
+
+std::string Pictures::caption(double time) const {
+  char text[64];
+  std::snprintf(text, sizeof text, "t = %.2f s", time);
+  return scene_.fabric.name + ", law " + scene_.law + "\n" + text;
+}
+
+render::Image Pictures::picture(Simulation& simulation, const std::string& look_name,
+                                const render::Camera& camera, const std::string& text) {
+  const auto start = Clock::now();
+  show(simulation, *view_, look_name);
+  for (std::size_t i = 0; i < obstacle_.size(); ++i) {
+    if (obstacle_[i] < 0) continue;
+    view_->move_obstacle(obstacle_[i], placed_at(scene_.obstacle[i], simulation.time()));
+    view_->show_obstacle(obstacle_[i], simulation.time() < scene_.obstacle[i].until);
+  }
+  render::Image image = view_->draw(camera);
+  render::draw_caption(image, text, render::Corner::top_left);
+  render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
+                         render::Corner::bottom_left, "at the cloth's middle");
+  const render::Look look = render::look_named(look_name);
+  if (look.show == render::Show::curvature) {
+    const double k = kCurvatureRange * scene_.fabric.k0;
+    render::draw_color_bar(image, {look.map, -k, k, "curvature", "1/m"}, render::Corner::bottom_right);
+  } else if (look.show == render::Show::friction) {
+    render::draw_color_bar(image, {look.map, 0, 1, "friction moment / M0", ""}, render::Corner::bottom_right);
+  }
+  render_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+  return image;
+}
+
+void Pictures::frame(Run& run, Simulation& simulation) {
+  render::Image image = picture(simulation, options_.look, camera(), caption(simulation.time()));
+  char name[32];
+  std::snprintf(name, sizeof name, "frames/%04d.png", frames_++);
+  const int width = std::min(kThumbnailWidth, image.width());
+  char time[32];
+  std::snprintf(time, sizeof time, "t = %.2f s", simulation.time());
+  thumbnails_.push_back({render::shrink(image, width, std::max(1, image.height() * width / image.width())), time});
+  writer_.write(run.path(name), std::move(image));
+}
+
+render::Image Pictures::silhouette(Simulation& simulation, double half_width, int pixels,
+                                   double& metres_per_pixel) {
+  render::ClothView view(*offscreen_, {pixels, pixels});
+  std::vector<int> triangles;
+  for (const auto& t : cloth_.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
+  view.set_cloth({static_cast<size_t>(cloth_.mesh.vertices()), triangles, {}});
+  show(simulation, view, "silhouette");
+  const float r = static_cast<float>(half_width);
+  const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
+  const render::Camera camera = render::Camera::top(box, 1);
+  metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
+  return view.draw(camera);
+}
+
+void Pictures::finish(Run& run, const std::string& title) {
+  writer_.finish();
+  std::vector<render::SheetEntry> cells;
+  for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))
+    cells.push_back(std::move(thumbnails_[i]));
+  if (!cells.empty())
+    render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
+                      render::PngEffort::best);
+  run.note("renderer", renderer());
+  run.add_seconds("render", render_seconds_);
+  run.add_seconds("encode", writer_.encode_seconds());
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,58 @@
+// The pictures of a run: a sequence of frames, single pictures, a contact sheet.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/run.h"
+#include "render/cloth_view.h"
+#include "render/contact_sheet.h"
+#include "render/png_writer.h"
+#include "sim/scene/cloth.h"
+#include "sim/solve/simulation.h"
+
+namespace hysteron::experiments {
+
+// A scalar per vertex from the elements' curvature [1/m]: its trace (the sum of both principal curvatures).
+std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double>& element, int dimension);
+// The same average of one number per element.
+std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>& element, int dimension);
+
+class Pictures {
+ public:
+  // `bounds`: what every picture of the sequence frames; `floor`: height of the visible ground [m].
+  Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds, std::optional<float> floor);
+
+  const std::string& renderer() const { return offscreen_->description(); }
+
+  // Draws the present state as the next of frames/, captioned with what is simulated and the time.
+  void frame(Run& run, Simulation& simulation);
+  // Draws the present state in a look of its own, with caption and colour bar.
+  render::Image picture(Simulation& simulation, const std::string& look, const render::Camera& camera,
+                        const std::string& caption);
+  // The sequence's camera.
+  render::Camera camera() const;
+  // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
+  render::Image silhouette(Simulation& simulation, double half_width, int pixels, double& metres_per_pixel);
+  // Waits for the files and writes sheet.png.
+  void finish(Run& run, const std::string& title);
+
+ private:
+  void show(Simulation& simulation, render::ClothView& view, const std::string& look_name);
+  std::string caption(double time) const;
+
+  Scene scene_;
+  Options options_;
+  const Cloth& cloth_;
+  render::Box bounds_;
+  std::unique_ptr<render::Offscreen> offscreen_;
+  std::unique_ptr<render::ClothView> view_;
+  std::vector<int> obstacle_;  // the view's number of each obstacle of the scene, -1 = not a body
+  render::PngWriter writer_;
+  std::vector<render::SheetEntry> thumbnails_;
+  int frames_ = 0;
+  double render_seconds_ = 0;
+};
+
+}  // namespace hysteron::experiments

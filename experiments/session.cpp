@@ -1,0 +1,133 @@
+#include "experiments/session.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "experiments/record.h"
+#include "experiments/report.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Steps between two recorded moments; at least one.
+int steps_per_frame(const Setup& setup) {
+  return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
+}
+
+double fastest(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before, double dt) {
+  double largest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
+  return largest / dt;
+}
+
+std::vector<std::string> ledger_columns() {
+  std::vector<std::string> columns;
+  for (const auto& [name, joules] : Ledger{}.rows()) columns.push_back(name + " [J]");
+  return columns;
+}
+
+}  // namespace
+
+void explain(const Cloth& cloth, const Simulation& simulation) {
+  std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
+            << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
+  const StepLimits limits = simulation.limits();
+  std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s; largest stable explicit bending step "
+            << limits.bending_step << " s\n";
+  std::size_t total = 0;
+  for (const ScenePart& part : simulation.parts()) {
+    char line[200];
+    std::snprintf(line, sizeof line, "%-16s %-3s %12zu bytes  %s", part.name.c_str(), part.included ? "in" : "out",
+                  part.bytes, part.included ? part.kernels.c_str() : part.reason.c_str());
+    std::cout << line << "\n";
+    total += part.bytes;
+  }
+  std::cout << "in all " << total << " bytes, " << static_cast<double>(total) / cloth.mesh.faces()
+            << " per triangle" << std::endl;
+}
+
+Session::Session(const CommandLine& line, const Setup& setup)
+    : setup_(setup), cloth_(make_cloth(setup.scene)), simulation_(make_simulation(setup.scene, cloth_)) {
+  if (setup.options.explain) {
+    explain(cloth_, *simulation_);
+    return;
+  }
+  run_ = std::make_unique<Run>(line, setup);
+  run_->note("device", simulation_->device());
+  run_->note("triangles", cloth_.mesh.faces());
+  run_->note("hinges", cloth_.mesh.interior_edges);
+  run_->note("substeps", simulation_->limits().substeps);
+}
+
+bool Session::only_explain() const { return setup_.options.explain; }
+
+void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
+  const std::string& format = setup_.options.export_format;
+  if (format == "none") return;
+  const auto stage = run_->stage("io");
+  char name[32];
+  std::snprintf(name, sizeof name, "mesh/%04d.%s", frame, format.c_str());
+  const std::string file = run_->path(name).string();
+  if (format == "obj") {
+    write_obj(file, cloth_.mesh, x);
+  } else {
+    const std::vector<float> k = vertex_curvature(cloth_, simulation_->curvature(), simulation_->dimension());
+    write_ply(file, cloth_.mesh, x, {k.begin(), k.end()});
+  }
+}
+
+bool Session::simulate(const Question& question) {
+  if (!setup_.options.no_images) {
+    pictures_ = std::make_unique<Pictures>(setup_, cloth_, question.bounds, question.floor);
+    run_->progress("pictures: " + pictures_->renderer());
+  }
+  std::vector<std::string> columns = {"time [s]", "fastest [m/s]"};
+  columns.insert(columns.end(), question.columns.begin(), question.columns.end());
+  const std::vector<std::string> energy = ledger_columns();
+  columns.insert(columns.end(), energy.begin(), energy.end());
+  Record record(run_->path("metrics.csv"), columns);
+
+  const int stride = steps_per_frame(setup_);
+  const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
+  std::vector<Eigen::Vector3d> before = simulation_->positions();
+  bool settled = false;
+  for (int frame = 0;; ++frame) {
+    const std::vector<Eigen::Vector3d> x = simulation_->positions();
+    const Moment moment{simulation_->time(), x, fastest(x, before, stride * setup_.scene.step)};
+    const Ledger ledger = simulation_->ledger();
+    std::vector<double> row = {moment.time, moment.fastest};
+    for (double value : question.measure(moment)) row.push_back(value);
+    for (const auto& [name, joules] : ledger.rows()) row.push_back(joules);
+    record.row(row);
+    if (pictures_) pictures_->frame(*run_, *simulation_);
+    export_mesh(frame, x);
+    run_->progress(question.progress(moment));
+    settled = frame > 0 && question.settled && question.settled(moment);
+    if (settled || simulation_->steps() >= steps) break;
+    simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
+    before = x;
+  }
+  record.finish();
+  return settled;
+}
+
+void Session::finish(const std::string& title) {
+  if (pictures_) pictures_->finish(*run_, title);
+  const Ledger ledger = simulation_->ledger();
+  run_->energy(ledger.rows());
+  for (const auto& [stage, seconds] : simulation_->stage_seconds()) run_->add_seconds(stage, seconds);
+  char hash[20];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation_->state_hash()));
+  run_->note("state_hash", hash);
+  run_->note("steps", simulation_->steps());
+  run_->note("seconds_simulated", simulation_->time());
+  run_->note("bytes_device", simulation_->device_bytes());
+  run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
+  run_->metric("energy_remainder_relative", ledger.remainder_relative);
+  run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
+  run_->finish();
+  write_report(run_->folder());
+}
+
+}  // namespace hysteron::experiments

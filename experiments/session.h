@@ -1,0 +1,63 @@
+// One simulated run from set-up to manifest: what every experiment shares.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/pictures.h"
+#include "experiments/run.h"
+#include "render/camera.h"
+#include "sim/solve/simulation.h"
+
+namespace hysteron::experiments {
+
+// What is known of a moment that is recorded.
+struct Moment {
+  double time;                             // [s]
+  const std::vector<Eigen::Vector3d>& x;   // positions [m]
+  double fastest;                          // largest displacement since the last moment over the time between [m/s]
+};
+
+// The experiment's own part of a run.
+struct Question {
+  render::Box bounds;                      // framed by the pictures [m]
+  std::optional<float> floor;              // height of the visible ground [m]
+  std::vector<std::string> columns;        // own columns of metrics.csv, with units
+  std::function<std::vector<double>(const Moment&)> measure;
+  std::function<bool(const Moment&)> settled;  // ends the run early
+  std::function<std::string(const Moment&)> progress;
+};
+
+// Prints what the scene includes and leaves out, with bytes and loops (--explain).
+void explain(const Cloth& cloth, const Simulation& simulation);
+
+class Session {
+ public:
+  // Builds the cloth and the simulation; makes the run's folder.
+  Session(const CommandLine& line, const Setup& setup);
+
+  bool only_explain() const;  // --explain: it is printed already
+  Run& run() { return *run_; }
+  const Cloth& cloth() const { return cloth_; }
+  const Scene& scene() const { return setup_.scene; }
+  Simulation& simulation() { return *simulation_; }
+  Pictures* pictures() { return pictures_.get(); }  // null with --no-images
+
+  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled (returned).
+  bool simulate(const Question& question);
+  // Metrics that every simulated run has, the manifest, the report.
+  void finish(const std::string& title);
+
+ private:
+  void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
+
+  Setup setup_;
+  Cloth cloth_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Run> run_;
+  std::unique_ptr<Pictures> pictures_;
+};
+
+}  // namespace hysteron::experiments
