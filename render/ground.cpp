@@ -13,7 +13,7 @@ constexpr float kSkyBlur = 7.0f;  // texels of the sky maps
 
 // Square grid from -1 to 1 in the plane z = 0, finer toward the middle, where shadows lie.
 TriangleMesh ground_grid() {
-  constexpr int kVertices = 65;
+  constexpr int kVertices = 49;
   const auto place = [](std::uint32_t i) {
     const float t = 2.0f * static_cast<float>(i) / (kVertices - 1) - 1;
     return 0.6f * t + 0.4f * t * t * t;

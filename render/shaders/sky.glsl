@@ -3,7 +3,7 @@
 const int kSkyLights = 8;
 const int kSkyColumns = 4;
 #ifdef GROUND
-const int kSkyTaps = 12;
+const int kSkyTaps = 8;
 #else
 const int kSkyTaps = 4;
 #endif
