@@ -1,0 +1,172 @@
+// The solver against a direct factorisation, and a run against itself: threads, repetition, precision.
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+#include <random>
+
+#include "sim/membrane/membrane.h"
+#include "sim/solve/pcg.h"
+#include "tests/sim/solve/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using test::Trial;
+
+// A crumpled and stretched membrane with masses, as the implicit stage assembles it, and a random load.
+struct ImplicitSystem {
+  Trial trial{test::hanging_square(300)};
+  Cpu cpu{1};
+  BlockRows<double, Cpu> rows{cpu, trial.cloth.mesh};
+  std::vector<char> held = trial.cloth.held(trial.scene, 0);
+  std::vector<Vector3d> load;
+
+  ImplicitSystem() {
+    constexpr double kStep = 5e-3;
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<Vector3d> x = trial.cloth.mesh.rest;
+    for (Vector3d& p : x) {
+      p = 1.05 * p + 2e-3 * Vector3d(uniform(generator), uniform(generator), uniform(generator));
+      load.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+    }
+    Membrane<double, Cpu> membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows);
+    const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
+    membrane.update(x.data(), still.data());
+    membrane.assemble(kStep, rows.view());
+    for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
+      rows.view().diagonal[i].diagonal().array() += trial.mass(i);
+  }
+
+  // The free part as a sparse matrix.
+  Eigen::SparseMatrix<double> free_part(const std::vector<int>& place, int size) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](int i, int j, const Mat3<double>& block) {
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) entries.emplace_back(3 * place[i] + a, 3 * place[j] + b, block(a, b));
+    };
+    const auto diagonal = rows.diagonal(), off = rows.off();
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (held[i]) continue;
+      add(static_cast<int>(i), static_cast<int>(i), diagonal[i]);
+      for (int j = rows.start()[i]; j < rows.start()[i + 1]; ++j)
+        if (!held[rows.column()[j]]) add(static_cast<int>(i), rows.column()[j], off[j]);
+    }
+    Eigen::SparseMatrix<double> matrix(3 * size, 3 * size);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+};
+
+TEST(ConjugateGradients, SolveWhatADirectFactorisationSolves) {
+  constexpr double kTolerance = 1e-12;
+  constexpr double kConditioned = 1e-9;  // the residual's tolerance times the root of the condition number
+  ImplicitSystem system;
+  std::vector<int> place;
+  int size = 0;
+  for (char h : system.held) place.push_back(h ? -1 : size++);
+  const Eigen::SparseMatrix<double> matrix = system.free_part(place, size);
+  EXPECT_LT((matrix - Eigen::SparseMatrix<double>(matrix.transpose())).norm(), 1e-14 * matrix.norm());
+  VectorXd load(3 * size);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] >= 0) load.segment<3>(3 * place[i]) = system.load[i];
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+  ASSERT_EQ(factors.info(), Eigen::Success);
+  ASSERT_GT(factors.vectorD().minCoeff(), 0);  // positive definite
+  const VectorXd expected = factors.solve(load);
+
+  std::vector<Vector3d> solution(place.size(), Vector3d::Zero());
+  Pcg<double, Cpu> pcg(system.cpu, static_cast<int>(place.size()));
+  const PcgOutcome outcome = pcg.solve(system.rows.view(), system.held.data(), system.load.data(),
+                                       solution.data(), kTolerance, 2000);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_GT(outcome.iterations, 10);
+  double error = 0;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (place[i] < 0)
+      EXPECT_EQ(solution[i], Vector3d::Zero());
+    else
+      error = std::max(error, (solution[i] - expected.segment<3>(3 * place[i])).norm());
+  }
+  EXPECT_LT(error, kConditioned * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(ConjugateGradients, StartFromASolutionTakesNoIteration) {
+  ImplicitSystem system;
+  std::vector<Vector3d> solution(system.held.size(), Vector3d::Zero());
+  Pcg<double, Cpu> pcg(system.cpu, static_cast<int>(system.held.size()));
+  pcg.solve(system.rows.view(), system.held.data(), system.load.data(), solution.data(), 1e-10, 2000);
+  const auto again =
+      pcg.solve(system.rows.view(), system.held.data(), system.load.data(), solution.data(), 1e-8, 9);
+  EXPECT_EQ(again.iterations, 0);
+  EXPECT_TRUE(again.converged);
+}
+
+TEST(ConjugateGradients, SayWhenTheyDidNotConverge) {
+  ImplicitSystem system;
+  std::vector<Vector3d> solution(system.held.size(), Vector3d::Zero());
+  Pcg<double, Cpu> pcg(system.cpu, static_cast<int>(system.held.size()));
+  EXPECT_FALSE(
+      pcg.solve(system.rows.view(), system.held.data(), system.load.data(), solution.data(), 1e-12, 3)
+          .converged);
+}
+
+// Enough vertices, hinges and faces that every loop is shared between the threads.
+Trial draping() {
+  Scene scene = test::hanging_square(2000);
+  scene.law = "prandtl";
+  scene.solver_tolerance = 1e-4;
+  Obstacle sphere;
+  sphere.kind = "sphere";
+  sphere.radius = 0.05;
+  sphere.center = {0.1, 0.05, -0.051};
+  scene.obstacle = {sphere};
+  return Trial(scene);
+}
+
+TEST(Run, HasTheSameBitsOnOneThreadOnTwoAndAgain) {
+  Trial trial = draping();
+  ASSERT_GT(trial.cloth.mesh.vertices(), kSerialLoop);
+  const auto hash = trial.after(20)->state_hash();
+  EXPECT_EQ(trial.after(20)->state_hash(), hash);
+  trial.scene.threads = 2;
+  EXPECT_EQ(trial.after(20)->state_hash(), hash);
+  EXPECT_NE(trial.after(21)->state_hash(), hash);
+}
+
+TEST(Run, IsNotChangedByHowOftenItIsMeasured) {
+  const Trial trial = draping();
+  const auto watched = trial.simulation();
+  for (int i = 0; i < 20; ++i) {
+    watched->advance(1);
+    watched->ledger();
+    watched->curvature();
+    watched->residual_curvature();
+    watched->friction_share();
+    watched->largest_stretch();
+  }
+  EXPECT_EQ(watched->state_hash(), trial.after(20)->state_hash());
+}
+
+// Rounding of 6e-8 over 100 steps and some thousand substeps, while the cloth falls by cm.
+TEST(Run, InSinglePrecisionStaysNearDoublePrecision) {
+  constexpr double kNear = 1e-4;  // [m], half a thousandth of the cloth
+  for (const char* law : {"linear", "prandtl", "wong"}) {
+    Trial trial(test::hanging_square());
+    trial.scene.law = law;
+    trial.scene.solver_tolerance = 1e-5;
+    const auto exact = trial.after(100)->positions();
+    trial.scene.precision = "float";
+    const auto rounded = trial.after(100)->positions();
+    EXPECT_GT(test::farthest(exact, trial.cloth.start), 0.01);
+    EXPECT_LT(test::farthest(exact, rounded), kNear) << law;
+    EXPECT_NE(test::farthest(exact, rounded), 0) << law;
+    RecordProperty(std::string("distance_") + law,
+                   std::to_string(1e9 * test::farthest(exact, rounded)) + " nm");
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
