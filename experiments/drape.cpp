@@ -49,7 +49,9 @@ Setup defaults() {
 
 // Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
 void add_apparatus(Scene& scene, const DrapeChoice& choice) {
-  const double shell = scene.fabric.thickness;
+  // The discs press the specimen by a little: both contacts stay closed, as in the apparatus.
+  constexpr double kPressed = 0.98;
+  const double shell = kPressed * scene.fabric.thickness;
   scene.cloth.position = {0, 0, shell};
   Obstacle pedestal;
   pedestal.kind = "cylinder";
@@ -85,10 +87,7 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice) {
   const double radius = session.scene().cloth.radius;
   render::Image shadow =
       session.pictures()->silhouette(session.simulation(), 1.08 * radius, kShadowPixels, metres);
-  double dark = 0;
-  for (int y = 0; y < shadow.height(); ++y)
-    for (int x = 0; x < shadow.width(); ++x) dark += (255 - shadow.at(x, y)[0]) / 255.0;
-  const double found = drape_coefficient(dark * metres * metres, choice.disc, radius);
+  const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
   char text[160];
   std::snprintf(text, sizeof text, "%s, law %s\nshadow from above: drape coefficient %.1f %%",
                 session.scene().fabric.name.c_str(), session.scene().law.c_str(), found);

@@ -15,24 +15,26 @@ std::size_t Pcg<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
-void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, Vec3<Real>* x,
-                              double tolerance) {
+void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+                              const Vec3<Real>* offset, Real factor, Vec3<Real>* x, double tolerance) {
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   Scalars* s = scalars_.data();
   for_each_sum<2>(
       device_, "solve: start", rows_,
       HYST_KERNEL(int i, Sums<2>& sums) {
+        x[i].setZero();
         if (held[i]) {
           r[i] = z[i] = p[i] = Vec3<Real>::Zero();
           return;
         }
         inverse[i] = matrix.diagonal[i].inverse();
-        r[i] = rhs[i] - matrix.times(i, x);
+        r[i] = rhs[i];
         z[i] = inverse[i] * r[i];
         p[i] = z[i];
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
-        sums.term[1] += static_cast<double>(rhs[i].dot(inverse[i] * rhs[i]));
+        const Vec3<Real> scale = rhs[i] + factor * offset[i];
+        sums.term[1] += static_cast<double>(scale.dot(inverse[i] * scale));
       },
       HYST_KERNEL(const Sums<2>& total) {
         s->residual = total.term[0];
@@ -83,8 +85,9 @@ void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Ve
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve took.
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                                    Vec3<Real>* x, double tolerance, int most_iterations) {
-  start(matrix, held, rhs, x, tolerance);
+                                    const Vec3<Real>* offset, Real factor, Vec3<Real>* x, double tolerance,
+                                    int most_iterations) {
+  start(matrix, held, rhs, offset, factor, x, tolerance);
   constexpr int kAskAgain = 4;
   Scalars scalars{};
   for (int sent = 0;;) {

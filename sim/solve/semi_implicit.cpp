@@ -1,12 +1,16 @@
 // One step of the chapter's scheme (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011), hi = alpha he:
 //
-//   alpha times   v += he M^-1 (f_bend(x) + m g + f_air),  x += he v;  bending history committed at each x
-//   then          M dv = hi (f_m(x + hi dv) + f_d(v + dv) + f_c(x + hi dv)),  v += dv,  x += hi dv
+//   alpha times   v += he M^-1 (f_bend(x) + m g + f_air + F_n),  x += he v;  bending history committed at each x
+//   then          M dv = hi (f_m + f_d + f_c - F_n),  v += dv,  x += hi dv,  F_{n+1} = F_n + M dv/hi
 //
-// Bending viscosity (fabric.damping times b1) is explicit too; it keeps bending waves whose period resonates with hi
-// from feeding on the tension's impulses, which come once per hi (the weakness of impulse splittings).
-// f_m is membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with
-// obstacles kNewtonWithObstacles of them) and the matrix kept positive definite.
+// with f_m membrane tension, f_d membrane damping, f_c contact and friction at the end of the step, linearised (one
+// Newton step; with obstacles kNewtonWithObstacles of them) and the matrix kept positive definite.
+//
+// Decided here: F_n, the implicit force of the last step, is held through the substeps, and the implicit stage brings
+// its change alone.  Without it (F_n = 0, the scheme in its plainest form) forces that balance act one after the other:
+// bending accelerates the cloth through the substeps, tension throws it back, a resting cloth trembles by |a| hi^2, its
+// friction is rubbed away and the splitting feeds in more energy than the cloth ever had.  For alpha = 1 both are the
+// backward Euler step.  Bending viscosity (fabric.damping times b1) is explicit.
 //
 // Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
 //   change of kinetic energy = F.d - m |dv|^2/2,
@@ -90,6 +94,7 @@ void Stepper<Real, Device>::substep(Real dt) {
   const Real* mass = mass_.data();
   const char* held = held_.data();
   Vec3<Real>*x = x_.data(), *v = v_.data();
+  const Vec3<Real>* carried = carried_.data();
   VertexLedger* ledger = ledger_.data();
   for_each(*device_, "substep", vertices_, HYST_KERNEL(int i) {
     const Vec3<Real> force = bending.at(i);
@@ -105,12 +110,13 @@ void Stepper<Real, Device>::substep(Real dt) {
       return;
     }
     const Vec3<Real> air = -drag * m * v[i];
-    const Vec3<Real> dv = dt / m * (force + weight + air);
+    const Vec3<Real> dv = dt / m * (force + weight + air + carried[i]);
     const Vec3<Real> moved = v[i] + dv, d = dt * moved;
     v[i] = moved;
     x[i] += d;
     sum.bending_work += static_cast<double>(force.dot(d));
     sum.gravity_work += static_cast<double>(weight.dot(d));
+    sum.implicit_work += static_cast<double>(carried[i].dot(d));
     sum.air -= static_cast<double>(air.dot(d));
     sum.inertia += static_cast<double>(m / 2 * dv.squaredNorm());
   });
@@ -152,7 +158,7 @@ void Stepper<Real, Device>::explicit_substep(Real dt) {
   membrane_.add_viscous_loss(v_.data(), dt);
 }
 
-// rhs = hi (f_m + f_d + f_c) - M (v - v*), matrix = M + hi^2 K + hi D at the present iterate.
+// rhs = hi (f_m + f_d + f_c - F_n) - M (v - v*), matrix = M + hi^2 K + hi D at the present iterate.
 template <class Real, class Device>
 void Stepper<Real, Device>::linear_system(Real h, bool first) {
   clock_.begin(Stage::membrane);
@@ -161,10 +167,10 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
   membrane_.assemble(h, matrix);
   const MembraneForceView<Real> force = membrane_.forces();
   const Real* mass = mass_.data();
-  const Vec3<Real>* total = change_.data();
+  const Vec3<Real>*total = change_.data(), *carried = carried_.data();
   Vec3<Real>* rhs = rhs_.data();
   for_each(*device_, "implicit forces", vertices_, HYST_KERNEL(int i) {
-    rhs[i] = h * force.at(i);
+    rhs[i] = h * (force.at(i) - carried[i]);
     if (!first) rhs[i] -= mass[i] * total[i];
     for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += mass[i];
   });
@@ -182,11 +188,10 @@ void Stepper<Real, Device>::implicit_stage() {
   for (int iteration = 0; iteration < newton; ++iteration) {
     linear_system(h, iteration == 0);
     clock_.begin(Stage::solve);
-    // The first correction starts from that of the last step: at rest it is the same.
-    const PcgOutcome outcome = pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), guess_[iteration].data(),
-                                          scene_.solver_tolerance, kMostIterations);
+    const PcgOutcome outcome = pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), carried_.data(), h,
+                                          correction_.data(), scene_.solver_tolerance, kMostIterations);
     solver_iterations_ += outcome.iterations;
-    const Vec3<Real>* dv = guess_[iteration].data();
+    const Vec3<Real>* dv = correction_.data();
     Vec3<Real>*x = x_.data(), *v = v_.data(), *total = change_.data();
     const char* held = held_.data();
     const bool first = iteration == 0;
@@ -208,13 +213,16 @@ void Stepper<Real, Device>::accept_implicit() {
   const Real* mass = mass_.data();
   const char* held = held_.data();
   const Vec3<Real>*v = v_.data(), *total = change_.data(), *rhs = rhs_.data();
-  const Vec3<Real>* last = guess_[contact_ ? kNewtonWithObstacles - 1 : 0].data();
+  const Vec3<Real>* last = correction_.data();
+  Vec3<Real>* carried = carried_.data();
+  const Real h = static_cast<Real>(scene_.step);
   const BlockRowsView<Real> matrix = matrix_.view();
   const bool handles = moving_pins_;
   VertexLedger* ledger = ledger_.data();
   for_each(*device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
     VertexLedger& sum = ledger[i];
     if (!held[i]) {
+      carried[i] += mass[i] / h * total[i];
       sum.inertia += static_cast<double>(mass[i] / 2 * total[i].squaredNorm());
       sum.implicit_work += static_cast<double>(mass[i] * total[i].dot(v[i]));
     } else if (handles) {

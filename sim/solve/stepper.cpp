@@ -48,7 +48,8 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       held_(*device_, cloth.held(scene, 0)), ledger_(*device_, vertices_) {
   if (!explicit_) {
     change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
-    guess_[0] = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    carried_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   for (const Pin& pin : scene.pin) {
     moving_pins_ |= !pin.motion.keys.empty();
@@ -61,7 +62,6 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
   if (!scene.obstacle.empty()) {
     contact_.emplace(*device_, cloth.mesh, scene);
     before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
-    if (!explicit_) guess_[1] = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     contact_->move(0, 0);
   }
   bending_.commit(x_.data(), v_.data(), 0);
@@ -188,7 +188,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   };
   add("state", true, x_.bytes() + v_.bytes() + mass_.bytes() + rhs_.bytes() + held_.bytes(), "substep", "");
   add("membrane", true, membrane_.bytes(), "membrane stress, membrane matrix", "");
-  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + change_.bytes() + guess_[0].bytes() + guess_[1].bytes(),
+  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + 3 * change_.bytes(),
       "solve: start, product, advance, direction", "the integrator is explicit");
   add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");

@@ -85,8 +85,9 @@ class Stepper : public Simulation {
   std::optional<Contact<Real, Device>> contact_;
   bool moving_pins_ = false, held_changes_ = false;
   std::vector<int> pin_host_;
-  Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_, change_;
-  Buffer<Vec3<Real>, Device> guess_[2];  // last corrections, one for each Newton step
+  Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
+  Buffer<Vec3<Real>, Device> carried_;             // implicit forces of the last step, held through the substeps [N]
+  Buffer<Vec3<Real>, Device> change_, correction_;  // dv of the implicit stage, and of its last Newton step [m/s]
   Buffer<Real, Device> mass_;
   Buffer<int, Device> pin_;
   Buffer<char, Device> held_;
