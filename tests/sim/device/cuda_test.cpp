@@ -1,0 +1,117 @@
+// CPU against CUDA: the same source on both must give the same cloth.
+#include <gtest/gtest.h>
+
+#include "sim/error.h"
+#include "sim/solve/back_end.h"
+#include "tests/sim/solve/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using test::Trial;
+
+constexpr int kSteps = 50;
+
+// Every part of the simulation at work: moving handle, obstacle with friction, air, damping.
+Scene busy_scene(const std::string& law, const std::string& element, const std::string& integrator) {
+  Scene scene = test::hanging_square(1000);
+  scene.law = law;
+  scene.element = element;
+  scene.integrator = integrator;
+  scene.air_drag = 0.02;
+  scene.solver_tolerance = 1e-10;
+  scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 10}};
+  Obstacle sphere;
+  sphere.kind = "sphere";
+  sphere.radius = 0.04;
+  sphere.center = {0.1, 0.05, -0.042};
+  if (integrator == "semi-implicit") scene.obstacle = {sphere};
+  return scene;
+}
+
+std::unique_ptr<Simulation> run_on(const std::string& device, Scene scene) {
+  scene.device = device;
+  return Trial(scene).after(kSteps);
+}
+
+bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
+
+struct DeviceCase {
+  std::string law, element, integrator;
+};
+class BothDevices : public testing::TestWithParam<DeviceCase> {};
+INSTANTIATE_TEST_SUITE_P(Cases, BothDevices,
+                         testing::Values(DeviceCase{"linear", "shape", "semi-implicit"},
+                                         DeviceCase{"prandtl", "shape", "semi-implicit"},
+                                         DeviceCase{"wong", "shape", "semi-implicit"},
+                                         DeviceCase{"prandtl", "hinge", "semi-implicit"},
+                                         DeviceCase{"prandtl", "shape", "explicit"}),
+                         [](const auto& c) {
+                           return c.param.law + "_" + c.param.element +
+                                  (c.param.integrator == "explicit" ? "_explicit" : "_semi_implicit");
+                         });
+
+// Sums run in another order and division and roots round differently; the solver's tolerance hides the rest.
+TEST_P(BothDevices, AgreeOnEveryPosition) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU to compare with: " << reason;
+  constexpr double kAgreement = 1e-9;  // [m]
+  const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
+  const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
+  EXPECT_EQ(gpu->device().substr(0, 4), "cuda");
+  const double distance = test::farthest(cpu->positions(), gpu->positions());
+  RecordProperty("distance_nm", std::to_string(1e9 * distance));
+  EXPECT_GT(test::farthest(cpu->positions(), Trial(scene).cloth.start), 1e-3);
+  EXPECT_LT(distance, kAgreement);
+  EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
+  EXPECT_EQ(gpu->limits().substeps, cpu->limits().substeps);
+}
+
+TEST_P(BothDevices, GpuGivesTheSameBitsTwice) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
+  EXPECT_EQ(run_on("cuda", scene)->state_hash(), run_on("cuda", scene)->state_hash());
+}
+
+TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr double kNear = 1e-4;  // [m], as on the CPU
+  Scene scene = busy_scene("prandtl", "shape", "semi-implicit");
+  scene.obstacle.clear();
+  scene.solver_tolerance = 1e-5;
+  const auto exact = run_on("cpu", scene)->positions();
+  scene.precision = "float";
+  EXPECT_LT(test::farthest(run_on("cuda", scene)->positions(), exact), kNear);
+}
+
+TEST(Device, ListNamesTheCpuAndTheGpuOrWhyThereIsNone) {
+  const auto list = device_list();
+  ASSERT_GE(list.size(), 2u);
+  EXPECT_EQ(list[0].substr(0, 4), "cpu:");
+  EXPECT_EQ(list[1].substr(0, 5), "cuda:");
+  std::string reason;
+  if (gpu_is_missing(reason)) {
+    EXPECT_NE(list[1].find(reason), std::string::npos) << list[1];
+  }
+}
+
+TEST(Device, CudaWithoutAGpuIsTheMachinesFailureInOneLine) {
+  std::string reason;
+  if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
+  Trial trial(test::hanging_square());
+  trial.scene.device = "cuda";
+  try {
+    trial.simulation();
+    FAIL() << "started on a GPU that is not there";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 1);
+    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+  }
+  trial.scene.device = "auto";
+  EXPECT_EQ(trial.simulation()->device().substr(0, 3), "cpu");
+}
+
+}  // namespace
+}  // namespace hysteron
