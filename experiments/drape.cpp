@@ -5,7 +5,6 @@
 #include "experiments/outline.h"
 #include "experiments/session.h"
 #include "render/caption.h"
-#include "render/plot.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -117,7 +116,7 @@ void plot_outline(Session& session, const DrapeChoice& choice, const Outline& ou
   render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
   plot.series = {cloth, circle(choice.disc, "pedestal"), circle(session.scene().cloth.radius, "flat specimen")};
   plot.equal_scales = true;
-  render::write_plot(session.run().path("plot_outline"), plot);
+  session.plot("plot_outline", plot);
 }
 
 void plot_series(Session& session) {
@@ -130,12 +129,12 @@ void plot_series(Session& session) {
     drape.series.push_back(
         {"measured, published", {0, drape.series[0].x.back()}, {value, value}, render::Series::Style::dashed});
   }
-  render::write_plot(session.run().path("plot_drape"), drape);
+  session.plot("plot_drape", drape);
   render::Plot energy{"Where the energy went", {"time [s]"}, {"energy [J]"}};
   for (const char* term : {"kinetic", "bending", "bending_friction", "contact_friction", "air", "viscous",
                            "integrator_inertia"})
     energy.series.push_back(render::series_from_csv(csv, "time", term, term));
-  render::write_plot(session.run().path("plot_energy"), energy);
+  session.plot("plot_energy", energy);
 }
 
 void draw_maps(Session& session) {

@@ -6,6 +6,7 @@
 
 #include "experiments/record.h"
 #include "experiments/report.h"
+#include "sim/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -112,7 +113,18 @@ bool Session::simulate(const Question& question) {
   return settled;
 }
 
+void Session::plot(const std::string& name, const render::Plot& plot) {
+  try {
+    render::write_plot(run_->folder() / name, plot);
+    for (const char* ending : {".png", ".svg"}) run_->path(name + ending);
+  } catch (const Error& error) {
+    plots_missing_.push_back(name + ": " + error.what());
+    run_->progress(plots_missing_.back());
+  }
+}
+
 void Session::finish(const std::string& title) {
+  if (!plots_missing_.empty()) run_->note("plots_missing", plots_missing_);
   if (pictures_) pictures_->finish(*run_, title);
   const Ledger ledger = simulation_->ledger();
   run_->energy(ledger.rows());
@@ -126,6 +138,7 @@ void Session::finish(const std::string& title) {
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
+  run_->path("report.html");
   run_->finish();
   write_report(run_->folder());
 }

@@ -9,6 +9,7 @@
 #include "experiments/pictures.h"
 #include "experiments/run.h"
 #include "render/camera.h"
+#include "render/plot.h"
 #include "sim/solve/simulation.h"
 
 namespace hysteron::experiments {
@@ -47,6 +48,8 @@ class Session {
 
   // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled (returned).
   bool simulate(const Question& question);
+  // Draws a plot; where gnuplot is missing the run goes on without it, and the manifest says so.
+  void plot(const std::string& name, const render::Plot& plot);
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
 
@@ -58,6 +61,7 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
+  Json plots_missing_ = Json::array();
 };
 
 }  // namespace hysteron::experiments

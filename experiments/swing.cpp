@@ -4,8 +4,6 @@
 #include <cstdio>
 
 #include "experiments/session.h"
-#include "render/plot.h"
-#include "render/png_writer.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -52,11 +50,11 @@ void plot(Session& session) {
   render::Plot tip{"Height of the free end, " + what, {"time [s]"}, {"height over the clamp [cm]"}};
   tip.series = {render::series_from_csv(csv, "time", "tip_height", "tip")};
   for (double& z : tip.series[0].y) z *= 100;
-  render::write_plot(session.run().path("plot_tip"), tip);
+  session.plot("plot_tip", tip);
   render::Plot energy{"Where the energy went, " + what, {"time [s]"}, {"energy [J]"}};
   for (const char* term : {"kinetic", "bending", "bending_friction", "viscous", "integrator_inertia"})
     energy.series.push_back(render::series_from_csv(csv, "time", term, term));
-  render::write_plot(session.run().path("plot_energy"), energy);
+  session.plot("plot_energy", energy);
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"integrator", at<&S::integrator>, "", any(), "semi-implicit | explicit | (implicit) | (bdf2)", "time integration"},
     {"step", at<&S::step>, "s", {0, 1, true}, "", "large time step hi"},
     {"substeps", at<&S::substeps>, "", between(0, 1e6), "", "explicit bending steps per large step; 0: the least stable number"},
+    {"implicit-every", at<&S::implicit_every>, "", any(), "substep | step", "implicit solve once per substep, or per step as the chapter has it"},
     {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "", "relative residual of the implicit solve"},
     {"device", at<&S::device>, "", any(), "auto | cpu | cuda", "where the simulation runs"},
     {"precision", at<&S::precision>, "", any(), "double | float", "of the simulation"},

@@ -107,6 +107,7 @@ struct Scene {
   std::string integrator = "semi-implicit";   // integrator semi-implicit | explicit
   double step = 1e-3;                         // step       large step hi [s]
   int substeps = 0;                           // substeps   alpha; 0 = the least stable one
+  std::string implicit_every = "substep";     // implicit-every  substep | step (the chapter's)
   double solver_tolerance = 1e-4;             // solver-tolerance  relative residual of the implicit solve
   std::string device = "auto";                // device     auto | cpu | cuda
   std::string precision = "double";           // precision  double | float

@@ -16,7 +16,7 @@ std::size_t Pcg<Real, Device>::bytes() const {
 
 template <class Real, class Device>
 void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                              const Vec3<Real>* offset, Real factor, Vec3<Real>* x, double tolerance) {
+                              const Vec3<Real>* known, Vec3<Real>* x, double tolerance) {
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   Scalars* s = scalars_.data();
@@ -33,7 +33,7 @@ void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, cons
         z[i] = inverse[i] * r[i];
         p[i] = z[i];
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
-        const Vec3<Real> scale = rhs[i] + factor * offset[i];
+        const Vec3<Real> scale = known ? Vec3<Real>(rhs[i] - known[i]) : rhs[i];
         sums.term[1] += static_cast<double>(scale.dot(inverse[i] * scale));
       },
       HYST_KERNEL(const Sums<2>& total) {
@@ -85,9 +85,9 @@ void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Ve
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve took.
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                                    const Vec3<Real>* offset, Real factor, Vec3<Real>* x, double tolerance,
+                                    const Vec3<Real>* known, Vec3<Real>* x, double tolerance,
                                     int most_iterations) {
-  start(matrix, held, rhs, offset, factor, x, tolerance);
+  start(matrix, held, rhs, known, x, tolerance);
   constexpr int kAskAgain = 4;
   Scalars scalars{};
   for (int sent = 0;;) {

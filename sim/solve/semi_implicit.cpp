@@ -1,16 +1,19 @@
-// One step of the chapter's scheme (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011), hi = alpha he:
+// The step of hi = alpha he (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011): bending explicit, tension, damping
+// and contact implicit, alpha the least number of substeps for which explicit bending is stable.
 //
-//   alpha times   v += he M^-1 (f_bend(x) + m g + f_air + F_n),  x += he v;  bending history committed at each x
-//   then          M dv = hi (f_m + f_d + f_c - F_n),  v += dv,  x += hi dv,  F_{n+1} = F_n + M dv/hi
+// implicit-every = step, as the chapter writes it:
+//   alpha times   v += he M^-1 (f_bend(x) + m g + f_air),  x += he v;  bending history committed at each x
+//   then          M dv = hi (f_m + f_d + f_c)(x + hi dv, v + dv),  v += dv,  x += hi dv
 //
-// with f_m membrane tension, f_d membrane damping, f_c contact and friction at the end of the step, linearised (one
-// Newton step; with obstacles kNewtonWithObstacles of them) and the matrix kept positive definite.
+// implicit-every = substep, the default (decided here): alpha times, with h = he,
+//   M dv = h (f_bend(x) + m g + f_air + (f_m + f_d + f_c)(x + h v + h dv, v + dv)),  v += dv,  x += h v
 //
-// Decided here: F_n, the implicit force of the last step, is held through the substeps, and the implicit stage brings
-// its change alone.  Without it (F_n = 0, the scheme in its plainest form) forces that balance act one after the other:
-// bending accelerates the cloth through the substeps, tension throws it back, a resting cloth trembles by |a| hi^2, its
-// friction is rubbed away and the splitting feeds in more energy than the cloth ever had.  For alpha = 1 both are the
-// backward Euler step.  Bending viscosity (fabric.damping times b1) is explicit.
+// f_m is membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with obstacles
+// kNewtonWithObstacles of them) and the matrix kept positive definite.  Both solve as many unknowns; the shorter implicit
+// steps take fewer iterations each.  As the chapter writes it, forces that balance act one after the other: bending
+// accelerates the cloth through the substeps and tension throws it back, so that a resting cloth trembles by about
+// |a| hi^2, which rubs its bending friction away and feeds energy in; and bending waves whose period resonates with hi
+// grow unless viscosity damps them.  Acting together they rest exactly.
 //
 // Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
 //   change of kinetic energy = F.d - m |dv|^2/2,
@@ -30,57 +33,63 @@ constexpr int kMostIterations = 2000;
 
 template <class Real, class Device>
 void Stepper<Real, Device>::advance(int steps) {
-  const Real h = static_cast<Real>(scene_.step), he = static_cast<Real>(limits_.substep);
   for (int s = 0; s < steps; ++s) {
-    hold();
-    if (contact_) {
-      contact_->move(time(), time() + scene_.step);
-      const Vec3<Real>* x = x_.data();
-      Vec3<Real>* before = before_.data();
-      for_each(*device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
-    }
-    for (int k = 0; k < limits_.substeps; ++k)
-      if (explicit_)
-        explicit_substep(he);
-      else
-        substep(he);
-    if (!explicit_) implicit_stage();
-    if (contact_) {
-      clock_.begin(Stage::contact);
-      contact_->commit(x_.data(), before_.data());
-      clock_.end(Stage::contact);
-    }
-    if (!explicit_) membrane_.add_viscous_loss(v_.data(), h);
+    // Stages of this step that end with an implicit solve or, explicit, with the contact's history.
+    const int stages = together_ ? limits_.substeps : 1;
+    for (int k = 0; k < stages; ++k)
+      stage(time() + scene_.step * k / stages, static_cast<Real>(scene_.step / stages));
     ++step_count_;
+  }
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::stage(double start, Real h) {
+  hold(start, h);
+  if (contact_) {
+    contact_->move(start, start + static_cast<double>(h));
+    const Vec3<Real>* x = x_.data();
+    Vec3<Real>* before = before_.data();
+    for_each(*device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
+  }
+  if (together_) {
+    gather_impulses(h);
+  } else {
+    for (int k = 0; k < limits_.substeps; ++k)
+      explicit_ ? explicit_substep(h / limits_.substeps) : substep(h / limits_.substeps);
+  }
+  if (!explicit_) implicit_stage(h);
+  if (contact_) {
+    clock_.begin(Stage::contact);
+    contact_->commit(x_.data(), before_.data());
+    clock_.end(Stage::contact);
   }
 }
 
 // Held vertices move at the constant velocity that brings them to their place at the end of the step.
 template <class Real, class Device>
-void Stepper<Real, Device>::hold() {
+void Stepper<Real, Device>::hold(double start, Real h) {
   if (held_changes_) {
     std::vector<char> held(vertices_);
-    for (int i = 0; i < vertices_; ++i) held[i] = pin_host_[i] >= 0 && time() < scene_.pin[pin_host_[i]].until;
+    for (int i = 0; i < vertices_; ++i) held[i] = pin_host_[i] >= 0 && start < scene_.pin[pin_host_[i]].until;
     held_.upload(held);
     held_changes_ = false;
-    for (const Pin& pin : scene_.pin) held_changes_ |= pin.until > time() && pin.until < scene_.seconds;
+    for (const Pin& pin : scene_.pin) held_changes_ |= pin.until > start && pin.until < scene_.seconds;
   }
   if (!moving_pins_) return;
   PinPlacements<Real> placements;
   for (std::size_t p = 0; p < scene_.pin.size(); ++p) {
-    const Placement at = placement(scene_.pin[p].motion, time() + scene_.step);
+    const Placement at = placement(scene_.pin[p].motion, start + static_cast<double>(h));
     placements.rotation[p] = at.rotation.template cast<Real>();
     placements.translation[p] = at.translation.template cast<Real>();
   }
   const int* pin = pin_.data();
   const char* held = held_.data();
-  const Vec3<Real>*start = start_.data(), *x = x_.data();
+  const Vec3<Real>*origin = start_.data(), *x = x_.data();
   Vec3<Real>* v = v_.data();
-  const Real h = static_cast<Real>(scene_.step);
   for_each(*device_, "handles", vertices_, HYST_KERNEL(int i) {
     if (!held[i]) return;
     const int p = pin[i];
-    v[i] = (placements.rotation[p] * start[i] + placements.translation[p] - x[i]) / h;
+    v[i] = (placements.rotation[p] * origin[i] + placements.translation[p] - x[i]) / h;
   });
 }
 
@@ -94,7 +103,6 @@ void Stepper<Real, Device>::substep(Real dt) {
   const Real* mass = mass_.data();
   const char* held = held_.data();
   Vec3<Real>*x = x_.data(), *v = v_.data();
-  const Vec3<Real>* carried = carried_.data();
   VertexLedger* ledger = ledger_.data();
   for_each(*device_, "substep", vertices_, HYST_KERNEL(int i) {
     const Vec3<Real> force = bending.at(i);
@@ -110,15 +118,32 @@ void Stepper<Real, Device>::substep(Real dt) {
       return;
     }
     const Vec3<Real> air = -drag * m * v[i];
-    const Vec3<Real> dv = dt / m * (force + weight + air + carried[i]);
+    const Vec3<Real> dv = dt / m * (force + weight + air);
     const Vec3<Real> moved = v[i] + dv, d = dt * moved;
     v[i] = moved;
     x[i] += d;
     sum.bending_work += static_cast<double>(force.dot(d));
     sum.gravity_work += static_cast<double>(weight.dot(d));
-    sum.implicit_work += static_cast<double>(carried[i].dot(d));
     sum.air -= static_cast<double>(air.dot(d));
     sum.inertia += static_cast<double>(m / 2 * dv.squaredNorm());
+  });
+  clock_.end(Stage::bending);
+}
+
+// The explicit forces' impulse over h, and the cloth moved on by its velocity: where the implicit stage linearises.
+template <class Real, class Device>
+void Stepper<Real, Device>::gather_impulses(Real h) {
+  clock_.begin(Stage::bending);
+  bending_.commit(x_.data(), v_.data(), h);
+  const BendingForceView<Real> bending = bending_.forces();
+  const Vec3<Real> g = scene_.gravity.cast<Real>();
+  const Real drag = static_cast<Real>(scene_.air_drag / scene_.fabric.density);
+  const Real* mass = mass_.data();
+  const Vec3<Real>* v = v_.data();
+  Vec3<Real>*x = x_.data(), *impulse = impulse_.data();
+  for_each(*device_, "explicit impulse", vertices_, HYST_KERNEL(int i) {
+    impulse[i] = h * (bending.at(i) + mass[i] * (g - drag * v[i]));
+    x[i] += h * v[i];
   });
   clock_.end(Stage::bending);
 }
@@ -158,7 +183,7 @@ void Stepper<Real, Device>::explicit_substep(Real dt) {
   membrane_.add_viscous_loss(v_.data(), dt);
 }
 
-// rhs = hi (f_m + f_d + f_c - F_n) - M (v - v*), matrix = M + hi^2 K + hi D at the present iterate.
+// rhs = explicit impulse + h (f_m + f_d + f_c) - M dv, matrix = M + h^2 K + h D at the present iterate.
 template <class Real, class Device>
 void Stepper<Real, Device>::linear_system(Real h, bool first) {
   clock_.begin(Stage::membrane);
@@ -167,10 +192,12 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
   membrane_.assemble(h, matrix);
   const MembraneForceView<Real> force = membrane_.forces();
   const Real* mass = mass_.data();
-  const Vec3<Real>*total = change_.data(), *carried = carried_.data();
+  const bool together = together_;
+  const Vec3<Real>*total = change_.data(), *impulse = impulse_.data();
   Vec3<Real>* rhs = rhs_.data();
   for_each(*device_, "implicit forces", vertices_, HYST_KERNEL(int i) {
-    rhs[i] = h * (force.at(i) - carried[i]);
+    rhs[i] = h * force.at(i);
+    if (together) rhs[i] += impulse[i];
     if (!first) rhs[i] -= mass[i] * total[i];
     for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += mass[i];
   });
@@ -182,13 +209,12 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
 }
 
 template <class Real, class Device>
-void Stepper<Real, Device>::implicit_stage() {
-  const Real h = static_cast<Real>(scene_.step);
+void Stepper<Real, Device>::implicit_stage(Real h) {
   const int newton = contact_ ? kNewtonWithObstacles : 1;
   for (int iteration = 0; iteration < newton; ++iteration) {
     linear_system(h, iteration == 0);
     clock_.begin(Stage::solve);
-    const PcgOutcome outcome = pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), carried_.data(), h,
+    const PcgOutcome outcome = pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
                                           correction_.data(), scene_.solver_tolerance, kMostIterations);
     solver_iterations_ += outcome.iterations;
     const Vec3<Real>* dv = correction_.data();
@@ -203,33 +229,41 @@ void Stepper<Real, Device>::implicit_stage() {
     });
     clock_.end(Stage::solve);
   }
-  accept_implicit();
+  accept_implicit(h);
+  membrane_.add_viscous_loss(v_.data(), h);
 }
 
-// The impulse that really acted is M dv, whatever the linearisation and the solver's tolerance made of it.  The force
-// on a held vertex is that of the last linear system: rhs - (matrix dv) without the mass, which dv = 0 leaves out.
+// The impulse that really acted is M dv, whatever the linearisation and the solver's tolerance made of it.  The impulse
+// on a held vertex is that of the last linear system: rhs - matrix dv, without the mass because its own dv is 0.
 template <class Real, class Device>
-void Stepper<Real, Device>::accept_implicit() {
+void Stepper<Real, Device>::accept_implicit(Real h) {
   const Real* mass = mass_.data();
   const char* held = held_.data();
-  const Vec3<Real>*v = v_.data(), *total = change_.data(), *rhs = rhs_.data();
-  const Vec3<Real>* last = correction_.data();
-  Vec3<Real>* carried = carried_.data();
-  const Real h = static_cast<Real>(scene_.step);
+  const Vec3<Real>*v = v_.data(), *total = change_.data(), *rhs = rhs_.data(), *last = correction_.data();
+  const Vec3<Real>* explicit_impulse = impulse_.data();
   const BlockRowsView<Real> matrix = matrix_.view();
-  const bool handles = moving_pins_;
+  const BendingForceView<Real> bending = bending_.forces();
+  const Vec3<Real> g = scene_.gravity.cast<Real>();
+  const bool handles = moving_pins_, together = together_;
   VertexLedger* ledger = ledger_.data();
   for_each(*device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
+    if (held[i] && !handles) return;
     VertexLedger& sum = ledger[i];
-    if (!held[i]) {
-      carried[i] += mass[i] / h * total[i];
-      sum.inertia += static_cast<double>(mass[i] / 2 * total[i].squaredNorm());
-      sum.implicit_work += static_cast<double>(mass[i] * total[i].dot(v[i]));
-    } else if (handles) {
-      const double work = static_cast<double>((rhs[i] - matrix.times(i, last)).dot(v[i]));
-      sum.implicit_work += work;
-      sum.handle_work -= work;
+    Vec3<Real> impulse = held[i] ? Vec3<Real>(rhs[i] - matrix.times(i, last)) : Vec3<Real>(mass[i] * total[i]);
+    if (!held[i]) sum.inertia += static_cast<double>(mass[i] / 2 * total[i].squaredNorm());
+    if (together) {
+      const Vec3<Real> bend = bending.at(i), weight = mass[i] * g, d = h * v[i];
+      sum.bending_work += static_cast<double>(bend.dot(d));
+      sum.gravity_work += static_cast<double>(weight.dot(d));
+      if (held[i])
+        sum.handle_work -= static_cast<double>((bend + weight).dot(d));
+      else
+        sum.air -= static_cast<double>((explicit_impulse[i] - h * (bend + weight)).dot(v[i]));
+      impulse -= explicit_impulse[i];
     }
+    const double work = static_cast<double>(impulse.dot(v[i]));
+    sum.implicit_work += work;
+    if (held[i]) sum.handle_work -= work;
   });
 }
 

@@ -36,6 +36,7 @@ template <class Real, class Device>
 Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth,
                                const CurvatureOperator& op, const StepLimits& limits)
     : device_(std::move(device)), scene_(scene), explicit_(scene.integrator == "explicit"),
+      together_(!explicit_ && scene.implicit_every == "substep"),
       vertices_(cloth.mesh.vertices()), limits_(limits), clock_(*device_), matrix_(*device_, cloth.mesh),
       membrane_(*device_, cloth.mesh, scene.fabric, matrix_),
       bending_(*device_, cloth.mesh, op,
@@ -49,7 +50,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
   if (!explicit_) {
     change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
-    carried_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    if (together_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   for (const Pin& pin : scene.pin) {
     moving_pins_ |= !pin.motion.keys.empty();
@@ -188,7 +189,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   };
   add("state", true, x_.bytes() + v_.bytes() + mass_.bytes() + rhs_.bytes() + held_.bytes(), "substep", "");
   add("membrane", true, membrane_.bytes(), "membrane stress, membrane matrix", "");
-  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + 3 * change_.bytes(),
+  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + 2 * change_.bytes() + impulse_.bytes(),
       "solve: start, product, advance, direction", "the integrator is explicit");
   add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");

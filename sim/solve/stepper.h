@@ -58,12 +58,14 @@ class Stepper : public Simulation {
   std::string device() const override;
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
-  void hold();                 // pins: which vertices are held, and their velocity in this step
-  void substep(Real dt);       // bending and external forces, explicit
-  void explicit_substep(Real dt);  // every force, explicit
-  void implicit_stage();       // tension, damping and contact, implicit
+  void stage(double start, Real h);   // one implicit solve and what leads to it
+  void hold(double start, Real h);    // pins: which vertices are held, and their velocity in this stage
+  void gather_impulses(Real h);       // bending and external forces, for a stage in which all forces act together
+  void substep(Real dt);              // bending and external forces, explicit
+  void explicit_substep(Real dt);     // every force, explicit
+  void implicit_stage(Real h);        // tension, damping and contact, implicit
   void linear_system(Real h, bool first);
-  void accept_implicit();
+  void accept_implicit(Real h);
 
  private:
   void choose_substeps(const Cloth& cloth, const CurvatureOperator& op,
@@ -73,6 +75,7 @@ class Stepper : public Simulation {
   std::unique_ptr<Device> device_;
   Scene scene_;
   bool explicit_;
+  bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;
   long solver_iterations_ = 0;
@@ -86,7 +89,7 @@ class Stepper : public Simulation {
   bool moving_pins_ = false, held_changes_ = false;
   std::vector<int> pin_host_;
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
-  Buffer<Vec3<Real>, Device> carried_;             // implicit forces of the last step, held through the substeps [N]
+  Buffer<Vec3<Real>, Device> impulse_;              // of the explicit forces over a stage [N s]
   Buffer<Vec3<Real>, Device> change_, correction_;  // dv of the implicit stage, and of its last Newton step [m/s]
   Buffer<Real, Device> mass_;
   Buffer<int, Device> pin_;
