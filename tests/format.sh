@@ -4,13 +4,20 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 
-for program in clang-format-14 clang-format; do
-  if [[ $("$program" --version 2>/dev/null) == *"version 14."* ]]; then
-    mode=(--dry-run --Werror)
-    [[ ${1:-} != --fix ]] || mode=(-i)
-    find sim render experiments tests \( -name '*.cpp' -o -name '*.h' \) -print0 | xargs -0 "$program" "${mode[@]}"
-    exit
-  fi
+for program in clang-format-14 clang-format none; do
+  [[ $("$program" --version 2>/dev/null) == *"version 14."* ]] && break
 done
-echo "clang-format 14 is not installed: style not checked"
-exit 77
+if [[ $program == none ]]; then
+  echo "clang-format 14 is not installed: style not checked"
+  exit 77
+fi
+
+mapfile -d '' files < <(find sim render experiments tests \( -name '*.cpp' -o -name '*.h' \) -print0)
+if [[ ${1:-} == --fix ]]; then
+  exec "$program" -i "${files[@]}"
+fi
+if ! messages=$("$program" --dry-run --Werror "${files[@]}" 2>&1); then
+  echo "Not formatted (tests/format.sh --fix does it):"
+  grep -oE '^[^: ]+:[0-9]+:[0-9]+: error.*' <<<"$messages" | cut -d: -f1 | uniq -c || echo "$messages"
+  exit 1
+fi
