@@ -34,8 +34,9 @@ Setup defaults() {
   return setup;
 }
 
-// Bytes that the stages of a step must move, each array that a loop reads or writes counted once per pass: angles, law
-// and forces per substep, the membrane per Newton step, matrix and vectors per iteration of the solve.
+// Bytes that the stages of a step must move, each array that a loop reads or writes counted once per pass:
+// angles, law and forces per substep, the membrane per Newton step, matrix and vectors per iteration of the
+// solve.
 double bytes_per_step(const Simulation& simulation) {
   double bending = 0, history = 0, membrane = 0, solve = 0, state = 0;
   for (const ScenePart& part : simulation.parts()) {
@@ -59,7 +60,8 @@ Json measure(Simulation& simulation, const Scene& scene, int triangles, int step
     const auto start = std::chrono::steady_clock::now();
     simulation.advance(steps);
     simulation.wait();
-    ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / steps);
+    ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+                 steps);
   }
   std::sort(ms.begin(), ms.end());
   const double median = ms[kBatches / 2];

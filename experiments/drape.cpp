@@ -1,5 +1,5 @@
-// Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius, hangs over
-// its rim; the drape coefficient is the share of the free ring that its shadow still covers.
+// Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius,
+// hangs over its rim; the drape coefficient is the share of the free ring that its shadow still covers.
 #include <cstdio>
 
 #include "experiments/outline.h"
@@ -114,25 +114,29 @@ void plot_outline(Session& session, const DrapeChoice& choice, const Outline& ou
     cloth.y.push_back(100 * outline.radius[k % n] * std::sin(angle));
   }
   render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
-  plot.series = {cloth, circle(choice.disc, "pedestal"), circle(session.scene().cloth.radius, "flat specimen")};
+  plot.series = {cloth, circle(choice.disc, "pedestal"),
+                 circle(session.scene().cloth.radius, "flat specimen")};
   plot.equal_scales = true;
   session.plot("plot_outline", plot);
 }
 
 void plot_series(Session& session) {
   const auto csv = session.run().path("metrics.csv");
-  render::Plot drape{"Drape coefficient, " + session.scene().fabric.name, {"time [s]"}, {"drape coefficient [%]"}};
+  render::Plot drape{
+      "Drape coefficient, " + session.scene().fabric.name, {"time [s]"}, {"drape coefficient [%]"}};
   drape.series = {render::series_from_csv(csv, "time", "drape_coefficient", "simulated")};
   const auto published = session.scene().fabric.published.find("drape-coefficient");
   if (published != session.scene().fabric.published.end()) {
     const double value = published->second.value;
-    drape.series.push_back(
-        {"measured, published", {0, drape.series[0].x.back()}, {value, value}, render::Series::Style::dashed});
+    drape.series.push_back({"measured, published",
+                            {0, drape.series[0].x.back()},
+                            {value, value},
+                            render::Series::Style::dashed});
   }
   session.plot("plot_drape", drape);
   render::Plot energy{"Where the energy went", {"time [s]"}, {"energy [J]"}};
-  for (const char* term : {"kinetic", "bending", "bending_friction", "contact_friction", "air", "viscous",
-                           "integrator_inertia"})
+  for (const char* term :
+       {"kinetic", "bending", "bending_friction", "contact_friction", "air", "viscous", "integrator_inertia"})
     energy.series.push_back(render::series_from_csv(csv, "time", term, term));
   session.plot("plot_energy", energy);
 }

@@ -35,7 +35,8 @@ double Outline::area() const {
   return sum * kPi / static_cast<double>(radius.size());
 }
 
-// Walks once around from the lowest point: each climb of more than `prominence` followed by such a descent is a fold.
+// Walks once around from the lowest point: each climb of more than `prominence` followed by such a descent is
+// a fold.
 int Outline::nodes(double prominence) const {
   const int n = static_cast<int>(radius.size());
   const int start = static_cast<int>(std::min_element(radius.begin(), radius.end()) - radius.begin());

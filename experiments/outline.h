@@ -8,8 +8,8 @@
 
 namespace hysteron::experiments {
 
-// Radius of the outline around the vertical axis, at equal angles: the outermost crossing of each ray with the
-// projected triangles' edges [m].
+// Radius of the outline around the vertical axis, at equal angles: the outermost crossing of each ray with
+// the projected triangles' edges [m].
 struct Outline {
   std::vector<double> radius;
 

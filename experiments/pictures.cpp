@@ -12,8 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;       // pictures on the contact sheet
-constexpr int kThumbnailWidth = 640;  // kept in memory until then [pixels]
+constexpr int kSheetCells = 12;        // pictures on the contact sheet
+constexpr int kThumbnailWidth = 640;   // kept in memory until then [pixels]
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
 std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
@@ -81,8 +81,12 @@ std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double
   return vertex_average(cloth, trace, 3);
 }
 
-Pictures::Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds, std::optional<float> floor)
-    : scene_(setup.scene), options_(setup.options), cloth_(cloth), bounds_(bounds),
+Pictures::Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds,
+                   std::optional<float> floor)
+    : scene_(setup.scene),
+      options_(setup.options),
+      cloth_(cloth),
+      bounds_(bounds),
       offscreen_(render::Offscreen::create(render::renderer_named(setup.options.renderer))) {
   view_ = std::make_unique<render::ClothView>(*offscreen_,
                                               render::PictureSize{options_.width(), options_.height()});
@@ -157,7 +161,8 @@ void Pictures::frame(Run& run, Simulation& simulation) {
   const int width = std::min(kThumbnailWidth, image.width());
   char time[32];
   std::snprintf(time, sizeof time, "t = %.2f s", simulation.time());
-  thumbnails_.push_back({render::shrink(image, width, std::max(1, image.height() * width / image.width())), time});
+  thumbnails_.push_back(
+      {render::shrink(image, width, std::max(1, image.height() * width / image.width())), time});
   writer_.write(run.path(name), std::move(image));
 }
 

@@ -16,7 +16,8 @@ int steps_per_frame(const Setup& setup) {
   return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
 }
 
-double fastest(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before, double dt) {
+double fastest(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before,
+               double dt) {
   double largest = 0;
   for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
   return largest / dt;
@@ -34,13 +35,14 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
   std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
   const StepLimits limits = simulation.limits();
-  std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s; largest stable explicit bending step "
-            << limits.bending_step << " s\n";
+  std::cout << "substeps " << limits.substeps << " of " << limits.substep
+            << " s; largest stable explicit bending step " << limits.bending_step << " s\n";
   std::size_t total = 0;
   for (const ScenePart& part : simulation.parts()) {
     char line[200];
-    std::snprintf(line, sizeof line, "%-16s %-3s %12zu bytes  %s", part.name.c_str(), part.included ? "in" : "out",
-                  part.bytes, part.included ? part.kernels.c_str() : part.reason.c_str());
+    std::snprintf(line, sizeof line, "%-16s %-3s %12zu bytes  %s", part.name.c_str(),
+                  part.included ? "in" : "out", part.bytes,
+                  part.included ? part.kernels.c_str() : part.reason.c_str());
     std::cout << line << "\n";
     total += part.bytes;
   }

@@ -16,16 +16,16 @@ namespace hysteron::experiments {
 
 // What is known of a moment that is recorded.
 struct Moment {
-  double time;                             // [s]
-  const std::vector<Eigen::Vector3d>& x;   // positions [m]
-  double fastest;                          // largest displacement since the last moment over the time between [m/s]
+  double time;                            // [s]
+  const std::vector<Eigen::Vector3d>& x;  // positions [m]
+  double fastest;  // largest displacement since the last moment over the time between [m/s]
 };
 
 // The experiment's own part of a run.
 struct Question {
-  render::Box bounds;                      // framed by the pictures [m]
-  std::optional<float> floor;              // height of the visible ground [m]
-  std::vector<std::string> columns;        // own columns of metrics.csv, with units
+  render::Box bounds;                // framed by the pictures [m]
+  std::optional<float> floor;        // height of the visible ground [m]
+  std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Moment&)> measure;
   std::function<bool(const Moment&)> settled;  // ends the run early
   std::function<std::string(const Moment&)> progress;
@@ -46,7 +46,8 @@ class Session {
   Simulation& simulation() { return *simulation_; }
   Pictures* pictures() { return pictures_.get(); }  // null with --no-images
 
-  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled (returned).
+  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled
+  // (returned).
   bool simulate(const Question& question);
   // Draws a plot; where gnuplot is missing the run goes on without it, and the manifest says so.
   void plot(const std::string& name, const render::Plot& plot);

@@ -1,5 +1,5 @@
-// A strip clamped at one end, held out straight and let go: it swings under gravity and comes to rest.  What stops it,
-// friction in bending, viscosity or the integrator, is told apart by the ledger.
+// A strip clamped at one end, held out straight and let go: it swings under gravity and comes to rest.  What
+// stops it, friction in bending, viscosity or the integrator, is told apart by the ledger.
 #include <cmath>
 #include <cstdio>
 
@@ -66,7 +66,8 @@ int swing(const CommandLine& line) {
     setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
     setup.options.fps = std::min(setup.options.fps, 20.0);
   }
-  const float length = static_cast<float>(setup.scene.cloth.length), width = static_cast<float>(setup.scene.cloth.width);
+  const float length = static_cast<float>(setup.scene.cloth.length),
+              width = static_cast<float>(setup.scene.cloth.width);
   if (setup.scene.pin.empty()) {
     Pin clamp;
     clamp.low = {-1, -1, -1};

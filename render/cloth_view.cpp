@@ -148,7 +148,8 @@ Image ClothView::draw(const Camera& camera) {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
-  target_.begin();  // even passes that draw no pixels need a whole framebuffer, and another view may have taken it away
+  target_.begin();  // even passes that draw no pixels need a whole framebuffer, and another view may have
+                    // taken it away
   if (cloth_) cloth_->update_normals();
   if (look_.show != Show::silhouette) {
     shadows_.aim(bounds(), look_.to_light);

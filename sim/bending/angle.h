@@ -2,9 +2,11 @@
 //
 //              p0            u0 = p0 - p2, u1 = p1 - p2, e = p3 - p2
 //             /  |           N0 = e x u0 (normal of face 0 times twice its area), N1 = u1 x e
-//            /   |           theta = atan2(|e| N1.u0, N0.N1): zero when flat, positive where the front is concave
+//            /   |           theta = atan2(|e| N1.u0, N0.N1): zero when flat, positive where the front is
+//            concave
 //      p2 --e--> p3
-//            \   |           t0, t1 = barycentric positions of p0, p1 along e (Wong, Leach, Zambetta 2013, 4.3.1)
+//            \   |           t0, t1 = barycentric positions of p0, p1 along e (Wong, Leach, Zambetta
+//            2013, 4.3.1)
 //             \  |           d theta/d p0 = N0 |e|/|N0|^2,  d theta/d p1 = N1 |e|/|N1|^2
 //              p1            d theta/d p2 = -(1-t0) g0 - (1-t1) g1,  d theta/d p3 = -t0 g0 - t1 g1
 #pragma once
@@ -41,8 +43,8 @@ HYST_HD inline Angle<Real> dihedral_angle(const Vec3<Real>& p0, const Vec3<Real>
   return a;
 }
 
-// The angle that differs from `previous` by less than pi and equals `theta` up to full turns: a hinge folded past
-// flat-on-itself keeps turning instead of jumping by 2 pi.
+// The angle that differs from `previous` by less than pi and equals `theta` up to full turns: a hinge folded
+// past flat-on-itself keeps turning instead of jumping by 2 pi.
 template <class Real>
 HYST_HD inline Real continued_angle(Real theta, Real previous) {
   using std::floor;

@@ -34,8 +34,8 @@ Adjacency vertex_hinges(const ClothMesh& mesh) {
   return a;
 }
 
-// The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1), kept as printed: a factor 1/2, no |e|, and
-// one common t for both forces, which breaks angular momentum unless t = 1/2.
+// The chapter's printed distribution (Wong, Leach, Zambetta 2013, 4.3.1), kept as printed: a factor 1/2, no
+// |e|, and one common t for both forces, which breaks angular momentum unless t = 1/2.
 template <class Real>
 HYST_HD void chapter_forces(const Vec3<Real>& p0, const Vec3<Real>& p1, const Vec3<Real>& p2,
                             const Vec3<Real>& p3, Real moment, Vec3<Real>* force) {
@@ -55,16 +55,29 @@ template <class Real, class Device>
 Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const CurvatureOperator& op,
                                std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention,
                                double viscosity)
-    : device_(device), dimension_(op.dimension), elements_(op.elements()), hinges_(mesh.interior_edges),
-      convention_(convention), viscosity_(static_cast<Real>(viscosity)), law_(std::move(law)), area_(device, cast<Real>(op.area)),
-      coefficient_(device, cast<Real>(op.coefficient)), transposed_(device, cast<Real>(op.transposed)),
-      rest_angle_(device, cast<Real>(op.rest_angle)), row_start_(device, op.hinge.start),
-      row_hinge_(device, op.hinge.item), column_start_(device, op.element.start),
-      column_element_(device, op.element.item), corner_(device, hinge_corners(mesh)),
-      angle_(device, hinges_), rate_(device, viscosity > 0 ? hinges_ : 0),
-      viscous_(device, viscosity > 0 ? elements_ : 0), gradient_(device, 8 * static_cast<std::size_t>(hinges_)),
+    : device_(device),
+      dimension_(op.dimension),
+      elements_(op.elements()),
+      hinges_(mesh.interior_edges),
+      convention_(convention),
+      viscosity_(static_cast<Real>(viscosity)),
+      law_(std::move(law)),
+      area_(device, cast<Real>(op.area)),
+      coefficient_(device, cast<Real>(op.coefficient)),
+      transposed_(device, cast<Real>(op.transposed)),
+      rest_angle_(device, cast<Real>(op.rest_angle)),
+      row_start_(device, op.hinge.start),
+      row_hinge_(device, op.hinge.item),
+      column_start_(device, op.element.start),
+      column_element_(device, op.element.item),
+      corner_(device, hinge_corners(mesh)),
+      angle_(device, hinges_),
+      rate_(device, viscosity > 0 ? hinges_ : 0),
+      viscous_(device, viscosity > 0 ? elements_ : 0),
+      gradient_(device, 8 * static_cast<std::size_t>(hinges_)),
       moment_area_(device, static_cast<std::size_t>(elements_) * dimension_),
-      force_(device, 4 * static_cast<std::size_t>(hinges_)), energy_(device, elements_) {
+      force_(device, 4 * static_cast<std::size_t>(hinges_)),
+      energy_(device, elements_) {
   const Adjacency a = vertex_hinges(mesh);
   vertex_start_ = Buffer<int, Device>(device, a.start);
   vertex_item_ = Buffer<int, Device>(device, a.item);
@@ -95,18 +108,19 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x) {
   const Real* rest = rest_angle_.data();
   Real* change = angle_.data();
   Real* gradient = gradient_.data();
-  for_each(device_, "bending angles", hinges_, HYST_KERNEL(int h) {
-    const Eigen::Vector4i c = corner[h];
-    const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-    change[h] = continued_angle(a.theta, change[h] + rest[h]) - rest[h];
-    Real* g = gradient + 8 * h;
-    for (int k = 0; k < 3; ++k) {
-      g[k] = a.g0[k];
-      g[3 + k] = a.g1[k];
-    }
-    g[6] = a.t0;
-    g[7] = a.t1;
-  });
+  for_each(
+      device_, "bending angles", hinges_, HYST_KERNEL(int h) {
+        const Eigen::Vector4i c = corner[h];
+        const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
+        change[h] = continued_angle(a.theta, change[h] + rest[h]) - rest[h];
+        Real* g = gradient + 8 * h;
+        for (int k = 0; k < 3; ++k) {
+          g[k] = a.g0[k];
+          g[3 + k] = a.g1[k];
+        }
+        g[6] = a.t0;
+        g[7] = a.t1;
+      });
 }
 
 template <class Real, class Device>
@@ -114,13 +128,14 @@ void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
   const Eigen::Vector4i* corner = corner_.data();
   const Real* gradient = gradient_.data();
   Real* rate = rate_.data();
-  for_each(device_, "bending rates", hinges_, HYST_KERNEL(int h) {
-    const Eigen::Vector4i c = corner[h];
-    const Real* g = gradient + 8 * h;
-    const Vec3<Real> along = v[c[3]] - v[c[2]];
-    rate[h] = Vec3<Real>(g[0], g[1], g[2]).dot(v[c[0]] - v[c[2]] - g[6] * along) +
-              Vec3<Real>(g[3], g[4], g[5]).dot(v[c[1]] - v[c[2]] - g[7] * along);
-  });
+  for_each(
+      device_, "bending rates", hinges_, HYST_KERNEL(int h) {
+        const Eigen::Vector4i c = corner[h];
+        const Real* g = gradient + 8 * h;
+        const Vec3<Real> along = v[c[3]] - v[c[2]];
+        rate[h] = Vec3<Real>(g[0], g[1], g[2]).dot(v[c[0]] - v[c[2]] - g[6] * along) +
+                  Vec3<Real>(g[3], g[4], g[5]).dot(v[c[1]] - v[c[2]] - g[7] * along);
+      });
 }
 
 template <class Real, class Device>
@@ -132,25 +147,27 @@ void Bending<Real, Device>::compute_forces(const Vec3<Real>* x) {
   const Real *gradient = gradient_.data(), *area = area_.data();
   Vec3<Real>* force = force_.data();
   if (convention_ == ForceConvention::chapter) {
-    for_each(device_, "bending forces as printed", hinges_, HYST_KERNEL(int h) {
-      const Eigen::Vector4i c = corner[h];
-      chapter_forces<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]], moment_area[h] / area[h], force + 4 * h);
-    });
+    for_each(
+        device_, "bending forces as printed", hinges_, HYST_KERNEL(int h) {
+          const Eigen::Vector4i c = corner[h];
+          chapter_forces<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]], moment_area[h] / area[h], force + 4 * h);
+        });
     return;
   }
-  for_each(device_, "bending forces", hinges_, HYST_KERNEL(int h) {
-    Real torque = 0;
-    for (int j = start[h]; j < start[h + 1]; ++j)
-      for (int k = 0; k < d; ++k) torque += coefficient[j * d + k] * moment_area[element[j] * d + k];
-    const Real* g = gradient + 8 * h;
-    const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
-    const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
-    const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1);
-    force[4 * h] = f0;
-    force[4 * h + 1] = f1;
-    force[4 * h + 2] = -(f0 + f1 + f3);
-    force[4 * h + 3] = f3;
-  });
+  for_each(
+      device_, "bending forces", hinges_, HYST_KERNEL(int h) {
+        Real torque = 0;
+        for (int j = start[h]; j < start[h + 1]; ++j)
+          for (int k = 0; k < d; ++k) torque += coefficient[j * d + k] * moment_area[element[j] * d + k];
+        const Real* g = gradient + 8 * h;
+        const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
+        const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
+        const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1);
+        force[4 * h] = f0;
+        force[4 * h + 1] = f1;
+        force[4 * h + 2] = -(f0 + f1 + f3);
+        force[4 * h + 3] = f3;
+      });
 }
 
 template <class Real, class Device>
@@ -181,12 +198,15 @@ std::vector<double> Bending<Real, Device>::curvature() {
   const Real* angle = angle_.data();
   Real* k = result.data();
   if (dimension_ == 1) {
-    for_each(device_, "curvature", elements_, HYST_KERNEL(int i) { k[i] = op.template curvature<1>(i, angle)[0]; });
+    for_each(
+        device_, "curvature", elements_,
+        HYST_KERNEL(int i) { k[i] = op.template curvature<1>(i, angle)[0]; });
   } else {
-    for_each(device_, "curvature", elements_, HYST_KERNEL(int i) {
-      const Vec<Real, 3> s = op.template curvature<3>(i, angle);
-      for (int c = 0; c < 3; ++c) k[3 * i + c] = s[c];
-    });
+    for_each(
+        device_, "curvature", elements_, HYST_KERNEL(int i) {
+          const Vec<Real, 3> s = op.template curvature<3>(i, angle);
+          for (int c = 0; c < 3; ++c) k[3 * i + c] = s[c];
+        });
   }
   const std::vector<Real> values = result.download();
   return {values.begin(), values.end()};
@@ -210,11 +230,13 @@ std::vector<double> Bending<Real, Device>::slip() {
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() + rest_angle_.bytes() + rate_.bytes() + viscous_.bytes() +
+  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() +
+                                   rest_angle_.bytes() + rate_.bytes() + viscous_.bytes() +
                                    row_start_.bytes() + row_hinge_.bytes() + column_start_.bytes() +
                                    column_element_.bytes();
-  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() + rate_.bytes() + viscous_.bytes() +
-         gradient_.bytes() + moment_area_.bytes() + force_.bytes() + energy_.bytes();
+  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
+         rate_.bytes() + viscous_.bytes() + gradient_.bytes() + moment_area_.bytes() + force_.bytes() +
+         energy_.bytes();
 }
 
 template class Bending<double, ThisDevice>;

@@ -30,18 +30,18 @@ class Bending {
   Bending(Device& device, const ClothMesh& mesh, const CurvatureOperator& op,
           std::unique_ptr<LawLoop<Real, Device>> law, ForceConvention convention, double viscosity);
 
-  // Accepts the positions: angles continued, history committed, hinge forces ready in forces().  `velocity` acts
-  // through the viscosity alone, whose loss is that over the coming dt [s].
+  // Accepts the positions: angles continued, history committed, hinge forces ready in forces().  `velocity`
+  // acts through the viscosity alone, whose loss is that over the coming dt [s].
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
   BendingForceView<Real> forces() const;
 
   // Measurements of the last accepted state; they change nothing.
-  double stored_energy();                  // [J]
-  double dissipated_energy();              // by the law, since the start [J]
-  double viscous_loss();                   // since the start [J]
-  std::vector<double> curvature();         // D per element [1/m]
+  double stored_energy();                    // [J]
+  double dissipated_energy();                // by the law, since the start [J]
+  double viscous_loss();                     // since the start [J]
+  std::vector<double> curvature();           // D per element [1/m]
   std::vector<double> residual_curvature();  // D per element [1/m]
-  std::vector<double> slip();              // per element, 0..1
+  std::vector<double> slip();                // per element, 0..1
   int dimension() const { return dimension_; }
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }
@@ -58,19 +58,19 @@ class Bending {
   Device& device_;
   int dimension_, elements_, hinges_;
   ForceConvention convention_;
-  Real viscosity_;                           // moment over curvature rate [N m s]
+  Real viscosity_;  // moment over curvature rate [N m s]
   std::unique_ptr<LawLoop<Real, Device>> law_;
   Buffer<Real, Device> area_, coefficient_, transposed_, rest_angle_;
   Buffer<int, Device> row_start_, row_hinge_, column_start_, column_element_;
-  Buffer<Eigen::Vector4i, Device> corner_;   // p0, p1, p2, p3 of each hinge
+  Buffer<Eigen::Vector4i, Device> corner_;  // p0, p1, p2, p3 of each hinge
   Buffer<int, Device> vertex_start_, vertex_item_;
-  Buffer<Real, Device> angle_;               // continued angle minus rest angle [rad]
-  Buffer<Real, Device> rate_;                // of the angles [rad/s]; empty without viscosity
-  Buffer<double, Device> viscous_;           // lost per element [J]; empty without viscosity
-  Buffer<Real, Device> gradient_;            // 8 Reals per hinge: g0, g1, t0, t1
-  Buffer<Real, Device> moment_area_;         // A M, D per element [N m^2]
-  Buffer<Vec3<Real>, Device> force_;         // 4 per hinge [N]
-  Buffer<double, Device> energy_;            // per element, scratch of measurements
+  Buffer<Real, Device> angle_;        // continued angle minus rest angle [rad]
+  Buffer<Real, Device> rate_;         // of the angles [rad/s]; empty without viscosity
+  Buffer<double, Device> viscous_;    // lost per element [J]; empty without viscosity
+  Buffer<Real, Device> gradient_;     // 8 Reals per hinge: g0, g1, t0, t1
+  Buffer<Real, Device> moment_area_;  // A M, D per element [N m^2]
+  Buffer<Vec3<Real>, Device> force_;  // 4 per hinge [N]
+  Buffer<double, Device> energy_;     // per element, scratch of measurements
 };
 
 // Largest eigenvalue of M^-1 J^T C^T A b C J at rest: the square of the highest bending frequency [1/s^2].

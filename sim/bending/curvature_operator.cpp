@@ -9,8 +9,7 @@ std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen:
   std::vector<double> angles(mesh.interior_edges);
   for (int i = 0; i < mesh.interior_edges; ++i) {
     const Edge& e = mesh.edge[i];
-    angles[i] =
-        dihedral_angle<double>(position[e.p0], position[e.p1], position[e.p2], position[e.p3]).theta;
+    angles[i] = dihedral_angle<double>(position[e.p0], position[e.p1], position[e.p2], position[e.p3]).theta;
   }
   return angles;
 }

@@ -8,8 +8,9 @@
 
 namespace hysteron {
 
-// K_i = sum over j of coefficient_ij * (theta_ij - theta0_ij), with D curvature components for each element i.
-// An element is a hinge (D = 1) or a face (D = 3, S = (S_xx, S_yy, sqrt2 S_xy) in the face's warp-weft frame).
+// K_i = sum over j of coefficient_ij * (theta_ij - theta0_ij), with D curvature components for each element
+// i. An element is a hinge (D = 1) or a face (D = 3, S = (S_xx, S_yy, sqrt2 S_xy) in the face's warp-weft
+// frame).
 struct CurvatureOperator {
   int dimension = 1;                // D
   std::vector<double> area;         // A per element [m^2]
@@ -18,16 +19,17 @@ struct CurvatureOperator {
   std::vector<double> coefficient;  // D numbers for each item [1/m], component by component within an item
   // The same map by columns, so that torques are gathered in a fixed order: rows: hinges; items: elements.
   Adjacency element;
-  std::vector<double> transposed;   // D numbers for each item of `element`
+  std::vector<double> transposed;  // D numbers for each item of `element`
 
   int elements() const { return static_cast<int>(area.size()); }
 };
 
-// The chapter's element: K = (theta - theta0)/h, A = |e| h, h the rest average height (Wong et al. 2013, Eq. 4.1).
+// The chapter's element: K = (theta - theta0)/h, A = |e| h, h the rest average height (Wong et al. 2013,
+// Eq. 4.1).
 CurvatureOperator make_hinge_operator(const ClothMesh& mesh);
 
-// One curvature tensor per face that reproduces uniform curvature on any mesh.  `held` marks vertices fixed for the
-// whole run: a boundary edge between two held vertices is clamped, every other boundary edge is free.
+// One curvature tensor per face that reproduces uniform curvature on any mesh.  `held` marks vertices fixed
+// for the whole run: a boundary edge between two held vertices is clamped, every other boundary edge is free.
 CurvatureOperator make_shape_operator(const ClothMesh& mesh, const std::vector<char>& held);
 
 // Dispatches on "hinge" | "shape"; Error::request otherwise.

@@ -11,14 +11,14 @@ std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const std::
   const HysteresisChoice choice = hysteresis_choice(name, parameters);
   auto loop = dimension == 1 ? make_hinge_law<Real>(device, name, choice, curve, elements)
                              : make_shape_law<Real>(device, name, choice, curve, elements);
-  if (!loop) throw Error::request("law " + name + " cannot be simulated yet: use linear, pabst, prandtl or wong");
+  if (!loop)
+    throw Error::request("law " + name + " cannot be simulated yet: use linear, pabst, prandtl or wong");
   return loop;
 }
 
-#define HYSTERON_INSTANTIATE(Real)                                                                       \
-  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_law_loop(ThisDevice&, const std::string&,    \
-                                                                    const LawParameters&,                \
-                                                                    const VirginCurve&, int, int);
+#define HYSTERON_INSTANTIATE(Real)                                   \
+  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_law_loop( \
+      ThisDevice&, const std::string&, const LawParameters&, const VirginCurve&, int, int);
 HYSTERON_INSTANTIATE(double)
 HYSTERON_INSTANTIATE(float)
 

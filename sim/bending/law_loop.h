@@ -37,7 +37,8 @@ class LawLoop {
  public:
   virtual ~LawLoop() = default;
   // Accepts the angles: moment_area = A M (D per element), history updated, dissipation added [J].
-  // viscosity [N m s] > 0 adds a moment viscosity * C angle_rate and adds its work over dt [s] to viscous [J].
+  // viscosity [N m s] > 0 adds a moment viscosity * C angle_rate and adds its work over dt [s] to viscous
+  // [J].
   struct Viscous {
     Real viscosity, dt;
     const Real* angle_rate;  // per hinge [rad/s]
@@ -52,10 +53,10 @@ class LawLoop {
   virtual void residual(Device& device, int elements, Real* curvature) = 0;
   // How far the friction is used, 0 (none) to 1 (sliding), for each element; 0 for laws without history.
   virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) = 0;
-  virtual double largest_stiffness() const = 0;   // bound on dM/dK [N m]
+  virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]
   virtual bool has_history() const = 0;
   virtual std::size_t history_bytes() const = 0;
-  virtual const double* dissipated() const = 0;   // per element [J]; null where the law loses nothing
+  virtual const double* dissipated() const = 0;  // per element [J]; null where the law loses nothing
 };
 
 // Law `name` for D = 1 (hinge) or D = 3 (shape; laws of scalar form run along four material directions).
@@ -68,11 +69,11 @@ std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const std::
 // Its two halves, compiled apart.
 template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_hinge_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice, const VirginCurve& curve,
-                                                      int elements);
+                                                      const HysteresisChoice& choice,
+                                                      const VirginCurve& curve, int elements);
 template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_shape_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice, const VirginCurve& curve,
-                                                      int elements);
+                                                      const HysteresisChoice& choice,
+                                                      const VirginCurve& curve, int elements);
 
 }  // namespace hysteron

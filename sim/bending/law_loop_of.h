@@ -28,7 +28,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
   static constexpr int D = Law::kDimension;
 
   LawLoopOf(Device& device, const Law& law, const VirginCurve& curve, int elements)
-      : law_(law), curve_(curve), history_(device, static_cast<std::size_t>(elements) * Law::kHistory),
+      : law_(law),
+        curve_(curve),
+        history_(device, static_cast<std::size_t>(elements) * Law::kHistory),
         dissipated_(device, Law::kHistory > 0 ? elements : 0) {}
 
   using typename LawLoop<Real, Device>::Viscous;
@@ -38,53 +40,58 @@ class LawLoopOf : public LawLoop<Real, Device> {
     const Law law = law_;
     Real* history = history_.data();
     double* lost = dissipated_.data();
-    for_each(device, "bending law", op.elements, HYST_KERNEL(int i) {
-      const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-      const auto step = law.step(k, load_history<Law>(history, i, op.elements));
-      Vec<Real, D> moment = step.moment;
-      if (viscous.viscosity > 0) {
-        const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
-        moment += viscous.viscosity * rate;
-        viscous.lost[i] +=
-            static_cast<double>(viscous.dt * viscous.viscosity * op.area[i] * rate.squaredNorm());
-      }
-      for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
-      store_history<Law>(history, i, op.elements, step.history);
-      if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
-    });
+    for_each(
+        device, "bending law", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const auto step = law.step(k, load_history<Law>(history, i, op.elements));
+          Vec<Real, D> moment = step.moment;
+          if (viscous.viscosity > 0) {
+            const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
+            moment += viscous.viscosity * rate;
+            viscous.lost[i] +=
+                static_cast<double>(viscous.dt * viscous.viscosity * op.area[i] * rate.squaredNorm());
+          }
+          for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
+          store_history<Law>(history, i, op.elements, step.history);
+          if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
+        });
   }
 
   void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
               double* energy) override {
     const Law law = law_;
     const Real* history = history_.data();
-    for_each(device, "bending energy", op.elements, HYST_KERNEL(int i) {
-      const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-      energy[i] = static_cast<double>(op.area[i] * law.step(k, load_history<Law>(history, i, op.elements)).stored);
-    });
+    for_each(
+        device, "bending energy", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          energy[i] = static_cast<double>(op.area[i] *
+                                          law.step(k, load_history<Law>(history, i, op.elements)).stored);
+        });
   }
 
   void residual(Device& device, int elements, Real* curvature) override {
     const Law law = law_;
     const Real* history = history_.data();
-    for_each(device, "residual curvature", elements, HYST_KERNEL(int i) {
-      const Vec<Real, D> k = law.residual(load_history<Law>(history, i, elements));
-      for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
-    });
+    for_each(
+        device, "residual curvature", elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = law.residual(load_history<Law>(history, i, elements));
+          for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
+        });
   }
 
   void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) override {
     const Law law = law_;
     const Real* history = history_.data();
     const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
-    for_each(device, "friction state", op.elements, HYST_KERNEL(int i) {
-      share[i] = 0;
-      if (Law::kHistory > 0 && m0 > 0) {
-        const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-        const Vec<Real, D> m = law.step(k, load_history<Law>(history, i, op.elements)).moment;
-        share[i] = (m - b2 * k).norm() / m0;
-      }
-    });
+    for_each(
+        device, "friction state", op.elements, HYST_KERNEL(int i) {
+          share[i] = 0;
+          if (Law::kHistory > 0 && m0 > 0) {
+            const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+            const Vec<Real, D> m = law.step(k, load_history<Law>(history, i, op.elements)).moment;
+            share[i] = (m - b2 * k).norm() / m0;
+          }
+        });
   }
 
   double largest_stiffness() const override { return static_cast<double>(law_.largest_stiffness()); }

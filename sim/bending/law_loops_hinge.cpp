@@ -10,8 +10,8 @@ namespace hysteron {
 
 template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_hinge_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice, const VirginCurve& curve,
-                                                      int elements) {
+                                                      const HysteresisChoice& choice,
+                                                      const VirginCurve& curve, int elements) {
   const auto loop = [&]<class Law>(const Law& law) -> std::unique_ptr<LawLoop<Real, Device>> {
     return std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, curve, elements);
   };
@@ -31,10 +31,9 @@ std::unique_ptr<LawLoop<Real, Device>> make_hinge_law(Device& device, const std:
   return loop(PrandtlStops<Real, 1, 8>::make(curve));
 }
 
-#define HYSTERON_INSTANTIATE(Real)                                                                         \
-  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_hinge_law(ThisDevice&, const std::string&,     \
-                                                                     const HysteresisChoice&,              \
-                                                                     const VirginCurve&, int);
+#define HYSTERON_INSTANTIATE(Real)                                    \
+  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_hinge_law( \
+      ThisDevice&, const std::string&, const HysteresisChoice&, const VirginCurve&, int);
 HYSTERON_INSTANTIATE(double)
 HYSTERON_INSTANTIATE(float)
 

@@ -11,15 +11,16 @@ namespace hysteron {
 
 template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_shape_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice, const VirginCurve& curve,
-                                                      int elements) {
+                                                      const HysteresisChoice& choice,
+                                                      const VirginCurve& curve, int elements) {
   const auto loop = [&]<class Law>(const Law& law) -> std::unique_ptr<LawLoop<Real, Device>> {
     return std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, curve, elements);
   };
   if (name == "linear") return loop(Linear<Real, 3>::make(curve));
   if (name == "pabst") return loop(Pabst<Real, 3>::make(curve));
   if (name == "wong")
-    return loop(FourDirections<Wong<Real>>::make(curve, choice.reversible ? Recovery::kReversible : Recovery::kMasing));
+    return loop(FourDirections<Wong<Real>>::make(
+        curve, choice.reversible ? Recovery::kReversible : Recovery::kMasing));
   if (name != "prandtl") return nullptr;
   if (choice.stack) {
     if (choice.depth == 4) return loop(FourDirections<PrandtlStack<Real, 4>>::make(curve));
@@ -32,10 +33,9 @@ std::unique_ptr<LawLoop<Real, Device>> make_shape_law(Device& device, const std:
   return loop(PrandtlStops<Real, 3, 8>::make(curve));
 }
 
-#define HYSTERON_INSTANTIATE(Real)                                                                         \
-  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_shape_law(ThisDevice&, const std::string&,     \
-                                                                     const HysteresisChoice&,              \
-                                                                     const VirginCurve&, int);
+#define HYSTERON_INSTANTIATE(Real)                                    \
+  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_shape_law( \
+      ThisDevice&, const std::string&, const HysteresisChoice&, const VirginCurve&, int);
 HYSTERON_INSTANTIATE(double)
 HYSTERON_INSTANTIATE(float)
 

@@ -16,8 +16,8 @@
 // g x^3/(6 K0)), then M0 per curvature; friction energy = work - loss, kept at every reversal.  All stops
 // slipping hold M0 K0/3.  Once a pair was dropped, joining the enclosing branch books the difference of the
 // two friction energies as dissipated too, which may be negative (seen: -0.04 M0 K0, at depths 4
-// and 8 alike); the balance of work stays exact.  Chosen here, not in the chapter (it breaks off before partial
-// reversals): all of the memory.  K0 = 0 or b1 = b2 leave M = b2 K.
+// and 8 alike); the balance of work stays exact.  Chosen here, not in the chapter (it breaks off before
+// partial reversals): all of the memory.  K0 = 0 or b1 = b2 leave M = b2 K.
 #pragma once
 
 #include <cmath>

@@ -2,11 +2,12 @@
 //
 // For vertices on z = x^T H x / 2 the angle of a hinge is linear in H = (H_xx, H_yy, sqrt2 H_xy):
 //   theta_e = R_e H = h H_nn + (a0 - a1) H_nt - [a0 (L-a0)/h0 + a1 (L-a1)/h1]/2 H_tt,   h = (h0 + h1)/2,
-// so theta/h alone is not the normal curvature.  Half an angle plus a correction s psi (s = +1 in the edge's first
-// face, -1 in the second) belongs to each of the two faces:
-//   S_f = sum over the edges e of f of (theta_e/2 + s psi_e) (L_e/A_f) nu(n_e),   nu(n) = (n_x^2, n_y^2, sqrt2 n_x n_y),
-// and psi_e = p_e H with H fitted by least squares to the angles of the two faces' hinges, so that uniform H gives
-// S = H.  Free edges carry no moment across them: S is projected off nu of each free edge.
+// so theta/h alone is not the normal curvature.  Half an angle plus a correction s psi (s = +1 in the edge's
+// first face, -1 in the second) belongs to each of the two faces:
+//   S_f = sum over the edges e of f of (theta_e/2 + s psi_e) (L_e/A_f) nu(n_e),   nu(n) = (n_x^2, n_y^2,
+//   sqrt2 n_x n_y),
+// and psi_e = p_e H with H fitted by least squares to the angles of the two faces' hinges, so that uniform H
+// gives S = H.  Free edges carry no moment across them: S is projected off nu of each free edge.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -24,8 +25,8 @@ using Row = Eigen::RowVector3d;
 
 // Below this ratio of singular values the fit of H takes one more ring of hinges.
 constexpr double kWellPosed = 0.15;
-// Directions that no hinge of the whole stencil sees (tiny meshes) are left out of the fit: squared singular value
-// over the largest one.
+// Directions that no hinge of the whole stencil sees (tiny meshes) are left out of the fit: squared singular
+// value over the largest one.
 constexpr double kRankTolerance = 1e-12;
 constexpr int kLargestRing = 4;
 
@@ -141,7 +142,8 @@ std::map<int, double> correction(const ClothMesh& mesh, int e) {
       inverse_height[i] = 1 / h.height;
       rows.row(i) = h.angle * inverse_height[i];
     }
-    // pinv(rows) from the eigenvectors of rows^T rows; its eigenvalues are the squared singular values, ascending.
+    // pinv(rows) from the eigenvectors of rows^T rows; its eigenvalues are the squared singular values,
+    // ascending.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> normal(rows.transpose() * rows);
     Vector3d inverse = normal.eigenvalues();
     const double largest = inverse[2];

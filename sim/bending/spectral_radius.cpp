@@ -35,7 +35,8 @@ class RestBending {
     for (std::size_t h = 0; h < angle_.size(); ++h) {
       double torque = 0;
       for (int j = op_.element.start[h]; j < op_.element.start[h + 1]; ++j)
-        for (int k = 0; k < d; ++k) torque += op_.transposed[j * d + k] * moment_[op_.element.item[j] * d + k];
+        for (int k = 0; k < d; ++k)
+          torque += op_.transposed[j * d + k] * moment_[op_.element.item[j] * d + k];
       const Edge& e = mesh_.edge[h];
       const Eigen::Vector3d f0 = torque * angle_[h].g0, f1 = torque * angle_[h].g1;
       const Eigen::Vector3d f3 = angle_[h].t0 * f0 + angle_[h].t1 * f1;

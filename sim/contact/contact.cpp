@@ -23,7 +23,7 @@ template <class Real>
 struct Touch {
   Vec3<Real> normal_force = Vec3<Real>::Zero();  // sum over obstacles [N]
   Mat3<Real> normal_stiffness = Mat3<Real>::Zero();
-  double energy = 0;               // of the normal penalty [J]
+  double energy = 0;                                // of the normal penalty [J]
   Vec3<Real> obstacle_motion = Vec3<Real>::Zero();  // of the strongest obstacle's point over the step [m]
   Vec3<Real> normal = Vec3<Real>::Zero();
   Real strongest = 0, friction = 0;  // largest normal force [N], its coefficient
@@ -31,12 +31,13 @@ struct Touch {
 };
 
 template <class Real>
-HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const ContactModel<Real>& model, const Vec3<Real>& x,
-                          Real area) {
+HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const ContactModel<Real>& model,
+                                        const Vec3<Real>& x, Real area) {
   Touch<Real> t;
   for (int o = 0; o < set.count; ++o) {
     const Obstacle3<Real>& obstacle = set.item[o];
-    const Distance<Real> d = signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
+    const Distance<Real> d =
+        signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
     const Real depth = model.shell - d.value;
     if (!(depth > 0)) continue;
     const Vec3<Real> n = obstacle.rotation * d.normal;
@@ -63,8 +64,8 @@ struct Slip {
 };
 
 template <class Real>
-HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, Real area, const Vec3<Real>& moved,
-                        const Vec3<Real>& before, int touching) {
+HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, Real area,
+                        const Vec3<Real>& moved, const Vec3<Real>& before, int touching) {
   Vec3<Real> e = moved - t.obstacle_motion;
   if (touching == t.index + 1) e += before;
   e -= t.normal * t.normal.dot(e);
@@ -76,10 +77,17 @@ HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, R
 
 template <class Real, class Device>
 Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scene& scene)
-    : device_(device), obstacle_(scene.obstacle), fabric_friction_(scene.fabric.friction),
-      shell_(static_cast<Real>(scene.fabric.thickness)), vertices_(mesh.vertices()),
-      area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())), slip_(device, vertices_),
-      touching_(device, vertices_), loss_(device, vertices_), work_(device, vertices_), energy_(device, vertices_) {
+    : device_(device),
+      obstacle_(scene.obstacle),
+      fabric_friction_(scene.fabric.friction),
+      shell_(static_cast<Real>(scene.fabric.thickness)),
+      vertices_(mesh.vertices()),
+      area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())),
+      slip_(device, vertices_),
+      touching_(device, vertices_),
+      loss_(device, vertices_),
+      work_(device, vertices_),
+      energy_(device, vertices_) {
   if (obstacle_.size() > kMostObstacles)
     throw Error::request("obstacle: " + std::to_string(obstacle_.size()) + " obstacles, at most " +
                          std::to_string(kMostObstacles) + " are possible");
@@ -124,15 +132,16 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
   const Real* area = area_.data();
   const Vec3<Real>* slipped = slip_.data();
   const int* touching = touching_.data();
-  for_each(device_, "contact", vertices_, HYST_KERNEL(int i) {
-    const Touch<Real> t = touch(set, model, x[i], area[i]);
-    if (t.index < 0) return;
-    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-    const Real kt = model.tangential * area[i] * s.share;
-    rhs[i] += step * (t.normal_force - kt * s.trial);
-    diagonal[i] += step * step *
-                   (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
-  });
+  for_each(
+      device_, "contact", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = touch(set, model, x[i], area[i]);
+        if (t.index < 0) return;
+        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+        const Real kt = model.tangential * area[i] * s.share;
+        rhs[i] += step * (t.normal_force - kt * s.trial);
+        diagonal[i] += step * step *
+                       (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
+      });
 }
 
 template <class Real, class Device>
@@ -142,12 +151,13 @@ void Contact<Real, Device>::add_forces(const Vec3<Real>* x, const Vec3<Real>* be
   const Real* area = area_.data();
   const Vec3<Real>* slipped = slip_.data();
   const int* touching = touching_.data();
-  for_each(device_, "contact forces", vertices_, HYST_KERNEL(int i) {
-    const Touch<Real> t = touch(set, model, x[i], area[i]);
-    if (t.index < 0) return;
-    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-    force[i] += t.normal_force - model.tangential * area[i] * s.share * s.trial;
-  });
+  for_each(
+      device_, "contact forces", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = touch(set, model, x[i], area[i]);
+        if (t.index < 0) return;
+        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+        force[i] += t.normal_force - model.tangential * area[i] * s.share * s.trial;
+      });
 }
 
 template <class Real, class Device>
@@ -158,21 +168,22 @@ void Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before
   Vec3<Real>* slipped = slip_.data();
   int* touching = touching_.data();
   double *loss = loss_.data(), *work = work_.data();
-  for_each(device_, "contact history", vertices_, HYST_KERNEL(int i) {
-    const Touch<Real> t = touch(set, model, x[i], area[i]);
-    const Real k = model.tangential * area[i];
-    if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
-      loss[i] += static_cast<double>(k * slipped[i].squaredNorm() / 2);
-      slipped[i].setZero();
-    }
-    touching[i] = t.index + 1;
-    if (t.index < 0) return;
-    const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-    const Vec3<Real> held = s.share * s.trial;
-    loss[i] += static_cast<double>(k * held.dot(s.trial - held));
-    work[i] += static_cast<double>((t.normal_force - k * held).dot(t.obstacle_motion));
-    slipped[i] = held;
-  });
+  for_each(
+      device_, "contact history", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = touch(set, model, x[i], area[i]);
+        const Real k = model.tangential * area[i];
+        if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
+          loss[i] += static_cast<double>(k * slipped[i].squaredNorm() / 2);
+          slipped[i].setZero();
+        }
+        touching[i] = t.index + 1;
+        if (t.index < 0) return;
+        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+        const Vec3<Real> held = s.share * s.trial;
+        loss[i] += static_cast<double>(k * held.dot(s.trial - held));
+        work[i] += static_cast<double>((t.normal_force - k * held).dot(t.obstacle_motion));
+        slipped[i] = held;
+      });
 }
 
 template <class Real, class Device>
@@ -182,10 +193,11 @@ double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
   const Real* area = area_.data();
   const Vec3<Real>* slipped = slip_.data();
   double* energy = energy_.data();
-  for_each(device_, "contact energy", vertices_, HYST_KERNEL(int i) {
-    energy[i] = touch(set, model, x[i], area[i]).energy +
-                static_cast<double>(model.tangential * area[i] * slipped[i].squaredNorm() / 2);
-  });
+  for_each(
+      device_, "contact energy", vertices_, HYST_KERNEL(int i) {
+        energy[i] = touch(set, model, x[i], area[i]).energy +
+                    static_cast<double>(model.tangential * area[i] * slipped[i].squaredNorm() / 2);
+      });
   const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }

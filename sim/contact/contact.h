@@ -1,9 +1,9 @@
 // Cloth against obstacles: a penalty shell with Coulomb friction, inside the implicit solve.
 //
-// Normal: energy k A (d - t)^2/2 per vertex where the distance d is less than the shell t (the cloth's thickness);
-// its Gauss-Newton Hessian k A n n^T is positive semidefinite.  Friction is a Prandtl stop in the tangent plane: an
-// elastic slip E with stiffness k_t, limited to mu f_n/k_t by radial return.  It holds a resting cloth for good,
-// where a velocity-smoothed friction would let it creep.
+// Normal: energy k A (d - t)^2/2 per vertex where the distance d is less than the shell t (the cloth's
+// thickness); its Gauss-Newton Hessian k A n n^T is positive semidefinite.  Friction is a Prandtl stop in the
+// tangent plane: an elastic slip E with stiffness k_t, limited to mu f_n/k_t by radial return.  It holds a
+// resting cloth for good, where a velocity-smoothed friction would let it creep.
 #pragma once
 
 #include "sim/contact/signed_distance.h"
@@ -45,7 +45,8 @@ class Contact {
   // Places the obstacles for the step from `start` to `end` [s].
   void move(double start, double end);
   // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks.
-  void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs, Mat3<Real>* diagonal);
+  void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
+           Mat3<Real>* diagonal);
   // Adds the forces at `position` (explicit integration).
   void add_forces(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* force);
   // Accepts the positions: slips and losses.
@@ -64,8 +65,8 @@ class Contact {
   int vertices_;
   ObstacleSet<Real> set_;
   Buffer<Real, Device> area_;
-  Buffer<Vec3<Real>, Device> slip_;   // E [m]
-  Buffer<int, Device> touching_;      // obstacle index + 1, 0 = free
+  Buffer<Vec3<Real>, Device> slip_;  // E [m]
+  Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
   Buffer<double, Device> loss_, work_, energy_;
 };
 

@@ -73,11 +73,16 @@ HYST_HD inline Distance<Real> box_distance(const Shape<Real>& s, const Vec3<Real
 template <class Real>
 HYST_HD inline Distance<Real> signed_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   switch (s.kind) {
-    case ShapeKind::ground: return {p[2], Vec3<Real>::UnitZ()};
-    case ShapeKind::sphere: return sphere_distance(p, s.half[0]);
-    case ShapeKind::cylinder: return cylinder_distance(s, p);
-    case ShapeKind::box: return box_distance(s, p);
-    default: break;
+    case ShapeKind::ground:
+      return {p[2], Vec3<Real>::UnitZ()};
+    case ShapeKind::sphere:
+      return sphere_distance(p, s.half[0]);
+    case ShapeKind::cylinder:
+      return cylinder_distance(s, p);
+    case ShapeKind::box:
+      return box_distance(s, p);
+    default:
+      break;
   }
   const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);  // capsule
   return sphere_distance(Vec3<Real>(p[0], p[1], p[2] - z), s.half[0]);

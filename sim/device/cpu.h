@@ -68,7 +68,9 @@ inline void device_free(Cpu& cpu, void* memory, std::size_t bytes) {
   cpu.bytes -= bytes;
   ::operator delete(memory, std::align_val_t(64));
 }
-inline void device_upload(Cpu&, void* to, const void* from, std::size_t bytes) { std::memcpy(to, from, bytes); }
+inline void device_upload(Cpu&, void* to, const void* from, std::size_t bytes) {
+  std::memcpy(to, from, bytes);
+}
 inline void device_download(Cpu&, void* to, const void* from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
 }

@@ -93,7 +93,8 @@ __global__ void for_each_sum_kernel(int n, const Body body, const Finish finish,
   }
 }
 
-inline constexpr int kSumBlocks = 528;  // four blocks for each multiprocessor of an H100; fixed for the bits' sake
+inline constexpr int kSumBlocks =
+    528;  // four blocks for each multiprocessor of an H100; fixed for the bits' sake
 
 template <int K, class Body, class Finish>
 void for_each_sum(Cuda& cuda, const char* name, int n, const Body& body, const Finish& finish) {

@@ -1,7 +1,7 @@
 // What numerical code includes: for_each, for_each_sum, Buffer, and the device that this compilation is for.
 //
-// Every numerical source of sim/ is compiled twice when CUDA is built: by the C++ compiler for the CPU and by nvcc
-// for the GPU.  It ends with HYSTERON_INSTANTIATE lines that name ThisDevice.
+// Every numerical source of sim/ is compiled twice when CUDA is built: by the C++ compiler for the CPU and by
+// nvcc for the GPU.  It ends with HYSTERON_INSTANTIATE lines that name ThisDevice.
 #pragma once
 
 #include "sim/device/buffer.h"
@@ -14,8 +14,9 @@ using ThisDevice = Cuda;
 using ThisDevice = Cpu;
 #endif
 
-// Element i, slot k of an array with `slots` numbers per element.  Consecutive on the CPU, so that one element's
-// history is one cache line run and vectorises; strided on the GPU, so that neighbouring threads read neighbours.
+// Element i, slot k of an array with `slots` numbers per element.  Consecutive on the CPU, so that one
+// element's history is one cache line run and vectorises; strided on the GPU, so that neighbouring threads
+// read neighbours.
 HYST_HD inline std::size_t slot_index(int i, int k, int slots, int n) {
 #ifdef __CUDA_ARCH__
   return static_cast<std::size_t>(k) * n + i;

@@ -1,5 +1,5 @@
-// Seconds per stage of a step.  On the GPU stages are timed by events, which the host reads only when it asks for
-// the totals, so that timing does not stop the device.
+// Seconds per stage of a step.  On the GPU stages are timed by events, which the host reads only when it asks
+// for the totals, so that timing does not stop the device.
 #pragma once
 
 #include <array>

@@ -4,7 +4,8 @@
 //   F = [F1 F2]: images of the warp and weft unit vectors;  E = (F^T F - I)/2 = (E11, E22, 2 E12)
 //   energy per rest area W = (C11 E11^2 + 2 C12 E11 E22 + C22 E22^2 + G (2 E12)^2)/2
 //   stress (S11, S22, S12) = (C11 E11 + C12 E22, C12 E11 + C22 E22, G 2E12)  [N/m]
-//   force on corner i: -A (F1 (S11 b1 + S12 b2) + F2 (S12 b1 + S22 b2)), b = gradient of its shape function [1/m]
+//   force on corner i: -A (F1 (S11 b1 + S12 b2) + F2 (S12 b1 + S22 b2)), b = gradient of its shape function
+//   [1/m]
 #pragma once
 
 #include <cmath>
@@ -21,8 +22,8 @@ struct MembraneStiffness {
 // Rest geometry of a face: its area and the shape functions' gradients in the warp-weft frame.
 template <class Real>
 struct MembraneRest {
-  Real area;           // [m^2]
-  Real b1[3], b2[3];   // d N_i / d warp, d N_i / d weft [1/m]
+  Real area;          // [m^2]
+  Real b1[3], b2[3];  // d N_i / d warp, d N_i / d weft [1/m]
 };
 
 template <class Real>
@@ -71,8 +72,9 @@ HYST_HD inline Vec3<Real> membrane_force(const MembraneRest<Real>& rest, const D
   return -rest.area * ((s.s11 * b1 + s.s12 * b2) * f.f1 + (s.s12 * b1 + s.s22 * b2) * f.f2);
 }
 
-// Nearest positive semidefinite 2x2 stress: what compression would add to the Hessian is left out, so that the
-// implicit matrix stays positive definite (Teran et al. 2005 in spirit; here exact, the geometric term is S x I).
+// Nearest positive semidefinite 2x2 stress: what compression would add to the Hessian is left out, so that
+// the implicit matrix stays positive definite (Teran et al. 2005 in spirit; here exact, the geometric term is
+// S x I).
 template <class Real>
 HYST_HD inline MembraneStress<Real> tensile_part(const MembraneStress<Real>& s) {
   using std::sqrt;
@@ -85,18 +87,20 @@ HYST_HD inline MembraneStress<Real> tensile_part(const MembraneStress<Real>& s) 
   return {scale * (radius + half), scale * (radius - half), scale * s.s12};
 }
 
-// Block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric part of `tension`.
+// Block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric part of
+// `tension`.
 template <class Real>
 HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
                                          Real factor, const Deformation<Real>& f,
                                          const MembraneStress<Real>& tension, int i, int j) {
   const Real i1 = rest.b1[i], i2 = rest.b2[i], j1 = rest.b1[j], j2 = rest.b2[j];
   const Real a = factor * rest.area;
-  const Real k11 = a * (c.warp * i1 * j1 + c.shear * i2 * j2), k22 = a * (c.weft * i2 * j2 + c.shear * i1 * j1);
+  const Real k11 = a * (c.warp * i1 * j1 + c.shear * i2 * j2),
+             k22 = a * (c.weft * i2 * j2 + c.shear * i1 * j1);
   const Real k12 = a * (c.coupling * i1 * j2 + c.shear * i2 * j1);
   const Real k21 = a * (c.coupling * i2 * j1 + c.shear * i1 * j2);
-  const Real geometric = rest.area * (tension.s11 * i1 * j1 + tension.s22 * i2 * j2 +
-                                      tension.s12 * (i1 * j2 + i2 * j1));
+  const Real geometric =
+      rest.area * (tension.s11 * i1 * j1 + tension.s22 * i2 * j2 + tension.s12 * (i1 * j2 + i2 * j1));
   const Vec3<Real> r1 = k11 * f.f1 + k12 * f.f2, r2 = k21 * f.f1 + k22 * f.f2;
   Mat3<Real> block;
   for (int col = 0; col < 3; ++col)

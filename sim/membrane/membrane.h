@@ -40,13 +40,14 @@ class Membrane {
   // Strains and stresses (elastic, and viscous of `velocity`) at `position`; forces() then gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   MembraneForceView<Real> forces() const;
-  // matrix = step^2 * elastic + step * viscous stiffness at the last update, to which callers add mass and contact.
+  // matrix = step^2 * elastic + step * viscous stiffness at the last update, to which callers add mass and
+  // contact.
   void assemble(Real step, BlockRowsView<Real> matrix);
 
-  double stored_energy(const Vec3<Real>* position);               // [J]
-  void add_viscous_loss(const Vec3<Real>* velocity, Real step);   // of the last update's geometry
-  double viscous_loss() const;                                    // since the start [J]
-  double largest_stretch(const Vec3<Real>* position);             // largest principal stretch minus 1
+  double stored_energy(const Vec3<Real>* position);              // [J]
+  void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
+  double viscous_loss() const;                                   // since the start [J]
+  double largest_stretch(const Vec3<Real>* position);            // largest principal stretch minus 1
   std::size_t bytes() const;
 
  private:

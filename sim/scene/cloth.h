@@ -17,8 +17,8 @@ struct Cloth {
   std::vector<char> held(const Scene& scene, double time) const;
 };
 
-// Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for pins that
-// hold no vertex.
+// Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for
+// pins that hold no vertex.
 Cloth make_cloth(const Scene& scene);
 
 }  // namespace hysteron

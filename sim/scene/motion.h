@@ -8,7 +8,8 @@
 namespace hysteron {
 
 // Rigid placement at time t [s]: x -> rotation * x + translation, identity at the motion's start position.
-// Between keys monotone cubic interpolation (Fritsch & Butland 1984), at rest before the first and after the last.
+// Between keys monotone cubic interpolation (Fritsch & Butland 1984), at rest before the first and after the
+// last.
 struct Placement {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();

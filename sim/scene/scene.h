@@ -1,5 +1,6 @@
-// What is simulated: cloth, fabric, forces, obstacles, solver settings.  Everything in SI units; a Scene is a plain
-// value, read from a TOML file and flags (scene_reader.h) and printed back fully resolved into every manifest.
+// What is simulated: cloth, fabric, forces, obstacles, solver settings.  Everything in SI units; a Scene is a
+// plain value, read from a TOML file and flags (scene_reader.h) and printed back fully resolved into every
+// manifest.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +12,15 @@
 
 namespace hysteron {
 
-// Where a number of a fabric comes from.  Confidence: published, derived, assumed, or given (scene file or flag).
+// Where a number of a fabric comes from.  Confidence: published, derived, assumed, or given (scene file or
+// flag).
 struct Provenance {
   std::string source;
   std::string confidence;
 };
 
-// A measured number that is no parameter of the model: what the source prints, or what to compare results with.
+// A measured number that is no parameter of the model: what the source prints, or what to compare results
+// with.
 struct PublishedNumber {
   double value = 0;
   std::string unit;
@@ -27,17 +30,17 @@ struct PublishedNumber {
 // Physics of a cloth.  Every number has its source in the fabric's file.
 struct Fabric {
   std::string name = "cotton-broad";
-  double b1 = 3.589e-5;         // fabric.b1         initial bending rigidity [N m], >= b2
-  double b2 = 1.157e-5;         // fabric.b2         bending rigidity B, slope of the straight KES-FB2 branch [N m]
-  double k0 = 50;               // fabric.k0         curvature at which bending friction saturates [1/m]
+  double b1 = 3.589e-5;  // fabric.b1         initial bending rigidity [N m], >= b2
+  double b2 = 1.157e-5;  // fabric.b2         bending rigidity B, slope of the straight KES-FB2 branch [N m]
+  double k0 = 50;        // fabric.k0         curvature at which bending friction saturates [1/m]
   double density = 0.1238;      // fabric.density    mass per area [kg/m^2]
   double thickness = 0.497e-3;  // fabric.thickness  [m]
   double warp = 1000;           // fabric.warp       membrane stiffness along warp [N/m]
   double weft = 1000;           // fabric.weft       membrane stiffness along weft [N/m]
   double coupling = 0;          // fabric.coupling   warp-weft coupling C_12 [N/m], C_12^2 < warp * weft
   double shear = 60;            // fabric.shear      in-plane shear stiffness [N/m]
-  double damping = 1e-4;        // fabric.damping    viscosity over stiffness, of membrane and of bending (b1) [s]
-  double friction = 0.3;        // fabric.friction   Coulomb coefficient against obstacles
+  double damping = 1e-4;  // fabric.damping    viscosity over stiffness, of membrane and of bending (b1) [s]
+  double friction = 0.3;  // fabric.friction   Coulomb coefficient against obstacles
 
   std::map<std::string, Provenance> provenance;      // of each parameter above, by its name
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
@@ -46,15 +49,15 @@ struct Fabric {
 };
 
 struct ClothShape {
-  std::string shape = "square";        // cloth.shape       square | strip | disc | file
-  double length = 0.5;                 // cloth.length      along warp [m] (square, strip)
-  double width = 0.5;                  // cloth.width       along weft [m] (strip; a square takes length)
-  double radius = 0.15;                // cloth.radius      [m] (disc)
-  std::string file;                    // cloth.file        OBJ
-  double weld = 0;                     // cloth.weld        merge vertices closer than this [m], 0 = off (file)
-  Eigen::Vector3d position{0, 0, 0};   // cloth.position    of the builders' origin [m]
-  Eigen::Vector3d rotation{0, 0, 0};   // cloth.rotation    Euler angles about x, y, z in this order [degree]
-  double warp_angle = 0;               // cloth.warp-angle  warp direction against the x axis at rest [degree]
+  std::string shape = "square";       // cloth.shape       square | strip | disc | file
+  double length = 0.5;                // cloth.length      along warp [m] (square, strip)
+  double width = 0.5;                 // cloth.width       along weft [m] (strip; a square takes length)
+  double radius = 0.15;               // cloth.radius      [m] (disc)
+  std::string file;                   // cloth.file        OBJ
+  double weld = 0;                    // cloth.weld        merge vertices closer than this [m], 0 = off (file)
+  Eigen::Vector3d position{0, 0, 0};  // cloth.position    of the builders' origin [m]
+  Eigen::Vector3d rotation{0, 0, 0};  // cloth.rotation    Euler angles about x, y, z in this order [degree]
+  double warp_angle = 0;              // cloth.warp-angle  warp direction against the x axis at rest [degree]
 };
 
 // A moment of a prescribed motion; between keys positions are interpolated smoothly (velocity zero at keys
@@ -71,7 +74,8 @@ struct Motion {
   Eigen::Vector3d center{0, 0, 0};  // of the rotation [m]
 };
 
-// Vertices held by hand: those of the rest shape inside the box or nearest to the point, from `from` to `until`.
+// Vertices held by hand: those of the rest shape inside the box or nearest to the point, from `from` to
+// `until`.
 struct Pin {
   std::string select = "box";      // pin.select   box | nearest | all-boundary
   Eigen::Vector3d low{0, 0, 0};    // pin.low      box corner in builder coordinates [m]
@@ -82,43 +86,45 @@ struct Pin {
 };
 
 struct Obstacle {
-  std::string kind = "ground";       // obstacle.kind  ground | sphere | cylinder | box | capsule
-  Eigen::Vector3d center{0, 0, 0};   // obstacle.center [m]; ground: a point of the plane; cylinder: middle of its axis
-  Eigen::Vector3d axis{0, 0, 1};     // obstacle.axis   ground: normal; cylinder, capsule: direction
+  std::string kind = "ground";  // obstacle.kind  ground | sphere | cylinder | box | capsule
+  Eigen::Vector3d center{
+      0, 0, 0};  // obstacle.center [m]; ground: a point of the plane; cylinder: middle of its axis
+  Eigen::Vector3d axis{0, 0, 1};        // obstacle.axis   ground: normal; cylinder, capsule: direction
   Eigen::Vector3d size{0.1, 0.1, 0.1};  // obstacle.size  box: half edges [m]
-  double radius = 0.1;               // obstacle.radius sphere, cylinder, capsule [m]
-  double height = 0.1;               // obstacle.height cylinder, capsule: length of the axis [m]
-  double rim = 0.001;                // obstacle.rim    rounding of the cylinder's and box's edges [m]
-  double friction = -1;              // obstacle.friction  Coulomb coefficient; < 0: the fabric's
-  bool visible = true;               // obstacle.visible
-  double until = 1e30;               // obstacle.until  removed at this time [s]
-  Motion motion;                     // obstacle.keys, obstacle.motion-axis, obstacle.motion-center
+  double radius = 0.1;                  // obstacle.radius sphere, cylinder, capsule [m]
+  double height = 0.1;                  // obstacle.height cylinder, capsule: length of the axis [m]
+  double rim = 0.001;                   // obstacle.rim    rounding of the cylinder's and box's edges [m]
+  double friction = -1;                 // obstacle.friction  Coulomb coefficient; < 0: the fabric's
+  bool visible = true;                  // obstacle.visible
+  double until = 1e30;                  // obstacle.until  removed at this time [s]
+  Motion motion;                        // obstacle.keys, obstacle.motion-axis, obstacle.motion-center
 };
 
 struct Scene {
   ClothShape cloth;
   Fabric fabric;
-  std::string law = "prandtl";                // law
-  std::map<std::string, std::string> param;   // param      law parameters by name (memory, stops, recovery, ...)
-  std::string element = "shape";              // element    shape | hinge
-  std::string force = "energy";               // force      energy | chapter (hinge only)
-  std::string mesh = "random";                // mesh       family of the builder, or FILE.obj
-  int triangles = 5000;                       // triangles
-  std::string integrator = "semi-implicit";   // integrator semi-implicit | explicit
-  double step = 1e-3;                         // step       large step hi [s]
-  int substeps = 0;                           // substeps   alpha; 0 = the least stable one
-  std::string implicit_every = "substep";     // implicit-every  substep | step (the chapter's)
-  double solver_tolerance = 1e-4;             // solver-tolerance  relative residual of the implicit solve
-  std::string device = "auto";                // device     auto | cpu | cuda
-  std::string precision = "double";           // precision  double | float
-  int threads = 0;                            // threads    0 = all cores
-  double seconds = 1;                         // seconds    simulated time [s]
-  Eigen::Vector3d gravity{0, 0, -9.81};       // gravity    [m/s^2]
-  double air_drag = 0;                        // air-drag   linear drag per area [kg/(m^2 s)]
-  double contact_stiffness = 0;               // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
-  unsigned seed = 1;                          // seed
-  std::vector<Pin> pin;                       // [[pin]]
-  std::vector<Obstacle> obstacle;             // [[obstacle]]
+  std::string law = "prandtl";  // law
+  std::map<std::string, std::string>
+      param;                      // param      law parameters by name (memory, stops, recovery, ...)
+  std::string element = "shape";  // element    shape | hinge
+  std::string force = "energy";   // force      energy | chapter (hinge only)
+  std::string mesh = "random";    // mesh       family of the builder, or FILE.obj
+  int triangles = 5000;           // triangles
+  std::string integrator = "semi-implicit";  // integrator semi-implicit | explicit
+  double step = 1e-3;                        // step       large step hi [s]
+  int substeps = 0;                          // substeps   alpha; 0 = the least stable one
+  std::string implicit_every = "substep";    // implicit-every  substep | step (the chapter's)
+  double solver_tolerance = 1e-4;            // solver-tolerance  relative residual of the implicit solve
+  std::string device = "auto";               // device     auto | cpu | cuda
+  std::string precision = "double";          // precision  double | float
+  int threads = 0;                           // threads    0 = all cores
+  double seconds = 1;                        // seconds    simulated time [s]
+  Eigen::Vector3d gravity{0, 0, -9.81};      // gravity    [m/s^2]
+  double air_drag = 0;                       // air-drag   linear drag per area [kg/(m^2 s)]
+  double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
+  unsigned seed = 1;               // seed
+  std::vector<Pin> pin;            // [[pin]]
+  std::vector<Obstacle> obstacle;  // [[obstacle]]
   // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;

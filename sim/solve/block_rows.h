@@ -12,9 +12,9 @@ namespace hysteron {
 template <class Real>
 struct BlockRowsView {
   int rows;
-  const int* start;       // off-diagonal blocks of row i: start[i] ... start[i+1]-1
+  const int* start;  // off-diagonal blocks of row i: start[i] ... start[i+1]-1
   const int* column;
-  Mat3<Real>* off;        // off-diagonal blocks
+  Mat3<Real>* off;  // off-diagonal blocks
   Mat3<Real>* diagonal;
 
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v) const {
@@ -52,7 +52,8 @@ class BlockRows {
   }
   // Position of block (row, column) among the off-diagonal blocks.
   int slot(int row, int column) const {
-    const auto first = column_host.begin() + start_host[row], last = column_host.begin() + start_host[row + 1];
+    const auto first = column_host.begin() + start_host[row],
+               last = column_host.begin() + start_host[row + 1];
     return static_cast<int>(std::lower_bound(first, last, column) - column_host.begin());
   }
   const std::vector<int>& start() const { return start_host; }

@@ -3,8 +3,8 @@
 
 namespace hysteron {
 
-std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
-                                                const StepLimits& limits) {
+std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth& cloth,
+                                                const CurvatureOperator& op, const StepLimits& limits) {
   auto cpu = std::make_unique<Cpu>(scene.threads);
   if (scene.precision == "float")
     return std::make_unique<Stepper<float, Cpu>>(std::move(cpu), scene, cloth, op, limits);

@@ -4,8 +4,8 @@
 
 namespace hysteron {
 
-std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
-                                                const StepLimits& limits) {
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth& cloth,
+                                                const CurvatureOperator& op, const StepLimits& limits) {
   auto gpu = std::make_unique<Cuda>(0);
   if (scene.precision == "float")
     return std::make_unique<Stepper<float, Cuda>>(std::move(gpu), scene, cloth, op, limits);

@@ -6,8 +6,14 @@ namespace hysteron {
 
 template <class Real, class Device>
 Pcg<Real, Device>::Pcg(Device& device, int rows)
-    : device_(device), rows_(rows), inverse_(device, rows), r_(device, rows), z_(device, rows), p_(device, rows),
-      q_(device, rows), scalars_(device, 1) {}
+    : device_(device),
+      rows_(rows),
+      inverse_(device, rows),
+      r_(device, rows),
+      z_(device, rows),
+      p_(device, rows),
+      q_(device, rows),
+      scalars_(device, 1) {}
 
 template <class Real, class Device>
 std::size_t Pcg<Real, Device>::bytes() const {
@@ -76,13 +82,15 @@ void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Ve
         s->iterations += 1;
         s->done = !(s->residual > s->target);
       });
-  for_each(device_, "solve: direction", rows_, HYST_KERNEL(int i) {
-    if (s->done || held[i]) return;
-    p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
-  });
+  for_each(
+      device_, "solve: direction", rows_, HYST_KERNEL(int i) {
+        if (s->done || held[i]) return;
+        p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
+      });
 }
 
-// The device decides when it is done; the host only asks, at first after as many iterations as the last solve took.
+// The device decides when it is done; the host only asks, at first after as many iterations as the last solve
+// took.
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
                                     const Vec3<Real>* known, Vec3<Real>* x, double tolerance,

@@ -10,7 +10,8 @@
 namespace hysteron {
 
 // Power iteration with Rayleigh quotients to a relative change of 1e-4, at most 400 products.  The quotient
-// approaches from below, so that callers keep a margin.  apply(v, w) sets w = K v; `held` vertices do not move.
+// approaches from below, so that callers keep a margin.  apply(v, w) sets w = K v; `held` vertices do not
+// move.
 inline double largest_eigenvalue(
     const std::vector<double>& mass, const std::vector<char>& held,
     const std::function<void(const std::vector<Eigen::Vector3d>&, std::vector<Eigen::Vector3d>&)>& apply) {

@@ -1,5 +1,6 @@
-// The step of hi = alpha he (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011): bending explicit, tension, damping
-// and contact implicit, alpha the least number of substeps for which explicit bending is stable.
+// The step of hi = alpha he (Wong, Leach, Zambetta 2013, 4.3; Schroeder et al. 2011): bending explicit,
+// tension, damping and contact implicit, alpha the least number of substeps for which explicit bending is
+// stable.
 //
 // implicit-every = step, as the chapter writes it:
 //   alpha times   v += he M^-1 (f_bend(x) + m g + f_air),  x += he v;  bending history committed at each x
@@ -8,18 +9,19 @@
 // implicit-every = substep, the default (decided here): alpha times, with h = he,
 //   M dv = h (f_bend(x) + m g + f_air + (f_m + f_d + f_c)(x + h v + h dv, v + dv)),  v += dv,  x += h v
 //
-// f_m is membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with obstacles
-// kNewtonWithObstacles of them) and the matrix kept positive definite.  Both solve as many unknowns; the shorter implicit
-// steps take fewer iterations each.  As the chapter writes it, forces that balance act one after the other: bending
-// accelerates the cloth through the substeps and tension throws it back, so that a resting cloth trembles by about
-// |a| hi^2, which rubs its bending friction away and feeds energy in; and bending waves whose period resonates with hi
-// grow unless viscosity damps them.  Acting together they rest exactly.
+// f_m is membrane tension, f_d membrane damping, f_c contact and friction, linearised (one Newton step; with
+// obstacles kNewtonWithObstacles of them) and the matrix kept positive definite.  Both solve as many
+// unknowns; the shorter implicit steps take fewer iterations each.  As the chapter writes it, forces that
+// balance act one after the other: bending accelerates the cloth through the substeps and tension throws it
+// back, so that a resting cloth trembles by about |a| hi^2, which rubs its bending friction away and feeds
+// energy in; and bending waves whose period resonates with hi grow unless viscosity damps them.  Acting
+// together they rest exactly.
 //
 // Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
 //   change of kinetic energy = F.d - m |dv|^2/2,
-// so the integrator's own loss is the sum of m |dv|^2/2 plus, for each energy, the gap between its change and the
-// work -F.d of the force that stands for it: the convexity gap W_n - W_{n+1} + F.(x_{n+1} - x_n) and the splitting
-// of the step, whose two stages move the cloth apart.
+// so the integrator's own loss is the sum of m |dv|^2/2 plus, for each energy, the gap between its change and
+// the work -F.d of the force that stands for it: the convexity gap W_n - W_{n+1} + F.(x_{n+1} - x_n) and the
+// splitting of the step, whose two stages move the cloth apart.
 #include "sim/solve/stepper.h"
 
 #include "sim/error.h"
@@ -49,7 +51,8 @@ void Stepper<Real, Device>::stage(double start, Real h) {
     contact_->move(start, start + static_cast<double>(h));
     const Vec3<Real>* x = x_.data();
     Vec3<Real>* before = before_.data();
-    for_each(*device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
+    for_each(
+        *device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
   }
   if (together_) {
     gather_impulses(h);
@@ -86,11 +89,12 @@ void Stepper<Real, Device>::hold(double start, Real h) {
   const char* held = held_.data();
   const Vec3<Real>*origin = start_.data(), *x = x_.data();
   Vec3<Real>* v = v_.data();
-  for_each(*device_, "handles", vertices_, HYST_KERNEL(int i) {
-    if (!held[i]) return;
-    const int p = pin[i];
-    v[i] = (placements.rotation[p] * origin[i] + placements.translation[p] - x[i]) / h;
-  });
+  for_each(
+      *device_, "handles", vertices_, HYST_KERNEL(int i) {
+        if (!held[i]) return;
+        const int p = pin[i];
+        v[i] = (placements.rotation[p] * origin[i] + placements.translation[p] - x[i]) / h;
+      });
 }
 
 template <class Real, class Device>
@@ -104,33 +108,35 @@ void Stepper<Real, Device>::substep(Real dt) {
   const char* held = held_.data();
   Vec3<Real>*x = x_.data(), *v = v_.data();
   VertexLedger* ledger = ledger_.data();
-  for_each(*device_, "substep", vertices_, HYST_KERNEL(int i) {
-    const Vec3<Real> force = bending.at(i);
-    const Real m = mass[i];
-    const Vec3<Real> weight = m * g;
-    VertexLedger& sum = ledger[i];
-    if (held[i]) {
-      const Vec3<Real> d = dt * v[i];
-      sum.handle_work -= static_cast<double>((force + weight).dot(d));
-      sum.bending_work += static_cast<double>(force.dot(d));
-      sum.gravity_work += static_cast<double>(weight.dot(d));
-      x[i] += d;
-      return;
-    }
-    const Vec3<Real> air = -drag * m * v[i];
-    const Vec3<Real> dv = dt / m * (force + weight + air);
-    const Vec3<Real> moved = v[i] + dv, d = dt * moved;
-    v[i] = moved;
-    x[i] += d;
-    sum.bending_work += static_cast<double>(force.dot(d));
-    sum.gravity_work += static_cast<double>(weight.dot(d));
-    sum.air -= static_cast<double>(air.dot(d));
-    sum.inertia += static_cast<double>(m / 2 * dv.squaredNorm());
-  });
+  for_each(
+      *device_, "substep", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> force = bending.at(i);
+        const Real m = mass[i];
+        const Vec3<Real> weight = m * g;
+        VertexLedger& sum = ledger[i];
+        if (held[i]) {
+          const Vec3<Real> d = dt * v[i];
+          sum.handle_work -= static_cast<double>((force + weight).dot(d));
+          sum.bending_work += static_cast<double>(force.dot(d));
+          sum.gravity_work += static_cast<double>(weight.dot(d));
+          x[i] += d;
+          return;
+        }
+        const Vec3<Real> air = -drag * m * v[i];
+        const Vec3<Real> dv = dt / m * (force + weight + air);
+        const Vec3<Real> moved = v[i] + dv, d = dt * moved;
+        v[i] = moved;
+        x[i] += d;
+        sum.bending_work += static_cast<double>(force.dot(d));
+        sum.gravity_work += static_cast<double>(weight.dot(d));
+        sum.air -= static_cast<double>(air.dot(d));
+        sum.inertia += static_cast<double>(m / 2 * dv.squaredNorm());
+      });
   clock_.end(Stage::bending);
 }
 
-// The explicit forces' impulse over h, and the cloth moved on by its velocity: where the implicit stage linearises.
+// The explicit forces' impulse over h, and the cloth moved on by its velocity: where the implicit stage
+// linearises.
 template <class Real, class Device>
 void Stepper<Real, Device>::gather_impulses(Real h) {
   clock_.begin(Stage::bending);
@@ -141,10 +147,11 @@ void Stepper<Real, Device>::gather_impulses(Real h) {
   const Real* mass = mass_.data();
   const Vec3<Real>* v = v_.data();
   Vec3<Real>*x = x_.data(), *impulse = impulse_.data();
-  for_each(*device_, "explicit impulse", vertices_, HYST_KERNEL(int i) {
-    impulse[i] = h * (bending.at(i) + mass[i] * (g - drag * v[i]));
-    x[i] += h * v[i];
-  });
+  for_each(
+      *device_, "explicit impulse", vertices_, HYST_KERNEL(int i) {
+        impulse[i] = h * (bending.at(i) + mass[i] * (g - drag * v[i]));
+        x[i] += h * v[i];
+      });
   clock_.end(Stage::bending);
 }
 
@@ -155,7 +162,8 @@ void Stepper<Real, Device>::explicit_substep(Real dt) {
   const BendingForceView<Real> bending = bending_.forces();
   const MembraneForceView<Real> membrane = membrane_.forces();
   Vec3<Real>* force = rhs_.data();
-  for_each(*device_, "explicit forces", vertices_, HYST_KERNEL(int i) { force[i] = membrane.at(i); });
+  for_each(
+      *device_, "explicit forces", vertices_, HYST_KERNEL(int i) { force[i] = membrane.at(i); });
   if (contact_) contact_->add_forces(x_.data(), before_.data(), force);
   const Vec3<Real> g = scene_.gravity.cast<Real>();
   const Real drag = static_cast<Real>(scene_.air_drag / scene_.fabric.density);
@@ -163,23 +171,24 @@ void Stepper<Real, Device>::explicit_substep(Real dt) {
   const char* held = held_.data();
   Vec3<Real>*x = x_.data(), *v = v_.data();
   VertexLedger* ledger = ledger_.data();
-  for_each(*device_, "explicit substep", vertices_, HYST_KERNEL(int i) {
-    const Vec3<Real> bend = bending.at(i), rest = force[i], weight = mass[i] * g;
-    VertexLedger& sum = ledger[i];
-    const Vec3<Real> air = held[i] ? Vec3<Real>(Vec3<Real>::Zero()) : Vec3<Real>(-drag * mass[i] * v[i]);
-    if (!held[i]) {
-      const Vec3<Real> dv = dt / mass[i] * (bend + rest + weight + air);
-      v[i] += dv;
-      sum.inertia += static_cast<double>(mass[i] / 2 * dv.squaredNorm());
-    }
-    const Vec3<Real> d = dt * v[i];
-    x[i] += d;
-    sum.bending_work += static_cast<double>(bend.dot(d));
-    sum.gravity_work += static_cast<double>(weight.dot(d));
-    sum.implicit_work += static_cast<double>(rest.dot(d));
-    sum.air -= static_cast<double>(air.dot(d));
-    if (held[i]) sum.handle_work -= static_cast<double>((bend + rest + weight).dot(d));
-  });
+  for_each(
+      *device_, "explicit substep", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> bend = bending.at(i), rest = force[i], weight = mass[i] * g;
+        VertexLedger& sum = ledger[i];
+        const Vec3<Real> air = held[i] ? Vec3<Real>(Vec3<Real>::Zero()) : Vec3<Real>(-drag * mass[i] * v[i]);
+        if (!held[i]) {
+          const Vec3<Real> dv = dt / mass[i] * (bend + rest + weight + air);
+          v[i] += dv;
+          sum.inertia += static_cast<double>(mass[i] / 2 * dv.squaredNorm());
+        }
+        const Vec3<Real> d = dt * v[i];
+        x[i] += d;
+        sum.bending_work += static_cast<double>(bend.dot(d));
+        sum.gravity_work += static_cast<double>(weight.dot(d));
+        sum.implicit_work += static_cast<double>(rest.dot(d));
+        sum.air -= static_cast<double>(air.dot(d));
+        if (held[i]) sum.handle_work -= static_cast<double>((bend + rest + weight).dot(d));
+      });
   membrane_.add_viscous_loss(v_.data(), dt);
 }
 
@@ -195,12 +204,13 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
   const bool together = together_;
   const Vec3<Real>*total = change_.data(), *impulse = impulse_.data();
   Vec3<Real>* rhs = rhs_.data();
-  for_each(*device_, "implicit forces", vertices_, HYST_KERNEL(int i) {
-    rhs[i] = h * force.at(i);
-    if (together) rhs[i] += impulse[i];
-    if (!first) rhs[i] -= mass[i] * total[i];
-    for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += mass[i];
-  });
+  for_each(
+      *device_, "implicit forces", vertices_, HYST_KERNEL(int i) {
+        rhs[i] = h * force.at(i);
+        if (together) rhs[i] += impulse[i];
+        if (!first) rhs[i] -= mass[i] * total[i];
+        for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += mass[i];
+      });
   clock_.end(Stage::membrane);
   if (!contact_) return;
   clock_.begin(Stage::contact);
@@ -214,27 +224,30 @@ void Stepper<Real, Device>::implicit_stage(Real h) {
   for (int iteration = 0; iteration < newton; ++iteration) {
     linear_system(h, iteration == 0);
     clock_.begin(Stage::solve);
-    const PcgOutcome outcome = pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
-                                          correction_.data(), scene_.solver_tolerance, kMostIterations);
+    const PcgOutcome outcome =
+        pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
+                   correction_.data(), scene_.solver_tolerance, kMostIterations);
     solver_iterations_ += outcome.iterations;
     const Vec3<Real>* dv = correction_.data();
     Vec3<Real>*x = x_.data(), *v = v_.data(), *total = change_.data();
     const char* held = held_.data();
     const bool first = iteration == 0;
-    for_each(*device_, "correct", vertices_, HYST_KERNEL(int i) {
-      if (held[i]) return;
-      total[i] = first ? dv[i] : Vec3<Real>(total[i] + dv[i]);
-      v[i] += dv[i];
-      x[i] += h * dv[i];
-    });
+    for_each(
+        *device_, "correct", vertices_, HYST_KERNEL(int i) {
+          if (held[i]) return;
+          total[i] = first ? dv[i] : Vec3<Real>(total[i] + dv[i]);
+          v[i] += dv[i];
+          x[i] += h * dv[i];
+        });
     clock_.end(Stage::solve);
   }
   accept_implicit(h);
   membrane_.add_viscous_loss(v_.data(), h);
 }
 
-// The impulse that really acted is M dv, whatever the linearisation and the solver's tolerance made of it.  The impulse
-// on a held vertex is that of the last linear system: rhs - matrix dv, without the mass because its own dv is 0.
+// The impulse that really acted is M dv, whatever the linearisation and the solver's tolerance made of it.
+// The impulse on a held vertex is that of the last linear system: rhs - matrix dv, without the mass because
+// its own dv is 0.
 template <class Real, class Device>
 void Stepper<Real, Device>::accept_implicit(Real h) {
   const Real* mass = mass_.data();
@@ -246,25 +259,27 @@ void Stepper<Real, Device>::accept_implicit(Real h) {
   const Vec3<Real> g = scene_.gravity.cast<Real>();
   const bool handles = moving_pins_, together = together_;
   VertexLedger* ledger = ledger_.data();
-  for_each(*device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
-    if (held[i] && !handles) return;
-    VertexLedger& sum = ledger[i];
-    Vec3<Real> impulse = held[i] ? Vec3<Real>(rhs[i] - matrix.times(i, last)) : Vec3<Real>(mass[i] * total[i]);
-    if (!held[i]) sum.inertia += static_cast<double>(mass[i] / 2 * total[i].squaredNorm());
-    if (together) {
-      const Vec3<Real> bend = bending.at(i), weight = mass[i] * g, d = h * v[i];
-      sum.bending_work += static_cast<double>(bend.dot(d));
-      sum.gravity_work += static_cast<double>(weight.dot(d));
-      if (held[i])
-        sum.handle_work -= static_cast<double>((bend + weight).dot(d));
-      else
-        sum.air -= static_cast<double>((explicit_impulse[i] - h * (bend + weight)).dot(v[i]));
-      impulse -= explicit_impulse[i];
-    }
-    const double work = static_cast<double>(impulse.dot(v[i]));
-    sum.implicit_work += work;
-    if (held[i]) sum.handle_work -= work;
-  });
+  for_each(
+      *device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
+        if (held[i] && !handles) return;
+        VertexLedger& sum = ledger[i];
+        Vec3<Real> impulse =
+            held[i] ? Vec3<Real>(rhs[i] - matrix.times(i, last)) : Vec3<Real>(mass[i] * total[i]);
+        if (!held[i]) sum.inertia += static_cast<double>(mass[i] / 2 * total[i].squaredNorm());
+        if (together) {
+          const Vec3<Real> bend = bending.at(i), weight = mass[i] * g, d = h * v[i];
+          sum.bending_work += static_cast<double>(bend.dot(d));
+          sum.gravity_work += static_cast<double>(weight.dot(d));
+          if (held[i])
+            sum.handle_work -= static_cast<double>((bend + weight).dot(d));
+          else
+            sum.air -= static_cast<double>((explicit_impulse[i] - h * (bend + weight)).dot(v[i]));
+          impulse -= explicit_impulse[i];
+        }
+        const double work = static_cast<double>(impulse.dot(v[i]));
+        sum.implicit_work += work;
+        if (held[i]) sum.handle_work -= work;
+      });
 }
 
 template class Stepper<double, ThisDevice>;

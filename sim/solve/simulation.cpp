@@ -6,8 +6,8 @@
 
 #include "sim/bending/bending.h"
 #include "sim/contact/penalty.h"
-#include "sim/membrane/membrane.h"
 #include "sim/error.h"
+#include "sim/membrane/membrane.h"
 #include "sim/solve/back_end.h"
 
 namespace hysteron {
@@ -17,7 +17,8 @@ namespace {
 constexpr double kStabilityMargin = 0.9;
 constexpr int kMostSubsteps = 100000;
 
-// Stiffness of the law over that of `linear` bounds the frequency; the chapter's printed force has 1/2 in place of |e|.
+// Stiffness of the law over that of `linear` bounds the frequency; the chapter's printed force has 1/2 in
+// place of |e|.
 double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
                           const std::vector<double>& mass, const std::vector<char>& held, double stiffness) {
   double lambda = bending_spectral_radius(cloth.mesh, op, stiffness, mass, held);
@@ -62,7 +63,8 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   const double least = std::ceil(scene.step / largest);
   if (least > kMostSubsteps)
     throw Error::request("step = " + number(scene.step) + " s would take " + number(least) +
-                         " explicit substeps of at most " + number(largest) + " s: coarsen the mesh or soften b1");
+                         " explicit substeps of at most " + number(largest) +
+                         " s: coarsen the mesh or soften b1");
   limits.substeps = std::max(1, static_cast<int>(least));
   if (scene.substeps > 0) {
     if (scene.substeps < limits.substeps)
@@ -87,7 +89,8 @@ bool wants_gpu(const Scene& scene) {
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
   if (scene.integrator != "semi-implicit" && scene.integrator != "explicit")
-    throw Error::request("integrator = " + scene.integrator + " is not built yet: use semi-implicit or explicit");
+    throw Error::request("integrator = " + scene.integrator +
+                         " is not built yet: use semi-implicit or explicit");
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");

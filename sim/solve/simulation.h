@@ -44,15 +44,15 @@ class Simulation {
   virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
   virtual int dimension() const = 0;                      // 1: elements are hinges, 3: elements are faces
   virtual Ledger ledger() = 0;
-  virtual double largest_stretch() = 0;                   // largest principal stretch minus 1
-  virtual std::uint64_t state_hash() = 0;                 // of positions and velocities, bit for bit
+  virtual double largest_stretch() = 0;    // largest principal stretch minus 1
+  virtual std::uint64_t state_hash() = 0;  // of positions and velocities, bit for bit
 
   virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
   virtual double solver_iterations() const = 0;  // mean per step
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;
-  virtual double copy_bandwidth() = 0;  // of this device, bytes read plus written [byte/s], measured
+  virtual double copy_bandwidth() = 0;     // of this device, bytes read plus written [byte/s], measured
   virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
 };
 

@@ -35,18 +35,28 @@ std::uint64_t fnv1a(const void* memory, std::size_t bytes, std::uint64_t hash) {
 template <class Real, class Device>
 Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth,
                                const CurvatureOperator& op, const StepLimits& limits)
-    : device_(std::move(device)), scene_(scene), explicit_(scene.integrator == "explicit"),
+    : device_(std::move(device)),
+      scene_(scene),
+      explicit_(scene.integrator == "explicit"),
       together_(!explicit_ && scene.implicit_every == "substep"),
-      vertices_(cloth.mesh.vertices()), limits_(limits), clock_(*device_), matrix_(*device_, cloth.mesh),
+      vertices_(cloth.mesh.vertices()),
+      limits_(limits),
+      clock_(*device_),
+      matrix_(*device_, cloth.mesh),
       membrane_(*device_, cloth.mesh, scene.fabric, matrix_),
       bending_(*device_, cloth.mesh, op,
-               make_law_loop<Real>(*device_, scene.law, scene.param, scene.fabric.virgin_curve(), op.dimension,
-                                   op.elements()),
+               make_law_loop<Real>(*device_, scene.law, scene.param, scene.fabric.virgin_curve(),
+                                   op.dimension, op.elements()),
                scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
                scene.fabric.damping * scene.fabric.b1),
-      pcg_(*device_, explicit_ ? 0 : vertices_), pin_host_(cloth.pin), x_(*device_, cast<Real>(cloth.start)),
-      v_(*device_, vertices_), rhs_(*device_, vertices_), mass_(*device_, masses<Real>(scene, cloth.mesh)),
-      held_(*device_, cloth.held(scene, 0)), ledger_(*device_, vertices_) {
+      pcg_(*device_, explicit_ ? 0 : vertices_),
+      pin_host_(cloth.pin),
+      x_(*device_, cast<Real>(cloth.start)),
+      v_(*device_, vertices_),
+      rhs_(*device_, vertices_),
+      mass_(*device_, masses<Real>(scene, cloth.mesh)),
+      held_(*device_, cloth.held(scene, 0)),
+      ledger_(*device_, vertices_) {
   if (!explicit_) {
     change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
@@ -136,8 +146,8 @@ Ledger Stepper<Real, Device>::ledger() {
     ledger.contact_friction = contact.friction;
     ledger.obstacle_work = contact.obstacle_work;
   }
-  ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - viscous_bending -
-                       bending_work;
+  ledger.bending_gap =
+      initial_.bending - ledger.bending - ledger.bending_friction - viscous_bending - bending_work;
   ledger.gravity_gap = -ledger.gravitational - gravity_work;
   ledger.implicit_gap = initial_.membrane - ledger.membrane + initial_.contact - ledger.contact -
                         viscous_membrane - ledger.contact_friction + ledger.obstacle_work - implicit_work;
@@ -163,7 +173,8 @@ double Stepper<Real, Device>::copy_bandwidth() {
   for (int round = 0; round < kRounds; ++round) {
     wait();
     const auto start = std::chrono::steady_clock::now();
-    for_each(*device_, "copy", kDoubles, HYST_KERNEL(int i) { target[i] = source[i]; });
+    for_each(
+        *device_, "copy", kDoubles, HYST_KERNEL(int i) { target[i] = source[i]; });
     wait();
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
@@ -184,7 +195,8 @@ template <class Real, class Device>
 std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   const LawLoop<Real, Device>& law = bending_.law();
   std::vector<ScenePart> parts;
-  const auto add = [&](const char* name, bool included, std::size_t bytes, const char* kernels, const char* why) {
+  const auto add = [&](const char* name, bool included, std::size_t bytes, const char* kernels,
+                       const char* why) {
     parts.push_back({name, included, bytes, kernels, included ? "" : why});
   };
   add("state", true, x_.bytes() + v_.bytes() + mass_.bytes() + rhs_.bytes() + held_.bytes(), "substep", "");

@@ -1,4 +1,5 @@
-// The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp steps.
+// The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp
+// steps.
 #pragma once
 
 #include <optional>
@@ -58,18 +59,17 @@ class Stepper : public Simulation {
   std::string device() const override;
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
-  void stage(double start, Real h);   // one implicit solve and what leads to it
-  void hold(double start, Real h);    // pins: which vertices are held, and their velocity in this stage
-  void gather_impulses(Real h);       // bending and external forces, for a stage in which all forces act together
-  void substep(Real dt);              // bending and external forces, explicit
-  void explicit_substep(Real dt);     // every force, explicit
-  void implicit_stage(Real h);        // tension, damping and contact, implicit
+  void stage(double start, Real h);  // one implicit solve and what leads to it
+  void hold(double start, Real h);   // pins: which vertices are held, and their velocity in this stage
+  void gather_impulses(Real h);  // bending and external forces, for a stage in which all forces act together
+  void substep(Real dt);         // bending and external forces, explicit
+  void explicit_substep(Real dt);  // every force, explicit
+  void implicit_stage(Real h);     // tension, damping and contact, implicit
   void linear_system(Real h, bool first);
   void accept_implicit(Real h);
 
  private:
-  void choose_substeps(const Cloth& cloth, const CurvatureOperator& op,
-          const StepLimits& limits);
+  void choose_substeps(const Cloth& cloth, const CurvatureOperator& op, const StepLimits& limits);
   Ledger measure();
 
   std::unique_ptr<Device> device_;
@@ -89,8 +89,9 @@ class Stepper : public Simulation {
   bool moving_pins_ = false, held_changes_ = false;
   std::vector<int> pin_host_;
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
-  Buffer<Vec3<Real>, Device> impulse_;              // of the explicit forces over a stage [N s]
-  Buffer<Vec3<Real>, Device> change_, correction_;  // dv of the implicit stage, and of its last Newton step [m/s]
+  Buffer<Vec3<Real>, Device> impulse_;  // of the explicit forces over a stage [N s]
+  Buffer<Vec3<Real>, Device> change_,
+      correction_;  // dv of the implicit stage, and of its last Newton step [m/s]
   Buffer<Real, Device> mass_;
   Buffer<int, Device> pin_;
   Buffer<char, Device> held_;

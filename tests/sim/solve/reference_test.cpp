@@ -40,11 +40,13 @@ struct ImplicitSystem {
       rows.view().diagonal[i].diagonal().array() += trial.mass(i);
   }
 
-  // For `rhs`; `scale` times the load is the impulse that the tolerance is relative to.
+  // For `rhs`; the tolerance is relative to rhs + `scale` times the load.
   PcgOutcome solve(const std::vector<Vector3d>& rhs, double scale, double tolerance, int iterations,
                    std::vector<Vector3d>& solution) {
     Pcg<double, Cpu> pcg(cpu, static_cast<int>(held.size()));
-    return pcg.solve(rows.view(), held.data(), rhs.data(), load.data(), scale, solution.data(), tolerance,
+    std::vector<Vector3d> known;
+    for (const Vector3d& f : load) known.push_back(-scale * f);
+    return pcg.solve(rows.view(), held.data(), rhs.data(), known.data(), solution.data(), tolerance,
                      iterations);
   }
 
