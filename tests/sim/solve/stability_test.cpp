@@ -13,7 +13,7 @@ namespace {
 using test::Trial;
 
 // Margin between the stated step and 2/omega (sim/solve/simulation.cpp).
-constexpr double kMargin = 0.9;
+constexpr double kMargin = 0.75;
 
 Scene unloaded(const std::string& element, const std::string& law) {
   Scene scene = test::free_square(100);
