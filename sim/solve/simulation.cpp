@@ -13,8 +13,9 @@
 namespace hysteron {
 namespace {
 
-// Power iteration approaches the highest frequency from below, folds stiffen a mesh, and near the bound bending waves
-// feed on the membrane: at 0.9 a shaken sheet slowly gains energy (tests/sim/solve/stability_test.cpp).
+// Power iteration approaches the highest frequency from below, folds stiffen a mesh, and near the bound
+// bending waves feed on the membrane: at 0.9 a shaken sheet slowly gains energy
+// (tests/sim/solve/stability_test.cpp).
 constexpr double kStabilityMargin = 0.75;
 constexpr int kMostSubsteps = 100000;
 
