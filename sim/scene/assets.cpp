@@ -38,6 +38,13 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
                        "); there are: " + join(names, ", ") + hint);
 }
 
+std::string asset_name(const fs::path& file) {
+  const fs::path inside = fs::absolute(file).lexically_normal().lexically_relative(
+      fs::absolute(assets_folder()).lexically_normal());
+  const bool outside = inside.empty() || *inside.begin() == "..";
+  return outside ? file.string() : ("assets" / inside).string();
+}
+
 std::vector<std::string> list_assets(const std::string& kind) {
   std::vector<std::string> names;
   std::error_code ignored;

@@ -16,6 +16,9 @@ std::filesystem::path assets_folder();
 // "scenes").  `origin` says who asks.  Throws Error::request with the nearest name if there is none.
 std::filesystem::path find_asset(const std::string& kind, const std::string& name, const std::string& origin);
 
+// How a record names a file: assets/... if it lies in the assets folder, which is elsewhere on every machine.
+std::string asset_name(const std::filesystem::path& file);
+
 // Names of all assets of a kind, sorted, without folder and ending.
 std::vector<std::string> list_assets(const std::string& kind);
 

@@ -21,7 +21,7 @@ namespace hysteron {
 struct FabricFile {
   Fabric fabric;
   std::string description;
-  std::map<std::string, std::string> place;  // of each parameter: "fabrics/cotton-broad.toml:12"
+  std::map<std::string, std::string> place;  // of each parameter: "assets/fabrics/cotton-broad.toml:12"
 };
 
 // KES units (Kawabata 1980) in SI; 1 gf = 9.80665e-3 N by definition.

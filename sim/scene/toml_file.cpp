@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "sim/error.h"
+#include "sim/scene/assets.h"
 
 namespace hysteron {
 namespace {
@@ -95,7 +96,7 @@ TomlNode read_toml(const std::string& file) {
 }
 
 std::string place(const std::string& file, const TomlNode& node) {
-  return file + ":" + std::to_string(node.line);
+  return asset_name(file) + ":" + std::to_string(node.line);
 }
 
 }  // namespace hysteron

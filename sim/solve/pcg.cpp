@@ -20,22 +20,44 @@ std::size_t Pcg<Real, Device>::bytes() const {
   return inverse_.bytes() + 4 * r_.bytes() + scalars_.bytes();
 }
 
+// q = matrix * guess, and the factor alpha for which alpha * guess is nearest to the solution.
+template <class Real, class Device>
+void Pcg<Real, Device>::project(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+                                const Vec3<Real>* guess) {
+  Vec3<Real>* q = q_.data();
+  Scalars* s = scalars_.data();
+  for_each_sum<2>(
+      device_, "solve: guess", rows_,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        if (held[i]) return;
+        q[i] = matrix.times(i, guess);
+        sums.term[0] += static_cast<double>(guess[i].dot(rhs[i]));
+        sums.term[1] += static_cast<double>(guess[i].dot(q[i]));
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        s->alpha = total.term[1] > 0 ? total.term[0] / total.term[1] : 0;
+      });
+}
+
 template <class Real, class Device>
 void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                              const Vec3<Real>* known, Vec3<Real>* x, double tolerance) {
+                              const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
+                              double tolerance) {
+  if (guess) project(matrix, held, rhs, guess);
+  const Vec3<Real>* q = q_.data();
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   Scalars* s = scalars_.data();
   for_each_sum<2>(
       device_, "solve: start", rows_,
       HYST_KERNEL(int i, Sums<2>& sums) {
-        x[i].setZero();
         if (held[i]) {
-          r[i] = z[i] = p[i] = Vec3<Real>::Zero();
+          x[i] = r[i] = z[i] = p[i] = Vec3<Real>::Zero();
           return;
         }
         inverse[i] = matrix.diagonal[i].inverse();
-        r[i] = rhs[i];
+        x[i] = guess ? Vec3<Real>(static_cast<Real>(s->alpha) * guess[i]) : Vec3<Real>(Vec3<Real>::Zero());
+        r[i] = guess ? Vec3<Real>(rhs[i] - static_cast<Real>(s->alpha) * q[i]) : rhs[i];
         z[i] = inverse[i] * r[i];
         p[i] = z[i];
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
@@ -93,9 +115,9 @@ void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Ve
 // took.
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                                    const Vec3<Real>* known, Vec3<Real>* x, double tolerance,
-                                    int most_iterations) {
-  start(matrix, held, rhs, known, x, tolerance);
+                                    const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
+                                    double tolerance, int most_iterations) {
+  start(matrix, held, rhs, known, guess, x, tolerance);
   constexpr int kAskAgain = 4;
   Scalars scalars{};
   for (int sent = 0;;) {

@@ -15,11 +15,14 @@ class Pcg {
  public:
   Pcg(Device& device, int rows);
 
-  // Solves matrix * x = rhs for the rows that are not held, from x = 0; held rows of x are zero.
-  // Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the inverted diagonal blocks:
-  // where known impulses balance those of the implicit forces, these set the scale.  known may be null.
+  // Solves matrix * x = rhs for the rows that are not held; held rows of x are zero.
+  // Starts from the multiple of `guess` that is best in the matrix's norm, from x = 0 if guess is null;
+  // `guess` may be x itself. Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the
+  // inverted diagonal blocks: where known impulses balance those of the implicit forces, these set the scale.
+  // known may be null.
   PcgOutcome solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                   const Vec3<Real>* known, Vec3<Real>* x, double tolerance, int most_iterations);
+                   const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x, double tolerance,
+                   int most_iterations);
   std::size_t bytes() const;
 
   struct Scalars {  // on the device, so that iterations need no word from the host
@@ -27,8 +30,9 @@ class Pcg {
     int iterations, done;
   };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
+  void project(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* guess);
   void start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
-             Vec3<Real>* x, double tolerance);
+             const Vec3<Real>* guess, Vec3<Real>* x, double tolerance);
   void iterate(BlockRowsView<Real> matrix, const char* held, Vec3<Real>* x);
 
  private:

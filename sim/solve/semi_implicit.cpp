@@ -24,6 +24,9 @@
 // splitting of the step, whose two stages move the cloth apart.
 #include "sim/solve/stepper.h"
 
+#include <cmath>
+#include <string>
+
 #include "sim/error.h"
 
 namespace hysteron {
@@ -42,6 +45,22 @@ void Stepper<Real, Device>::advance(int steps) {
       stage(time() + scene_.step * k / stages, static_cast<Real>(scene_.step / stages));
     ++step_count_;
   }
+  refuse_divergence();
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::refuse_divergence() {
+  const Vec3<Real>*x = x_.data(), *v = v_.data();
+  double* size = size_.data();
+  for_each_sum<1>(
+      *device_, "finite", vertices_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        sums.term[0] += static_cast<double>(x[i].squaredNorm() + v[i].squaredNorm());
+      },
+      HYST_KERNEL(const Sums<1>& total) { *size = total.term[0]; });
+  if (std::isfinite(size_.download()[0])) return;
+  throw Error::run("the simulation diverged before t = " + std::to_string(time()) +
+                   " s: take a smaller step (step = " + std::to_string(scene_.step) + " s)");
 }
 
 template <class Real, class Device>
@@ -226,7 +245,8 @@ void Stepper<Real, Device>::implicit_stage(Real h) {
     clock_.begin(Stage::solve);
     const PcgOutcome outcome =
         pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
-                   correction_.data(), scene_.solver_tolerance, kMostIterations);
+                   iteration == 0 ? change_.data() : nullptr, correction_.data(), scene_.solver_tolerance,
+                   kMostIterations);
     solver_iterations_ += outcome.iterations;
     const Vec3<Real>* dv = correction_.data();
     Vec3<Real>*x = x_.data(), *v = v_.data(), *total = change_.data();

@@ -67,6 +67,7 @@ class Stepper : public Simulation {
   void implicit_stage(Real h);     // tension, damping and contact, implicit
   void linear_system(Real h, bool first);
   void accept_implicit(Real h);
+  void refuse_divergence();  // Error::run when a position or velocity is no longer finite
 
  private:
   void choose_substeps(const Cloth& cloth, const CurvatureOperator& op, const StepLimits& limits);
@@ -96,6 +97,7 @@ class Stepper : public Simulation {
   Buffer<int, Device> pin_;
   Buffer<char, Device> held_;
   Buffer<VertexLedger, Device> ledger_;
+  Buffer<double, Device> size_;  // sum of all squares of the state, to see whether it is finite
   Ledger initial_;
 };
 

@@ -140,6 +140,15 @@ TEST(Assets, AreTakenFromTheNamedFolderFirst) {
   EXPECT_EQ(fabric.name, "mine");
 }
 
+// A record made on one machine is read on another, where the folder lies elsewhere.
+TEST(Assets, AreNamedWithoutTheFolderTheyLieIn) {
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  for (const auto& [key, place] : file.place)
+    EXPECT_EQ(place.find("assets/fabrics/cotton-broad.toml:"), 0) << key;
+  EXPECT_EQ(asset_name(assets_folder() / "scenes" / ".." / "fabrics" / "a.toml"), "assets/fabrics/a.toml");
+  EXPECT_EQ(asset_name("/elsewhere/a.toml"), "/elsewhere/a.toml");
+}
+
 TEST(Assets, InAFolderThatIsNotThereAreAMachineError) {
   setenv("HYSTERON_ASSETS", "/nowhere", 1);
   const Failure failure = failure_of([] { list_assets("fabrics"); });

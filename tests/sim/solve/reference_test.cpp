@@ -42,11 +42,11 @@ struct ImplicitSystem {
 
   // For `rhs`; the tolerance is relative to rhs + `scale` times the load.
   PcgOutcome solve(const std::vector<Vector3d>& rhs, double scale, double tolerance, int iterations,
-                   std::vector<Vector3d>& solution) {
+                   std::vector<Vector3d>& solution, const Vector3d* guess = nullptr) {
     Pcg<double, Cpu> pcg(cpu, static_cast<int>(held.size()));
     std::vector<Vector3d> known;
     for (const Vector3d& f : load) known.push_back(-scale * f);
-    return pcg.solve(rows.view(), held.data(), rhs.data(), known.data(), solution.data(), tolerance,
+    return pcg.solve(rows.view(), held.data(), rhs.data(), known.data(), guess, solution.data(), tolerance,
                      iterations);
   }
 
@@ -112,6 +112,22 @@ TEST(ConjugateGradients, JudgeASmallCorrectionByTheImpulseThatItCorrects) {
   const PcgOutcome judged = system.solve(small, 1, kTolerance, 2000, solution);
   EXPECT_EQ(judged.iterations, 0);
   EXPECT_TRUE(judged.converged);
+}
+
+// A guess of the right direction but the wrong length is as good as the solution, and an opposite one
+// harmless.
+TEST(ConjugateGradients, StartFromTheBestMultipleOfAGuess) {
+  constexpr double kTolerance = 1e-8;
+  ImplicitSystem system;
+  std::vector<Vector3d> solution(system.held.size()), again(system.held.size());
+  const int cold = system.solve(system.load, 0, kTolerance, 2000, solution).iterations;
+  EXPECT_GT(cold, 10);
+  std::vector<Vector3d> guess;
+  for (const Vector3d& x : solution) guess.push_back(-0.1 * x);
+  EXPECT_LE(system.solve(system.load, 0, 1.5 * kTolerance, 2000, again, guess.data()).iterations, 1);
+  for (Vector3d& x : guess) x.setZero();
+  EXPECT_EQ(system.solve(system.load, 0, kTolerance, 2000, again, guess.data()).iterations, cold);
+  EXPECT_EQ(again, solution);
 }
 
 TEST(ConjugateGradients, SayWhenTheyDidNotConverge) {

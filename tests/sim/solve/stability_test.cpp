@@ -152,8 +152,7 @@ TEST(Divergence, IsReportedAsAFailedRunWithTheStep) {
   const auto simulation = make_cpu_simulation(trial.scene, trial.cloth, op, limits);
   try {
     simulation->advance(100);
-    simulation->ledger();
-    FAIL() << "the ledger of a diverged run was accepted";
+    FAIL() << "a diverged state was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), 3);
     EXPECT_NE(std::string(error.what()).find("smaller step"), std::string::npos) << error.what();
