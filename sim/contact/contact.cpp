@@ -139,24 +139,9 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
         const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
         const Real kt = model.tangential * area[i] * s.share;
         rhs[i] += step * (t.normal_force - kt * s.trial);
+        if (!diagonal) return;
         diagonal[i] += step * step *
                        (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
-      });
-}
-
-template <class Real, class Device>
-void Contact<Real, Device>::add_forces(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* force) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
-  const ObstacleSet<Real> set = set_;
-  const Real* area = area_.data();
-  const Vec3<Real>* slipped = slip_.data();
-  const int* touching = touching_.data();
-  for_each(
-      device_, "contact forces", vertices_, HYST_KERNEL(int i) {
-        const Touch<Real> t = touch(set, model, x[i], area[i]);
-        if (t.index < 0) return;
-        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-        force[i] += t.normal_force - model.tangential * area[i] * s.share * s.trial;
       });
 }
 

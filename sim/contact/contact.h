@@ -44,11 +44,9 @@ class Contact {
 
   // Places the obstacles for the step from `start` to `end` [s].
   void move(double start, double end);
-  // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks.
+  // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks, unless these are null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            Mat3<Real>* diagonal);
-  // Adds the forces at `position` (explicit integration).
-  void add_forces(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* force);
   // Accepts the positions: slips and losses.
   void commit(const Vec3<Real>* position, const Vec3<Real>* before);
 

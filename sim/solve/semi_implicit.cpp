@@ -183,7 +183,7 @@ void Stepper<Real, Device>::explicit_substep(Real dt) {
   Vec3<Real>* force = rhs_.data();
   for_each(
       *device_, "explicit forces", vertices_, HYST_KERNEL(int i) { force[i] = membrane.at(i); });
-  if (contact_) contact_->add_forces(x_.data(), before_.data(), force);
+  if (contact_) contact_->add(x_.data(), before_.data(), 1, force, nullptr);
   const Vec3<Real> g = scene_.gravity.cast<Real>();
   const Real drag = static_cast<Real>(scene_.air_drag / scene_.fabric.density);
   const Real* mass = mass_.data();
