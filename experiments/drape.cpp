@@ -84,8 +84,7 @@ double coefficient(const Session& session, const DrapeChoice& choice, const std:
 double shadow_coefficient(Session& session, const DrapeChoice& choice) {
   double metres = 0;
   const double radius = session.scene().cloth.radius;
-  render::Image shadow =
-      session.pictures()->silhouette(session.simulation(), 1.08 * radius, kShadowPixels, metres);
+  render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
   char text[160];
   std::snprintf(text, sizeof text, "%s, law %s\nshadow from above: drape coefficient %.1f %%",
@@ -146,8 +145,7 @@ void draw_maps(Session& session) {
   const std::string what = session.scene().fabric.name + ", law " + session.scene().law;
   for (const char* look : {"curvature", "friction"})
     render::write_png(session.run().path(std::string(look) + ".png"),
-                      pictures.picture(session.simulation(), look, pictures.camera(), what),
-                      render::PngEffort::best);
+                      pictures.picture(look, pictures.camera(), what), render::PngEffort::best);
 }
 
 }  // namespace

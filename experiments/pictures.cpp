@@ -81,13 +81,15 @@ std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double
   return vertex_average(cloth, trace, 3);
 }
 
-Pictures::Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds,
+Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
                    std::optional<float> floor)
     : scene_(setup.scene),
       options_(setup.options),
       cloth_(cloth),
+      simulation_(simulation),
       bounds_(bounds),
-      offscreen_(render::Offscreen::create(render::renderer_named(setup.options.renderer))) {
+      offscreen_(render::Offscreen::create(render::renderer_named(setup.options.renderer),
+                                           simulation.cuda_device())) {
   view_ = std::make_unique<render::ClothView>(*offscreen_,
                                               render::PictureSize{options_.width(), options_.height()});
   std::vector<int> triangles;
@@ -101,6 +103,8 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bo
   }
   view_->set_ground(floor);
   view_->set_bounds(bounds);
+  view_->share_positions(
+      simulation.share_positions(view_->position_buffer(), offscreen_->cuda_device(), why_host_));
 }
 
 render::Camera Pictures::camera() const {
@@ -109,19 +113,19 @@ render::Camera Pictures::camera() const {
                                  static_cast<float>(options_.camera_fov), aspect);
 }
 
-void Pictures::show(Simulation& simulation, render::ClothView& view, const std::string& look_name) {
+void Pictures::show(render::ClothView& view, const std::string& look_name) {
   render::Look look = render::look_named(look_name);
   if (look.show == render::Show::curvature) {
     look.value_high = static_cast<float>(kCurvatureRange * scene_.fabric.k0);
     look.value_low = -look.value_high;
-    view.set_values(vertex_curvature(cloth_, simulation.curvature(), simulation.dimension()));
+    view.set_values(vertex_curvature(cloth_, simulation_.curvature(), simulation_.dimension()));
   } else if (look.show == render::Show::friction) {
     look.value_low = 0;
     look.value_high = 1;
-    view.set_values(vertex_average(cloth_, simulation.friction_share(), simulation.dimension()));
+    view.set_values(vertex_average(cloth_, simulation_.friction_share(), simulation_.dimension()));
   }
   view.set_look(look);
-  view.set_positions(flat(simulation.positions()));
+  if (!view.write_positions(why_host_)) view.set_positions(flat(simulation_.positions()));
 }
 
 std::string Pictures::caption(double time) const {
@@ -130,14 +134,14 @@ std::string Pictures::caption(double time) const {
   return scene_.fabric.name + ", law " + scene_.law + "\n" + text;
 }
 
-render::Image Pictures::picture(Simulation& simulation, const std::string& look_name,
-                                const render::Camera& camera, const std::string& text) {
+render::Image Pictures::picture(const std::string& look_name, const render::Camera& camera,
+                                const std::string& text) {
   const auto start = Clock::now();
-  show(simulation, *view_, look_name);
+  show(*view_, look_name);
   for (std::size_t i = 0; i < obstacle_.size(); ++i) {
     if (obstacle_[i] < 0) continue;
-    view_->move_obstacle(obstacle_[i], placed_at(scene_.obstacle[i], simulation.time()));
-    view_->show_obstacle(obstacle_[i], simulation.time() < scene_.obstacle[i].until);
+    view_->move_obstacle(obstacle_[i], placed_at(scene_.obstacle[i], simulation_.time()));
+    view_->show_obstacle(obstacle_[i], simulation_.time() < scene_.obstacle[i].until);
   }
   render::Image image = view_->draw(camera);
   render::draw_caption(image, text, render::Corner::top_left);
@@ -154,25 +158,24 @@ render::Image Pictures::picture(Simulation& simulation, const std::string& look_
   return image;
 }
 
-void Pictures::frame(Run& run, Simulation& simulation) {
-  render::Image image = picture(simulation, options_.look, camera(), caption(simulation.time()));
+void Pictures::frame(Run& run) {
+  render::Image image = picture(options_.look, camera(), caption(simulation_.time()));
   char name[32];
   std::snprintf(name, sizeof name, "frames/%04d.png", frames_++);
   const int width = std::min(kThumbnailWidth, image.width());
   char time[32];
-  std::snprintf(time, sizeof time, "t = %.2f s", simulation.time());
+  std::snprintf(time, sizeof time, "t = %.2f s", simulation_.time());
   thumbnails_.push_back(
       {render::shrink(image, width, std::max(1, image.height() * width / image.width())), time});
   writer_.write(run.path(name), std::move(image));
 }
 
-render::Image Pictures::silhouette(Simulation& simulation, double half_width, int pixels,
-                                   double& metres_per_pixel) {
+render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {
   render::ClothView view(*offscreen_, {pixels, pixels});
   std::vector<int> triangles;
   for (const auto& t : cloth_.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
   view.set_cloth({static_cast<size_t>(cloth_.mesh.vertices()), triangles, {}});
-  show(simulation, view, "silhouette");
+  show(view, "silhouette");
   const float r = static_cast<float>(half_width);
   const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
   const render::Camera camera = render::Camera::top(box, 1);
@@ -189,6 +192,7 @@ void Pictures::finish(Run& run, const std::string& title) {
     render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
                       render::PngEffort::best);
   run.note("renderer", renderer());
+  run.note("positions", positions_way());
   run.add_seconds("render", render_seconds_);
   run.add_seconds("encode", writer_.encode_seconds());
 }

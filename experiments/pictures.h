@@ -21,33 +21,38 @@ std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>&
 
 class Pictures {
  public:
-  // `bounds`: what every picture of the sequence frames; `floor`: height of the visible ground [m].
-  Pictures(const Setup& setup, const Cloth& cloth, const render::Box& bounds, std::optional<float> floor);
+  // `simulation`: what is drawn; it must outlive the pictures.  `bounds`: what every picture of the sequence
+  // frames; `floor`: height of the visible ground [m].
+  Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
+           std::optional<float> floor);
 
   const std::string& renderer() const { return offscreen_->description(); }
+  // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
+  std::string positions_way() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
   // Draws the present state as the next of frames/, captioned with what is simulated and the time.
-  void frame(Run& run, Simulation& simulation);
+  void frame(Run& run);
   // Draws the present state in a look of its own, with caption and colour bar.
-  render::Image picture(Simulation& simulation, const std::string& look, const render::Camera& camera,
-                        const std::string& caption);
+  render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
   // The sequence's camera.
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
-  render::Image silhouette(Simulation& simulation, double half_width, int pixels, double& metres_per_pixel);
+  render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files and writes sheet.png.
   void finish(Run& run, const std::string& title);
 
  private:
-  void show(Simulation& simulation, render::ClothView& view, const std::string& look_name);
+  void show(render::ClothView& view, const std::string& look_name);
   std::string caption(double time) const;
 
   Scene scene_;
   Options options_;
   const Cloth& cloth_;
+  Simulation& simulation_;
   render::Box bounds_;
   std::unique_ptr<render::Offscreen> offscreen_;
   std::unique_ptr<render::ClothView> view_;
+  std::string why_host_;       // positions pass the host; empty: they do not
   std::vector<int> obstacle_;  // the view's number of each obstacle of the scene, -1 = not a body
   render::PngWriter writer_;
   std::vector<render::SheetEntry> thumbnails_;

@@ -125,7 +125,7 @@ std::string fabric_table(const Json& fabric) {
 
 std::string run_table(const Json& manifest) {
   Rows rows;
-  for (const char* key : {"device", "renderer", "precision", "triangles", "hinges", "steps",
+  for (const char* key : {"device", "renderer", "positions", "precision", "triangles", "hinges", "steps",
                           "seconds_simulated", "bytes_device", "state_hash"}) {
     if (manifest.contains(key) && !manifest[key].is_null())
       rows.push_back({split_unit(key).name, shown(manifest[key])});

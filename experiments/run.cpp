@@ -33,7 +33,7 @@ Json first_entries(const CommandLine& line, const Scene& scene) {
   entries["command"] = line.command;
   entries["started"] = utc_now();
   entries["scene"] = to_json(scene);
-  for (const char* key : {"device", "renderer"}) entries[key] = nullptr;
+  for (const char* key : {"device", "renderer", "positions"}) entries[key] = nullptr;
   entries["precision"] = scene.precision;
   entries["element"] = scene.element;
   entries["law"] = scene.law;

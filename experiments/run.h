@@ -34,8 +34,8 @@ class Run {
   // in the manifest.
   std::filesystem::path path(const std::string& name);
 
-  // Entries of the manifest's top level: device, renderer, triangles, hinges, steps, seconds_simulated,
-  // bytes_device, state_hash, and others.
+  // Entries of the manifest's top level: device, renderer, positions, triangles, hinges, steps,
+  // seconds_simulated, bytes_device, state_hash, and others.
   void note(const std::string& key, Json value);
   // A result.  Its name ends in its unit, counts and booleans excepted: "drape_coefficient_percent".
   void metric(const std::string& name, Json value);

@@ -82,8 +82,8 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
 
 bool Session::simulate(const Question& question) {
   if (!setup_.options.no_images) {
-    pictures_ = std::make_unique<Pictures>(setup_, cloth_, question.bounds, question.floor);
-    run_->progress("pictures: " + pictures_->renderer());
+    pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, question.bounds, question.floor);
+    run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
   }
   std::vector<std::string> columns = {"time [s]", "fastest [m/s]"};
   columns.insert(columns.end(), question.columns.begin(), question.columns.end());
@@ -103,7 +103,7 @@ bool Session::simulate(const Question& question) {
     for (double value : question.measure(moment)) row.push_back(value);
     for (const auto& [name, joules] : ledger.rows()) row.push_back(joules);
     record.row(row);
-    if (pictures_) pictures_->frame(*run_, *simulation_);
+    if (pictures_) pictures_->frame(*run_);
     export_mesh(frame, x);
     run_->progress(question.progress(moment));
     settled = frame > 0 && question.settled && question.settled(moment);

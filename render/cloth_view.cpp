@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "render/srgb.h"
 #include "sim/error.h"
@@ -81,6 +82,7 @@ ClothView::~ClothView() { offscreen_.make_current(); }
 
 void ClothView::set_cloth(const ClothTopology& topology) {
   offscreen_.make_current();
+  shared_positions_.reset();
   cloth_.emplace(gl_, topology);
   position_bounds_.reset();
 }
@@ -99,6 +101,19 @@ void ClothView::set_values(std::span<const float> values) {
 }
 
 GLuint ClothView::position_buffer() const { return cloth_ ? cloth_->position_buffer() : 0; }
+
+void ClothView::share_positions(std::unique_ptr<GlPositions> positions) {
+  offscreen_.make_current();
+  shared_positions_ = std::move(positions);
+}
+
+bool ClothView::write_positions(std::string& reason) {
+  if (!shared_positions_) return false;
+  offscreen_.make_current();
+  if (shared_positions_->write(reason)) return true;
+  shared_positions_.reset();
+  return false;
+}
 
 int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement) {
   offscreen_.make_current();

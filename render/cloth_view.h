@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/camera.h"
@@ -17,6 +19,7 @@
 #include "render/offscreen.h"
 #include "render/shadow_maps.h"
 #include "render/static_mesh.h"
+#include "sim/device/gl_positions.h"
 
 namespace hysteron::render {
 
@@ -40,8 +43,15 @@ class ClothView {
   void set_positions(std::span<const float> xyz);
   // One a vertex, for the looks that show a value.
   void set_values(std::span<const float> values);
-  // Buffer object of the positions (x, y, z floats), for a writer on the same GPU; draw after it is written.
+  // Buffer object of the positions (x, y, z floats), for a writer on the same GPU; a new one with each
+  // set_cloth().
   GLuint position_buffer() const;
+  // Takes what was opened to write position_buffer(), null for nothing.  It is closed before that buffer
+  // goes: by the next set_cloth(), or with the view.
+  void share_positions(std::unique_ptr<GlPositions> positions);
+  // Has it write the present positions.  False where nothing is shared, or no longer, because writing failed
+  // (then `reason` says why): set_positions() is the way then.
+  bool write_positions(std::string& reason);
 
   // Returns the obstacle's number.
   int add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement);
@@ -89,6 +99,7 @@ class ClothView {
   GlVertexArray no_arrays_;
   std::optional<Ground> ground_;
   std::optional<ClothSurface> cloth_;
+  std::unique_ptr<GlPositions> shared_positions_;  // of cloth_: below it, so that it is closed first
   std::vector<Obstacle> obstacles_;
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;

@@ -29,6 +29,7 @@ struct Cpu {
 
   explicit Cpu(int thread_count);
   std::string description() const;
+  int cuda_device() const { return -1; }
   void synchronize() const {}
 };
 

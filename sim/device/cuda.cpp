@@ -3,7 +3,7 @@
 
 namespace hysteron {
 
-Cuda::Cuda(int index) {
+Cuda::Cuda(int device) : index(device) {
   check_cuda(cudaSetDevice(index), "select device");
   check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
   check_cuda(cudaMalloc(&arrived, sizeof(unsigned)), "allocate");
@@ -17,9 +17,7 @@ Cuda::~Cuda() {
 }
 
 std::string Cuda::description() const {
-  int index = 0;
   cudaDeviceProp properties{};
-  check_cuda(cudaGetDevice(&index), "describe device");
   check_cuda(cudaGetDeviceProperties(&properties, index), "describe device");
   return std::string(properties.name);
 }

@@ -19,17 +19,19 @@ inline void check_cuda(cudaError_t status, const char* name) {
 
 struct Cuda {
   static constexpr bool kGpu = true;
+  int index = 0;  // among the CUDA devices
   cudaStream_t stream = nullptr;
   std::size_t bytes = 0;
   double* partial = nullptr;  // scratch of for_each_sum, one slot per block and term
   int partial_size = 0;
   unsigned* arrived = nullptr;  // blocks that have delivered their partial sums
 
-  explicit Cuda(int index);
+  explicit Cuda(int device);
   ~Cuda();
   Cuda(const Cuda&) = delete;
   Cuda& operator=(const Cuda&) = delete;
   std::string description() const;
+  int cuda_device() const { return index; }
   void synchronize() const { check_cuda(cudaStreamSynchronize(stream), "synchronize"); }
 };
 

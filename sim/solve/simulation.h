@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/device/gl_positions.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene.h"
 #include "sim/solve/ledger.h"
@@ -43,6 +44,11 @@ class Simulation {
   virtual std::vector<double> residual_curvature() = 0;   // likewise, where the moment is zero [1/m]
   virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
   virtual int dimension() const = 0;                      // 1: elements are hinges, 3: elements are faces
+  // Opens an OpenGL buffer of three floats a vertex for positions that do not pass the host.  Its context is
+  // current and draws on CUDA device `gl_device` (-1: none).  Null, and why, where that cannot be; the
+  // simulation must outlive what is returned.
+  virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
+                                                       std::string& reason) = 0;
   virtual Ledger ledger() = 0;
   virtual double largest_stretch() = 0;    // largest principal stretch minus 1
   virtual std::uint64_t state_hash() = 0;  // of positions and velocities, bit for bit
@@ -54,6 +60,7 @@ class Simulation {
   virtual std::size_t device_bytes() const = 0;
   virtual double copy_bandwidth() = 0;     // of this device, bytes read plus written [byte/s], measured
   virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
+  virtual int cuda_device() const = 0;     // -1: the CPU
 };
 
 // Chooses device and precision as the scene asks.  Error::request for what cannot be simulated,

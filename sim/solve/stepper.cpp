@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/device/share_positions.h"
 #include "sim/error.h"
 
 namespace hysteron {
@@ -94,6 +95,12 @@ std::vector<Eigen::Vector3d> Stepper<Real, Device>::velocities() {
   std::vector<Eigen::Vector3d> result;
   for (const auto& v : v_.download()) result.push_back(v.template cast<double>());
   return result;
+}
+
+template <class Real, class Device>
+std::unique_ptr<GlPositions> Stepper<Real, Device>::share_positions(unsigned gl_buffer, int gl_device,
+                                                                    std::string& reason) {
+  return hysteron::share_positions(*device_, x_, gl_buffer, gl_device, reason);
 }
 
 template <class Real, class Device>

@@ -48,6 +48,8 @@ class Stepper : public Simulation {
   std::vector<double> residual_curvature() override { return bending_.residual_curvature(); }
   std::vector<double> friction_share() override { return bending_.slip(); }
   int dimension() const override { return bending_.dimension(); }
+  std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
+                                               std::string& reason) override;
   Ledger ledger() override;
   double largest_stretch() override { return membrane_.largest_stretch(x_.data()); }
   std::uint64_t state_hash() override;
@@ -57,6 +59,7 @@ class Stepper : public Simulation {
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return device_->bytes; }
   std::string device() const override;
+  int cuda_device() const override { return device_->cuda_device(); }
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
   void stage(double start, Real h);  // one implicit solve and what leads to it

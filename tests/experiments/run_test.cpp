@@ -20,9 +20,9 @@ TEST(Manifest, HoldsEveryEntryThatScriptsRead) {
   ExperimentRun run(drape_line(), setup_in(folder.path()));
   run.finish();
   const Json manifest = manifest_of(folder.path());
-  for (const char* key : {"hysteron", "command", "scene", "device", "renderer", "precision", "element", "law",
-                          "triangles", "hinges", "steps", "seconds_simulated", "wall_seconds", "bytes_device",
-                          "energy", "state_hash", "metrics", "complete"}) {
+  for (const char* key : {"hysteron", "command", "scene", "device", "renderer", "positions", "precision",
+                          "element", "law", "triangles", "hinges", "steps", "seconds_simulated",
+                          "wall_seconds", "bytes_device", "energy", "state_hash", "metrics", "complete"}) {
     EXPECT_TRUE(manifest.contains(key)) << key;
   }
   for (const char* key : {"version", "commit", "dirty"})
