@@ -5,6 +5,7 @@
 #include "experiments/outline.h"
 #include "experiments/session.h"
 #include "render/caption.h"
+#include "sim/contact/penalty.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -48,9 +49,12 @@ Setup defaults() {
 
 // Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
 void add_apparatus(Scene& scene, const DrapeChoice& choice) {
-  // The discs press the specimen by a little: both contacts stay closed, as in the apparatus.
-  constexpr double kPressed = 0.98;
-  const double shell = kPressed * scene.fabric.thickness;
+  // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
+  // apparatus, and the plate throws nothing up when it goes down.
+  constexpr double kOwnWeights = 4;
+  const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
+  const double shell = std::max(scene.fabric.thickness / 2,
+                                scene.fabric.thickness - pressure / contact_stiffness_per_area(scene));
   scene.cloth.position = {0, 0, shell};
   Obstacle pedestal;
   pedestal.kind = "cylinder";
