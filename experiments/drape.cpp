@@ -165,7 +165,8 @@ int drape(const CommandLine& line) {
   if (setup.options.quick) {
     setup.scene.triangles = std::min(setup.scene.triangles, 1000);
     setup.scene.seconds = std::min(setup.scene.seconds, 1.0);
-    // On so coarse a mesh 1 ms is one substep at the very bound of explicit bending, which then feeds energy in.
+    // On so coarse a mesh 1 ms is one substep at the very bound of explicit bending, which then feeds energy
+    // in.
     setup.scene.step = std::min(setup.scene.step, 5e-4);
     setup.options.fps = std::min(setup.options.fps, 10.0);
   }
