@@ -1,5 +1,6 @@
 #include "sim/scene/scene_reader.h"
 
+#include "sim/scene/assets.h"
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
@@ -47,6 +48,16 @@ TEST(Precedence, ParametersAccumulateAndTheLastOneWins) {
   EXPECT_EQ(scene.origin.at("param.memory"), file.line(2));
   EXPECT_EQ(scene.origin.at("param.stops"), "--param");
   EXPECT_NO_THROW(check_scene(scene));
+}
+
+TEST(ShippedScenes, AreReadUnderTheNameThatIsListed) {
+  const std::vector<std::string> names = list_assets("scenes");
+  EXPECT_FALSE(names.empty());
+  for (const std::string& name : names) {
+    Scene scene = default_scene();
+    EXPECT_NO_THROW(apply_scene_file(scene, name)) << name;
+    EXPECT_EQ(scene.origin.begin()->second.find("assets/scenes/" + name), 0) << scene.origin.begin()->second;
+  }
 }
 
 TEST(SceneFile, MayNameItsFabricAtTheTopLevel) {
