@@ -36,20 +36,14 @@ std::unique_ptr<Simulation> run_on(const std::string& device, Scene scene) {
 
 bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
 
-struct DeviceCase {
-  std::string law, element, integrator;
-};
-class BothDevices : public testing::TestWithParam<DeviceCase> {};
+class BothDevices : public testing::TestWithParam<test::Method> {};
 INSTANTIATE_TEST_SUITE_P(Cases, BothDevices,
-                         testing::Values(DeviceCase{"linear", "shape", "semi-implicit"},
-                                         DeviceCase{"prandtl", "shape", "semi-implicit"},
-                                         DeviceCase{"wong", "shape", "semi-implicit"},
-                                         DeviceCase{"prandtl", "hinge", "semi-implicit"},
-                                         DeviceCase{"prandtl", "shape", "explicit"}),
-                         [](const auto& c) {
-                           return c.param.law + "_" + c.param.element +
-                                  (c.param.integrator == "explicit" ? "_explicit" : "_semi_implicit");
-                         });
+                         testing::Values(test::Method{"linear", "shape", "semi-implicit"},
+                                         test::Method{"prandtl", "shape", "semi-implicit"},
+                                         test::Method{"wong", "shape", "semi-implicit"},
+                                         test::Method{"prandtl", "hinge", "semi-implicit"},
+                                         test::Method{"prandtl", "shape", "explicit"}),
+                         [](const auto& method) { return method.param.name(); });
 
 // Sums run in another order and division and roots round differently; the solver's tolerance hides the rest.
 TEST_P(BothDevices, AgreeOnEveryPosition) {

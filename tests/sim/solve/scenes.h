@@ -28,6 +28,14 @@ struct Trial {
   double mass(int vertex) const { return scene.fabric.density * cloth.mesh.vertex_area[vertex]; }
 };
 
+// How a scene is computed: what tests of several methods run over, and the name of such a test.
+struct Method {
+  std::string law, element, integrator;
+  std::string name() const {
+    return law + "_" + element + (integrator == "explicit" ? "_explicit" : "_semi_implicit");
+  }
+};
+
 inline Pin pin_at(double x, double y) {
   Pin pin;
   pin.select = "nearest";
