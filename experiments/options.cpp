@@ -1,5 +1,6 @@
 #include "experiments/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -52,6 +53,15 @@ int Options::width() const { return sides(size).first; }
 int Options::height() const { return sides(size).second; }
 
 Keys bind_options(Options& options) { return bind(kRows, options); }
+
+Keys bind_output_options(Options& options) {
+  static const std::vector<std::string> kNames = {"out", "no-images", "quick", "quiet", "json"};
+  Keys keys = bind_options(options);
+  std::erase_if(keys, [](const BoundKey& key) {
+    return std::find(kNames.begin(), kNames.end(), key.description.path) == kNames.end();
+  });
+  return keys;
+}
 
 void check_options(const Options& options) {
   if (!drawable(options.width()) || !drawable(options.height())) {

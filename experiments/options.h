@@ -30,6 +30,8 @@ struct Options {
 };
 
 Keys bind_options(Options& options);
+// Those of experiments that simulate nothing: out, no-images, quick, quiet, json.
+Keys bind_output_options(Options& options);
 
 // A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction, options that are not
 // built yet: Error::request.

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -71,18 +72,26 @@ NamedUnit split_unit(std::string key) {
   return {key, unit};
 }
 
+// "" where a run has none, or several.
+std::string fabric_name(const Json& manifest) {
+  return manifest.at("scene").value("fabric", Json::object()).value("name", "");
+}
+
 std::string heading(const Json& manifest) {
   const Json& scene = manifest.at("scene");
+  const std::string fabric = fabric_name(manifest);
+  std::string about;
+  for (const char* key : {"law", "element"}) {
+    if (scene.contains(key)) about += std::string(key) + " " + shown(scene[key]) + " · ";
+  }
   const bool complete = manifest.value("complete", false);
   const std::string state =
       complete ? "<span class=\"state\">complete</span>" : "<span class=\"state bad\">incomplete</span>";
   const Json& program = manifest.at("hysteron");
-  return "<h1>" + escaped(manifest.value("experiment", "run")) + ": " +
-         escaped(scene.at("fabric").at("name").get<std::string>()) + " " + state +
-         "</h1>\n<p class=\"about\">" +
-         escaped("law " + shown(scene.at("law")) + " · element " + shown(scene.at("element")) + " · " +
-                 manifest.value("started", "") + " · hysteron " + shown(program.at("version")) + ", commit " +
-                 shown(program.at("commit")).substr(0, 12) +
+  return "<h1>" + escaped(manifest.value("experiment", "run") + (fabric.empty() ? "" : ": " + fabric)) + " " +
+         state + "</h1>\n<p class=\"about\">" +
+         escaped(about + manifest.value("started", "") + " · hysteron " + shown(program.at("version")) +
+                 ", commit " + shown(program.at("commit")).substr(0, 12) +
                  (program.value("dirty", false) ? ", modified" : "")) +
          "</p>\n<pre>" + escaped(manifest.value("command", "")) + "</pre>\n";
 }
@@ -91,11 +100,41 @@ std::string metric_cards(const Json& metrics) {
   if (metrics.empty()) return "";
   std::string cards = "<div class=\"cards\">\n";
   for (const auto& [key, value] : metrics.items()) {
+    if (key.find('.') != key.npos) continue;
     const NamedUnit what = split_unit(key);
     cards += "<div class=\"card\"><b>" + escaped(shown(value)) + " <small>" + escaped(what.unit) +
              "</small></b><span>" + escaped(what.name) + "</span></div>\n";
   }
   return cards + "</div>\n";
+}
+
+// Metrics of several laws or fabrics, "prandtl.2HB_N": a row for each, a column for each metric.
+std::string metric_table(const Json& metrics) {
+  std::vector<std::string> names, keys;
+  const auto once = [](std::vector<std::string>& known, const std::string& word) {
+    if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
+    return word;
+  };
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  for (const auto& [key, value] : metrics.items()) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    cells[{once(names, key.substr(0, dot)), once(keys, key.substr(dot + 1))}] = shown(value);
+  }
+  if (names.empty()) return "";
+  std::vector<std::string> head = {""};
+  std::vector<std::size_t> numeric;
+  for (const std::string& key : keys) {
+    const NamedUnit what = split_unit(key);
+    numeric.push_back(head.size());
+    head.push_back(what.name + (what.unit.empty() ? "" : " [" + what.unit + "]"));
+  }
+  Rows rows;
+  for (const std::string& name : names) {
+    rows.push_back({name});
+    for (const std::string& key : keys) rows.back().push_back(cells[{name, key}]);
+  }
+  return html_table(head, rows, numeric);
 }
 
 std::string energy_table(const Json& energy) {
@@ -214,14 +253,16 @@ std::string series(const fs::path& folder) {
 
 fs::path write_report(const fs::path& folder) {
   const Json manifest = read_manifest(folder);
-  const Json& fabric = manifest.at("scene").at("fabric");
+  const Json fabric = manifest.at("scene").value("fabric", Json::object());
+  const Json metrics = manifest.value("metrics", Json::object());
   const std::string body =
-      heading(manifest) + html_section("Results", metric_cards(manifest.value("metrics", Json()))) +
+      heading(manifest) + html_section("Results", metric_cards(metrics) + metric_table(metrics)) +
       html_section("Pictures", pictures(folder)) + html_section("Plots", plots(folder)) +
       html_section("Sequence", thumbnails(folder)) + html_section("Time series", series(folder)) +
       html_section("Energy", energy_table(manifest.value("energy", Json()))) +
       html_section("Fabric", fabric_table(fabric)) + html_section("Run", run_table(manifest));
-  const std::string title = manifest.value("experiment", "run") + ", " + fabric.at("name").get<std::string>();
+  const std::string name = fabric_name(manifest);
+  const std::string title = manifest.value("experiment", "run") + (name.empty() ? "" : ", " + name);
   const fs::path page = folder / "report.html";
   AtomicFile file(page.string());
   file.stream() << html_page(title, body);

@@ -26,17 +26,15 @@ std::string utc_now() {
 }
 
 // What is known at the start, in the order in which the manifest shows it.
-Json first_entries(const CommandLine& line, const Scene& scene) {
+Json first_entries(const CommandLine& line, const Json& scene) {
   Json entries;
   entries["hysteron"] = {{"version", kVersion}, {"commit", kGitCommit}, {"dirty", kGitDirty}};
   entries["experiment"] = line.experiment;
   entries["command"] = line.command;
   entries["started"] = utc_now();
-  entries["scene"] = to_json(scene);
+  entries["scene"] = scene;
   for (const char* key : {"device", "renderer", "positions"}) entries[key] = nullptr;
-  entries["precision"] = scene.precision;
-  entries["element"] = scene.element;
-  entries["law"] = scene.law;
+  for (const char* key : {"precision", "element", "law"}) entries[key] = scene.value(key, Json());
   for (const char* key : {"triangles", "hinges", "steps", "seconds_simulated"}) entries[key] = nullptr;
   entries["wall_seconds"] = nullptr;
   for (const char* key : {"bytes_device", "energy", "state_hash"}) entries[key] = nullptr;
@@ -72,11 +70,10 @@ std::string program_version() {
   return std::string(kVersion) + " (commit " + kGitCommit + (kGitDirty ? ", modified)" : ")");
 }
 
-Run::Run(const CommandLine& line, const Setup& setup)
-    : folder_(setup.options.out),
-      json_(setup.options.json),
-      quiet_(setup.options.quiet),
-      entries_(first_entries(line, setup.scene)) {
+Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options, to_json(setup.scene)) {}
+
+Run::Run(const CommandLine& line, const Options& options, const Json& keys)
+    : folder_(options.out), json_(options.json), quiet_(options.quiet), entries_(first_entries(line, keys)) {
   make_folder(folder_);
   remove_earlier_run(folder_);
   write_manifest(false);
@@ -109,6 +106,17 @@ void Run::energy(const std::vector<std::pair<std::string, double>>& terms) {
 }
 
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
+
+void Run::plot(const std::string& name, const std::function<void(const fs::path&)>& draw) {
+  const Stage stage(*this, "render");
+  try {
+    draw(folder_ / name);
+    for (const char* ending : {".png", ".svg"}) path(name + ending);
+  } catch (const Error& error) {
+    entries_["plots_missing"].push_back(name + ": " + error.what());
+    progress(name + ": " + error.what());
+  }
+}
 
 void Run::progress(const std::string& line) const {
   if (!quiet_) std::cerr << line << std::endl;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,6 +26,8 @@ class Run {
   // Creates the folder.  Files that an earlier run listed in its manifest there are removed.  Throws
   // Error::machine.
   Run(const CommandLine& line, const Setup& setup);
+  // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
+  Run(const CommandLine& line, const Options& options, const Json& keys);
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -60,6 +63,10 @@ class Run {
     Clock::time_point start_ = Clock::now();
   };
   [[nodiscard]] Stage stage(const std::string& name) { return {*this, name}; }
+
+  // Has `draw` write NAME.png and NAME.svg from the path without ending that it is given.  Where that fails,
+  // as without gnuplot, the run goes on, and the manifest's `plots_missing` says why.
+  void plot(const std::string& name, const std::function<void(const std::filesystem::path& base)>& draw);
 
   // A line of progress on stderr, unless --quiet.
   void progress(const std::string& line) const;

@@ -6,7 +6,6 @@
 
 #include "experiments/record.h"
 #include "experiments/report.h"
-#include "sim/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -116,17 +115,10 @@ bool Session::simulate(const Question& question) {
 }
 
 void Session::plot(const std::string& name, const render::Plot& plot) {
-  try {
-    render::write_plot(run_->folder() / name, plot);
-    for (const char* ending : {".png", ".svg"}) run_->path(name + ending);
-  } catch (const Error& error) {
-    plots_missing_.push_back(name + ": " + error.what());
-    run_->progress(plots_missing_.back());
-  }
+  run_->plot(name, [&](const std::filesystem::path& base) { render::write_plot(base, plot); });
 }
 
 void Session::finish(const std::string& title) {
-  if (!plots_missing_.empty()) run_->note("plots_missing", plots_missing_);
   if (pictures_) pictures_->finish(*run_, title);
   const Ledger ledger = simulation_->ledger();
   run_->energy(ledger.rows());

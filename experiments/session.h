@@ -49,7 +49,7 @@ class Session {
   // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled
   // (returned).
   bool simulate(const Question& question);
-  // Draws a plot; where gnuplot is missing the run goes on without it, and the manifest says so.
+  // Draws a plot as Run::plot does.
   void plot(const std::string& name, const render::Plot& plot);
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
@@ -62,7 +62,6 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
-  Json plots_missing_ = Json::array();
 };
 
 }  // namespace hysteron::experiments

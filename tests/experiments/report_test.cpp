@@ -75,6 +75,18 @@ TEST_F(Report, ShowsTheSheetThePlotOnceAndTwelveThumbnails) {
   EXPECT_NE(page.find("alt=\"frames/1019.png\""), std::string::npos);
 }
 
+TEST(ReportOfSeveralLaws, HasARowForEachAndAColumnForEachMetric) {
+  const Folder folder;
+  ExperimentRun run({"kes", "hysteron kes", {}, {}}, setup_in(folder.path()).options, Json::object());
+  for (const char* law : {"wong", "pabst"}) run.metric(std::string(law) + ".2HB_N", law[0] == 'w' ? 0.5 : 0);
+  run.metric("recovery_cases", 3);
+  run.finish();
+  const std::string page = text_of(write_report(folder.path()));
+  EXPECT_EQ(count_of(page, "2HB [N]"), 1);
+  EXPECT_LT(page.find("<td>wong"), page.find("<td>pabst"));
+  EXPECT_EQ(count_of(page, "recovery cases"), 1);
+}
+
 TEST_F(Report, IsTheSameWhenDrawnAgain) { EXPECT_EQ(html(), html()); }
 
 TEST(ReportOfAFolderWithoutARun, IsAWrongRequest) {

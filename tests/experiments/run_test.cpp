@@ -60,6 +60,30 @@ TEST(Manifest, ReportsWhatTheRunFound) {
   EXPECT_EQ(manifest["complete"], true);
 }
 
+TEST(Manifest, OfAnExperimentWithoutASceneHoldsItsOwnKeysAsTheScene) {
+  const Folder folder;
+  const Json keys = {{"law", "wong"}, {"fabric", {{"name", "mine"}}}};
+  ExperimentRun run({"kes", "hysteron kes --law wong", {}, {}}, setup_in(folder.path()).options, keys);
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["scene"], keys);
+  EXPECT_EQ(manifest["law"], "wong");
+  for (const char* key : {"element", "precision", "triangles"}) {
+    EXPECT_TRUE(manifest.contains(key) && manifest[key].is_null()) << key;
+  }
+}
+
+TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  run.plot("plot_a", [](const fs::path&) { throw Error::machine("no gnuplot"); });
+  run.plot("plot_b", [](const fs::path& base) { EXPECT_EQ(base.filename(), "plot_b"); });
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
+  EXPECT_EQ(manifest["files"], Json::array({"plot_b.png", "plot_b.svg"}));
+}
+
 TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {
   const Folder folder;
   try {
