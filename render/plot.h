@@ -11,6 +11,17 @@ struct Series {
   std::string label;  // empty: not in the key
   std::vector<double> x, y;
   enum class Style { line, points, line_and_points, dashed } style = Style::line;
+  std::string color{};  // "#RRGGBB"; empty: the next of a palette that colour-blind eyes can tell apart
+  double line_width = 2.2;
+};
+
+// A named point.
+struct Mark {
+  std::string text;
+  double x, y;
+  double dx = 1, dy = 0;          // of the text from the point [letters]; dx < 0: the text ends there
+  std::string color = "#222222";  // of text and dot
+  bool dot = true;
 };
 
 struct Axis {
@@ -25,6 +36,8 @@ struct Plot {
   std::vector<Series> series;
   int width = 1200, height = 800;  // of the PNG [pixels]
   bool equal_scales = false;       // one unit is as long along x as along y: outlines
+  std::vector<Mark> marks{};
+  bool axes_at_zero = false;  // lines through the origin instead of a grid
 };
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).

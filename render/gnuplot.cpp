@@ -1,0 +1,138 @@
+#include "render/gnuplot.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "render/process.h"
+#include "sim/atomic_file.h"
+#include "sim/error.h"
+
+namespace hysteron::render::gnuplot {
+namespace {
+
+// Okabe & Ito 2008, "Color universal design": apart under all common kinds of colour blindness.
+constexpr std::array kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"};
+
+// A gnuplot string: single quotes are doubled, line ends become spaces.
+std::string single_quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+  return result + "'";
+}
+
+std::string style_words(const Series& series, const std::string& color) {
+  const std::string lines = " lw " + number(series.line_width) + " lc rgb '" + color + "'",
+                    dots = " pt 7 ps 0.9";
+  switch (series.style) {
+    case Series::Style::points:
+      return "points" + dots + " lc rgb '" + color + "'";
+    case Series::Style::line_and_points:
+      return "linespoints" + lines + dots;
+    case Series::Style::dashed:
+      return "lines dt 2" + lines;
+    default:
+      return "lines" + lines;
+  }
+}
+
+std::string output_commands(const char* terminal, int width, int height, const std::filesystem::path& file) {
+  return std::string("set terminal ") + terminal + " enhanced size " + std::to_string(width) + "," +
+         std::to_string(height) + " font 'DejaVu Sans,15' background rgb 'white'\nset output " +
+         single_quoted(file.string()) + "\n";
+}
+
+bool has_content(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::file_size(file, error) > 0 && !error;
+}
+
+}  // namespace
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "NaN";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string label_text(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    if (std::string_view("_^@&~{}\\").find(c) != std::string_view::npos) plain += '\\';
+    plain += c;
+  }
+  return single_quoted(plain);
+}
+
+void require_drawable(const std::filesystem::path& base, const std::vector<Series>& all) {
+  if (all.empty()) throw Error::request("plot " + base.string() + ": there is nothing to draw");
+  for (const Series& series : all)
+    if (series.x.size() != series.y.size() || series.x.empty())
+      throw Error::request("plot " + base.string() + ": series \"" + series.label + "\" has " +
+                           std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) +
+                           " y values; as many of both are needed, at least one");
+}
+
+std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
+  std::string script;
+  for (size_t i = 0; i < series.size(); ++i) {
+    script += "$series" + std::to_string(first + i) + " << END\n";
+    for (size_t k = 0; k < series[i].x.size(); ++k)
+      script += number(series[i].x[k]) + " " + number(series[i].y[k]) + "\n";
+    script += "END\n";
+  }
+  return script;
+}
+
+std::string plot_command(const std::vector<Series>& series, std::size_t first) {
+  std::string script = "plot ";
+  for (size_t i = 0; i < series.size(); ++i) {
+    const std::string name = series[i].label.empty() ? " notitle" : " title " + label_text(series[i].label);
+    const std::string color = series[i].color.empty() ? kPalette[i % kPalette.size()] : series[i].color;
+    script += std::string(i ? ", " : "") + "$series" + std::to_string(first + i) + " using 1:2" + name +
+              " with " + style_words(series[i], color);
+  }
+  return script + "\n";
+}
+
+std::string axis_commands(const char* name, const Axis& axis) {
+  std::string script = std::string("set ") + name + "label " + label_text(axis.label) + "\n";
+  if (axis.logarithmic)
+    script += std::string("set logscale ") + name + "\nset format " + name + " '10^{%L}'\n";
+  if (axis.low != axis.high)
+    script += std::string("set ") + name + "range [" + number(axis.low) + ":" + number(axis.high) + "]\n";
+  return script;
+}
+
+std::string mark_commands(const std::vector<Mark>& marks) {
+  std::string script;
+  for (size_t i = 0; i < marks.size(); ++i) {
+    const Mark& mark = marks[i];
+    const char* side = mark.dx > 0 ? "left" : mark.dx < 0 ? "right" : "center";
+    script += "set label " + std::to_string(i + 1) + " " + label_text(mark.text) + " at " + number(mark.x) +
+              "," + number(mark.y) + " " + side + " offset character " + number(mark.dx) + "," +
+              number(mark.dy) + " font ',16' textcolor rgb '" + mark.color + "' front" +
+              (mark.dot ? " point pt 7 ps 1 lc rgb '" + mark.color + "'" : "") + "\n";
+  }
+  return script;
+}
+
+// The SVG gets the same page in its own units, so that both look alike.
+void write_both(const std::filesystem::path& base, int width, int height, const std::string& prologue,
+                const std::string& drawing) {
+  AtomicFile png(base.string() + ".png"), svg(base.string() + ".svg");
+  const std::string script =
+      "set encoding utf8\n" + prologue + output_commands("pngcairo", width, height, png.temporary()) +
+      drawing + output_commands("svg", width, height, svg.temporary()) + drawing + "set output\n";
+  const ProcessResult result = run_process({"gnuplot", "-"}, script);
+  if (!result.started)
+    throw Error::machine("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
+  if (result.exit_code != 0 || !has_content(png.temporary()) || !has_content(svg.temporary()))
+    throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+  png.commit();
+  svg.commit();
+}
+
+}  // namespace hysteron::render::gnuplot

@@ -1,0 +1,94 @@
+#include "render/panels.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "render/image.h"
+#include "render/process.h"
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::error_of;
+using test::ScratchFolder;
+
+Panels grid_of(int count) {
+  Panels grid{.title = "Loops", .subtitle = "red: a line", .x = {"x [m]"}, .y = {"y [m]"}, .panels = {}};
+  grid.columns = 3;
+  grid.panel_width = 150;
+  grid.panel_height = 100;
+  for (int i = 0; i < count; ++i) {
+    Series line{.label = "", .x = {-1, 1}, .y = {-1, 1}, .color = "#FF0000"};
+    grid.panels.push_back({"panel_" + std::to_string(i), {line}, {"B = 1"}, {"lower right"}});
+  }
+  return grid;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class PanelsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (run_process({"gnuplot", "--version"}, "").exit_code != 0)
+      GTEST_SKIP() << "gnuplot is not installed (gnuplot-nox)";
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
+  write_panels(folder_.file("p"), grid_of(5));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  const std::string svg = text_of(folder_.file("p.svg"));
+  for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+}
+
+TEST_F(PanelsTest, PanelsOfOneColumnShareTheirColumnOfPixels) {
+  write_panels(folder_.file("p"), grid_of(4));
+  const Image image = read_png(folder_.file("p.png"));
+  const auto red_in = [&](int column) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      const Rgb8 pixel = image.at(column, y);
+      count += pixel[0] > pixel[1] + 100;
+    }
+    return count;
+  };
+  int first = 0, third = 0;
+  for (int x = 0; x < image.width() / 3; ++x) {
+    first += red_in(x);
+    third += red_in(image.width() - 1 - x);
+  }
+  // Four panels in three columns: two in the first, one in the third.
+  EXPECT_GT(third, 100);
+  EXPECT_NEAR(first, 2.0 * third, 0.2 * third);
+}
+
+TEST_F(PanelsTest, AxesAreCommonToAllPanels) {
+  Panels wide = grid_of(2), cut = grid_of(2);
+  wide.panels[1].series[0].y = {-10, 10};
+  cut.panels[1].series[0].y = {-10, 10};
+  cut.y.low = -1, cut.y.high = 1;
+  write_panels(folder_.file("wide"), wide);
+  write_panels(folder_.file("cut"), cut);
+  EXPECT_NE(text_of(folder_.file("wide.svg")).find("10"), std::string::npos);
+  EXPECT_EQ(text_of(folder_.file("cut.svg")).find("> 10<"), std::string::npos);
+}
+
+TEST(Panels, NothingToDrawIsRefused) {
+  const ScratchFolder folder;
+  EXPECT_EQ(error_of([&] { write_panels(folder.file("p"), grid_of(0)); }).exit_code(), 2);
+  Panels uneven = grid_of(2);
+  uneven.panels[1].series[0].x.pop_back();
+  EXPECT_EQ(error_of([&] { write_panels(folder.file("p"), uneven); }).exit_code(), 2);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace hysteron::render
