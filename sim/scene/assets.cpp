@@ -31,6 +31,10 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
   const fs::path folder = assets_folder() / kind;
   const fs::path file = folder / (name + ".toml");
   if (!name.empty() && fs::is_regular_file(file, ignored)) return file;
+  std::string hyphenated = name;  // as others spell the same names
+  std::replace(hyphenated.begin(), hyphenated.end(), '_', '-');
+  if (hyphenated != name && fs::is_regular_file(folder / (hyphenated + ".toml"), ignored))
+    return folder / (hyphenated + ".toml");
   const std::vector<std::string> names = list_assets(kind);
   const std::string nearest = nearest_name(name, names);
   const std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
