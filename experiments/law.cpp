@@ -1,11 +1,12 @@
 #include "experiments/law.h"
 
-#include <charconv>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 #include <utility>
 
 #include "experiments/csv.h"
+#include "sim/bending/recovery.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -44,35 +45,57 @@ void check_time(const Table& table, const std::filesystem::path& file) {
   }
 }
 
-}  // namespace
-
-std::pair<std::string, LawParameter> parse_parameter(const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-    throw Error::request("law: --param '" + text + "' must have the form name=value");
-  const std::string value = text.substr(equals + 1);
-  double number = 0;
-  const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
-  const bool is_number = failure == std::errc() && end == value.data() + value.size();
-  return {text.substr(0, equals), is_number ? LawParameter(number) : LawParameter(value)};
+void check_edit(const Table& table, const std::filesystem::path& file) {
+  const Column* edit = table.find(kEdit);
+  if (!edit) return;
+  for (size_t row = 0; row < edit->values.size(); ++row) {
+    if (edit->values[row] != 0 && edit->values[row] != 1) {
+      throw Error::request("law: " + file.string() + ":" + std::to_string(table.lines[row]) +
+                           ": edit = " + with_unit(edit->values[row], "must be 0 or 1"));
+    }
+  }
 }
+
+std::vector<LawRow> rows_of(const Table& table) {
+  const std::vector<double>& curvature = table.find(kCurvature)->values;
+  const Column *time = table.find(kTime), *edit = table.find(kEdit);
+  std::vector<LawRow> rows;
+  for (size_t i = 0; i < curvature.size(); ++i) {
+    LawRow row{curvature[i]};
+    if (time) row.seconds = i == 0 ? 0 : time->values[i] - time->values[i - 1];
+    if (edit) row.edit = edit->values[i] == 1;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
+  const RecoveryCounts counts = count_recoveries(request.curve, rows, run);
+  const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  std::ostringstream text;
+  text << "reversals from |M| <= Ma: " << counts.of[0] << ", <= 2 Ma: " << counts.of[1]
+       << ", > 2 Ma: " << counts.of[2] << "\nresidual curvature after the last row: "
+       << with_unit(residual_after(request, rows), "1/m (root)");
+  if (has_residual_formula(choice)) {
+    text << ", "
+         << with_unit(residual_by_formula(choice, rows.back().curvature, run.moment.back()),
+                      "1/m (formula, if that row lies on the virgin curve)");
+  }
+  return text.str() + "\n";
+}
+
+}  // namespace
 
 int run_law_command(const LawOptions& options) {
   check_curve(options.curve);
-  LawRequest request{options.law, options.curve, {}};
-  for (const std::string& text : options.parameters) {
-    auto [name, value] = parse_parameter(text);
-    request.parameters.insert_or_assign(name, value);
-  }
-
+  const LawRequest request{options.law, options.curve, options.parameters};
   const Table table = read_csv(options.in, {kCurvature}, {kTime, kEdit}, "law");
   check_time(table, options.in);
-  const std::vector<double>& curvature = table.find(kCurvature)->values;
-  std::vector<LawRow> rows;
-  for (double k : curvature) rows.push_back({k});
-
+  check_edit(table, options.in);
+  const std::vector<LawRow> rows = rows_of(table);
   LawRun run = run_law(request, rows);
-  write_csv(options.out, {{{kCurvature, curvature},
+  std::cout << recovery_summary(request, rows, run);
+  write_csv(options.out, {{{kCurvature, table.find(kCurvature)->values},
                            {"moment [N]", std::move(run.moment)},
                            {"tangent [N m]", std::move(run.tangent)},
                            {"stored [J/m2]", std::move(run.stored)},

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/bending/law_run.h"
@@ -12,17 +11,16 @@ namespace hysteron::experiments {
 
 struct LawOptions {
   std::string law = "prandtl";
-  VirginCurve curve{};                  // --b1, --b2 [N m], --k0 [1/m]
-  std::vector<std::string> parameters;  // --param, each "name=value"
-  std::filesystem::path in;             // columns `curvature [1/m]`, optional `time [s]`, `edit`
-  std::filesystem::path out;            // curvature, moment, tangent, stored, dissipated (cumulative)
+  VirginCurve curve{};        // --b1, --b2 [N m], --k0 [1/m]
+  LawParameters parameters;   // --param name=value
+  std::filesystem::path in;   // columns `curvature [1/m]`, optional `time [s]`, `edit`
+  std::filesystem::path out;  // curvature, moment, tangent, stored, dissipated (cumulative)
 };
 
-// "name=value" as a parameter of a law; throws Error::request if it is not of that form.
-std::pair<std::string, LawParameter> parse_parameter(const std::string& text);
-
 // Reads, runs, writes; returns 0.  The first row is the first curvature visited from rest, every row is one
-// accepted step.  `time` must not fall; the laws built so far depend neither on it nor on `edit`.
+// accepted step, which takes the difference of the two times (the first row: 0 s), or 1 s where there is no
+// `time`; it must not fall.  `edit` = 1 sets the rest curvature to that of the row (grinspun-edit; others
+// ignore it).  Prints the reversals by recovery case, and the residual curvature after the last row.
 int run_law_command(const LawOptions& options);
 
 }  // namespace hysteron::experiments

@@ -57,9 +57,7 @@ int law(const CommandLine& line) {
   for (const Flag& flag : line.flags) apply(flag);
   if (flags.in.empty() || flags.out.empty()) throw Error::request("needs --in K.csv and --out M.csv");
 
-  LawOptions options{flags.law, {flags.b1, flags.b2, flags.k0}, {}, flags.in, flags.out};
-  for (const auto& [name, text] : flags.param) options.parameters.push_back(name + "=" + text);
-  return run_law_command(options);
+  return run_law_command({flags.law, {flags.b1, flags.b2, flags.k0}, flags.param, flags.in, flags.out});
 }
 
 }  // namespace hysteron::experiments

@@ -28,23 +28,45 @@ void print_row(const std::vector<std::string>& cells, const std::vector<int>& wi
   }
 }
 
+// "Matsudaira, Masuda, Wada, Yokura 2015, J. Textile Eng. ..." is "Matsudaira et al. 2015".
+std::string short_citation(const std::string& source) {
+  const std::size_t comma = source.find(','), year = source.find_first_of("0123456789");
+  if (comma == source.npos || year == source.npos || year + 4 > source.size()) return source.substr(0, 24);
+  const std::string authors = comma < year ? source.substr(0, comma) + " et al. " : source.substr(0, year);
+  return authors + source.substr(year, 4);
+}
+
+// Who measured the bending: the source of the first published number, else that of b2.
+std::string bending_source(const Fabric& fabric) {
+  for (const char* key : {"B", "ke-0-small", "b1-warp"}) {
+    const auto found = fabric.published.find(key);
+    if (found != fabric.published.end()) return short_citation(found->second.provenance.source);
+  }
+  return short_citation(fabric.provenance.at("b2").source);
+}
+
 void list_fabrics_table() {
-  const std::vector<int> widths = {20, 11, 11, 11, 9, 16};
-  print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "source of B"},
+  const std::vector<int> widths = {20, 11, 10, 11, 9, 17};
+  print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "bending from"},
             widths);
   for (const FabricFile& file : list_fabrics()) {
     const Fabric& f = file.fabric;
     const double hb = f.virgin_curve().friction_moment();
-    print_row({f.name, short_number(f.b2), short_number(2 * hb), short_number(hb / f.b2, 3),
-               short_number(f.k0), short_number(f.density),
-               f.published.count("B") ? f.published.at("B").provenance.source : f.provenance.at("b2").source},
+    const bool friction = hb > 0;
+    print_row({f.name, short_number(f.b2), friction ? short_number(2 * hb) : "-",
+               friction ? short_number(hb / f.b2, 3) : "-", friction ? short_number(f.k0) : "-",
+               short_number(f.density), bending_source(f)},
               widths);
   }
+  std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
 
 void list_laws() {
   for (const LawEntry& law : law_catalogue()) {
-    print_row({law.name, law.description + (law.built ? "" : " (not built yet)")}, {15});
+    std::string parameters;
+    for (const std::string& name : law_parameter_names(law.name))
+      parameters += (parameters.empty() ? "" : " ") + name;
+    print_row({law.name, law.description + (parameters.empty() ? "" : " [" + parameters + "]")}, {15});
   }
 }
 

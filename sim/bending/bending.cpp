@@ -97,7 +97,7 @@ template <class Real, class Device>
 void Bending<Real, Device>::commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt) {
   compute_angles(position);
   if (viscosity_ > 0) compute_rates(velocity);
-  law_->commit(device_, view(), angle_.data(), {viscosity_, dt, rate_.data(), viscous_.data()},
+  law_->commit(device_, view(), angle_.data(), dt, {viscosity_, rate_.data(), viscous_.data()},
                moment_area_.data());
   compute_forces(position);
 }
@@ -171,6 +171,19 @@ void Bending<Real, Device>::compute_forces(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
+void Bending<Real, Device>::command(CommandKind kind, const std::vector<char>& chosen) {
+  if (taken_.size() == 0) taken_ = Buffer<double, Device>(device_, elements_);
+  const Buffer<char, Device> mask(device_, chosen);
+  law_->command(device_, view(), angle_.data(), kind, mask.data(), taken_.data());
+}
+
+template <class Real, class Device>
+double Bending<Real, Device>::taken_by_commands() {
+  const std::vector<double> energy = taken_.download();
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+template <class Real, class Device>
 double Bending<Real, Device>::stored_energy() {
   law_->stored(device_, view(), angle_.data(), energy_.data());
   const std::vector<double> energy = energy_.download();
@@ -213,6 +226,14 @@ std::vector<double> Bending<Real, Device>::curvature() {
 }
 
 template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::moment() {
+  std::vector<Real> values = moment_area_.download();
+  const std::vector<Real> area = area_.download();
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] /= area[i / dimension_];
+  return {values.begin(), values.end()};
+}
+
+template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::residual_curvature() {
   Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
   law_->residual(device_, elements_, result.data());
@@ -236,7 +257,7 @@ std::size_t Bending<Real, Device>::bytes() const {
                                    column_element_.bytes();
   return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
          rate_.bytes() + viscous_.bytes() + gradient_.bytes() + moment_area_.bytes() + force_.bytes() +
-         energy_.bytes();
+         energy_.bytes() + taken_.bytes();
 }
 
 template class Bending<double, ThisDevice>;

@@ -35,11 +35,16 @@ class Bending {
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
   BendingForceView<Real> forces() const;
 
+  // Irons or edits the elements with chosen[i] != 0 at the last accepted state.
+  void command(CommandKind kind, const std::vector<char>& chosen);
+
   // Measurements of the last accepted state; they change nothing.
   double stored_energy();                    // [J]
   double dissipated_energy();                // by the law, since the start [J]
   double viscous_loss();                     // since the start [J]
+  double taken_by_commands();                // recoverable energy, since the start [J]
   std::vector<double> curvature();           // D per element [1/m]
+  std::vector<double> moment();              // D per element, with viscosity [N]
   std::vector<double> residual_curvature();  // D per element [1/m]
   std::vector<double> slip();                // per element, 0..1
   int dimension() const { return dimension_; }
@@ -71,6 +76,7 @@ class Bending {
   Buffer<Real, Device> moment_area_;  // A M, D per element [N m^2]
   Buffer<Vec3<Real>, Device> force_;  // 4 per hinge [N]
   Buffer<double, Device> energy_;     // per element, scratch of measurements
+  Buffer<double, Device> taken_;      // by commands, per element [J]; empty until the first
 };
 
 // Largest eigenvalue of M^-1 J^T C^T A b C J at rest: the square of the highest bending frequency [1/s^2].

@@ -70,6 +70,31 @@ struct FourDirections {
   HYST_HD Vec<Real, 3> residual(const History<Real, kHistory>& history) const {
     return zero_moment(*this, history, Vec<Real, 3>(Vec<Real, 3>::Zero()));
   }
+  HYST_HD History<Real, kHistory> ironed(const History<Real, kHistory>& before) const requires
+      requires(const ScalarLaw& one, const History<Real, kScalarHistory>& h) {
+    one.ironed(h);
+  }
+  {
+    History<Real, kHistory> after;
+    for (int d = 0; d < kDirections; ++d) {
+      const History<Real, kScalarHistory> one = law.ironed(part(before, d));
+      for (int i = 0; i < kScalarHistory; ++i) after[d * kScalarHistory + i] = one[i];
+    }
+    return after;
+  }
+  // The direction where it is used most.
+  HYST_HD Real used(const Vec<Real, 3>& curvature, const History<Real, kHistory>& history) const requires
+      requires(const ScalarLaw& one, const History<Real, kScalarHistory>& h) {
+    one.used(Vec<Real, 1>(), h);
+  }
+  {
+    Real most = 0;
+    for (int d = 0; d < kDirections; ++d) {
+      const Real one = law.used(Vec<Real, 1>(direction(d).dot(curvature)), part(history, d));
+      if (one > most) most = one;
+    }
+    return most;
+  }
   HYST_HD Real largest_stiffness() const {
     return kWeight / kDirections * kScale * kScale * (1 - kBeta) * (1 - kBeta) * law.largest_stiffness();
   }

@@ -3,23 +3,26 @@
 #include "sim/error.h"
 
 namespace hysteron {
+namespace {
 
-template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const std::string& name,
-                                                     const LawParameters& parameters,
-                                                     const VirginCurve& curve, int dimension, int elements) {
-  const HysteresisChoice choice = hysteresis_choice(name, parameters);
-  auto loop = dimension == 1 ? make_hinge_law<Real>(device, name, choice, curve, elements)
-                             : make_shape_law<Real>(device, name, choice, curve, elements);
-  if (!loop)
-    throw Error::request("law " + name + " cannot be simulated yet: use linear, pabst, prandtl or wong");
-  return loop;
+template <int D, class Real, class Device>
+std::unique_ptr<LawLoop<Real, Device>> of_any_group(Device& device, const LawChoice& choice, int elements) {
+  if (auto loop = make_memoryless_loop<Real, Device, D>(device, choice, elements)) return loop;
+  if (auto loop = make_plastic_loop<Real, Device, D>(device, choice, elements)) return loop;
+  if (auto loop = make_friction_loop<Real, Device, D>(device, choice, elements)) return loop;
+  return make_fatigue_loop<Real, Device, D>(device, choice, elements);
 }
 
-#define HYSTERON_INSTANTIATE(Real)                                   \
-  template std::unique_ptr<LawLoop<Real, ThisDevice>> make_law_loop( \
-      ThisDevice&, const std::string&, const LawParameters&, const VirginCurve&, int, int);
-HYSTERON_INSTANTIATE(double)
-HYSTERON_INSTANTIATE(float)
+}  // namespace
+
+template <class Real, class Device>
+std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
+                                                     int elements) {
+  return dimension == 1 ? of_any_group<1, Real>(device, choice, elements)
+                        : of_any_group<3, Real>(device, choice, elements);
+}
+
+template std::unique_ptr<LawLoop<double, ThisDevice>> make_law_loop(ThisDevice&, const LawChoice&, int, int);
+template std::unique_ptr<LawLoop<float, ThisDevice>> make_law_loop(ThisDevice&, const LawChoice&, int, int);
 
 }  // namespace hysteron

@@ -32,26 +32,35 @@ struct OperatorView {
   }
 };
 
+// What a scene can order at a time: iron, so that the cloth forgets its bends; or make the present shape the
+// shape at rest (grinspun-edit alone).
+enum class CommandKind { iron, edit };
+
 template <class Real, class Device>
 class LawLoop {
  public:
   virtual ~LawLoop() = default;
-  // Accepts the angles: moment_area = A M (D per element), history updated, dissipation added [J].
-  // viscosity [N m s] > 0 adds a moment viscosity * C angle_rate and adds its work over dt [s] to viscous
-  // [J].
+  // viscosity [N m s] > 0 adds a moment viscosity * C angle_rate and adds its work over a step to lost [J].
   struct Viscous {
-    Real viscosity, dt;
+    Real viscosity;
     const Real* angle_rate;  // per hinge [rad/s]
     double* lost;            // per element [J]
   };
-  virtual void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+  // Accepts the angles after a step of dt [s]: moment_area = A M (D per element), history updated,
+  // dissipation added [J].
+  virtual void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real dt,
                       const Viscous& viscous, Real* moment_area) = 0;
+  // Carries out a command on the elements with chosen[i] != 0 and adds the recoverable energy that it takes
+  // away (it may give some) to taken[i] [J].  Laws without history ignore it.
+  virtual void command(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+                       CommandKind kind, const char* chosen, double* taken) = 0;
   // Recoverable energy of each element at the accepted state [J] (a measurement; changes nothing).
   virtual void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                       double* energy) = 0;
   // D curvature components of each element: with zero moment on the recovery branch [1/m].
   virtual void residual(Device& device, int elements, Real* curvature) = 0;
-  // How far the friction is used, 0 (none) to 1 (sliding), for each element; 0 for laws without history.
+  // How far friction or plasticity is used, 0 (not) to 1 (slides, yields), for each element; 0 for laws
+  // without history.
   virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) = 0;
   virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]
   virtual bool has_history() const = 0;
@@ -59,21 +68,19 @@ class LawLoop {
   virtual const double* dissipated() const = 0;  // per element [J]; null where the law loses nothing
 };
 
-// Law `name` for D = 1 (hinge) or D = 3 (shape; laws of scalar form run along four material directions).
-// Error::request for unknown names and parameters that the law does not have.
+// The law for D = 1 (hinge) or D = 3 (shape; laws of scalar form run along four material directions).
 template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const std::string& name,
-                                                     const LawParameters& parameters,
-                                                     const VirginCurve& curve, int dimension, int elements);
+std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
+                                                     int elements);
 
-// Its two halves, compiled apart.
-template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_hinge_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice,
-                                                      const VirginCurve& curve, int elements);
-template <class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> make_shape_law(Device& device, const std::string& name,
-                                                      const HysteresisChoice& choice,
-                                                      const VirginCurve& curve, int elements);
+// Its groups, compiled apart; null for a law of another group.
+template <class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_memoryless_loop(Device&, const LawChoice&, int elements);
+template <class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_plastic_loop(Device&, const LawChoice&, int elements);
+template <class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_friction_loop(Device&, const LawChoice&, int elements);
+template <class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_fatigue_loop(Device&, const LawChoice&, int elements);
 
 }  // namespace hysteron

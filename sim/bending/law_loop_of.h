@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sim/bending/law_commands.h"
 #include "sim/bending/law_loop.h"
 
 namespace hysteron {
@@ -35,9 +36,10 @@ class LawLoopOf : public LawLoop<Real, Device> {
 
   using typename LawLoop<Real, Device>::Viscous;
 
-  void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, const Viscous& viscous,
-              Real* moment_area) override {
-    const Law law = law_;
+  void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real dt,
+              const Viscous& viscous, Real* moment_area) override {
+    Law law = law_;
+    set_step_time(law, dt);
     Real* history = history_.data();
     double* lost = dissipated_.data();
     for_each(
@@ -48,12 +50,30 @@ class LawLoopOf : public LawLoop<Real, Device> {
           if (viscous.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
             moment += viscous.viscosity * rate;
-            viscous.lost[i] +=
-                static_cast<double>(viscous.dt * viscous.viscosity * op.area[i] * rate.squaredNorm());
+            viscous.lost[i] += static_cast<double>(dt * viscous.viscosity * op.area[i] * rate.squaredNorm());
           }
           for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
           store_history<Law>(history, i, op.elements, step.history);
           if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
+        });
+  }
+
+  void command(Device& device, const OperatorView<Real>& op, const Real* angle_change, CommandKind kind,
+               const char* chosen, double* taken) override {
+    if (Law::kHistory == 0 || (kind == CommandKind::edit && !kIsEditable<Law>)) return;
+    const Law law = law_;
+    Real* history = history_.data();
+    for_each(
+        device, "bending command", op.elements, HYST_KERNEL(int i) {
+          if (!chosen[i]) return;
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const auto before = load_history<Law>(history, i, op.elements);
+          auto after = ironed(law, k, before);
+          if constexpr (kIsEditable<Law>)
+            if (kind == CommandKind::edit) after = law.edited(k, before);
+          taken[i] +=
+              static_cast<double>(op.area[i] * (law.step(k, before).stored - law.step(k, after).stored));
+          store_history<Law>(history, i, op.elements, after);
         });
   }
 
@@ -85,12 +105,13 @@ class LawLoopOf : public LawLoop<Real, Device> {
     const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
     for_each(
         device, "friction state", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const auto memory = load_history<Law>(history, i, op.elements);
           share[i] = 0;
-          if (Law::kHistory > 0 && m0 > 0) {
-            const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-            const Vec<Real, D> m = law.step(k, load_history<Law>(history, i, op.elements)).moment;
-            share[i] = (m - b2 * k).norm() / m0;
-          }
+          if constexpr (requires { law.used(k, memory); })
+            share[i] = law.used(k, memory);
+          else if (Law::kHistory > 0 && m0 > 0)
+            share[i] = (law.step(k, memory).moment - b2 * k).norm() / m0;
         });
   }
 
@@ -105,5 +126,11 @@ class LawLoopOf : public LawLoop<Real, Device> {
   Buffer<Real, Device> history_;
   Buffer<double, Device> dissipated_;
 };
+
+template <class Real, class Device, class Law>
+std::unique_ptr<LawLoop<Real, Device>> make_loop_of(Device& device, const Law& law, const VirginCurve& curve,
+                                                    int elements) {
+  return std::make_unique<LawLoopOf<Real, Device, Law>>(device, law, curve, elements);
+}
 
 }  // namespace hysteron

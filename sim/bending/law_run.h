@@ -1,27 +1,24 @@
 // One law alone, driven through a list of curvatures: what `hysteron law` and the fits stand on.
 #pragma once
 
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "sim/bending/law.h"
+#include "sim/bending/law_parameters.h"
 
 namespace hysteron {
-
-// A parameter of a law is a number (`stops=8`) or a word (`memory=stack`).
-using LawParameter = std::variant<double, std::string>;
 
 struct LawRequest {
   std::string name = "prandtl";  // one of law_catalogue()
   VirginCurve curve;
-  std::map<std::string, LawParameter> parameters;
+  LawParameters parameters;
 };
 
-// One accepted step: the curvature visited.  The first row starts from rest (K = 0, no history).
+// One accepted step.  The first row starts from rest (K = 0, no history).
 struct LawRow {
   double curvature = 0;  // [1/m]
+  double seconds = 1;    // time that the step takes [s]
+  bool edit = false;     // after the step the rest curvature is set to the current one (grinspun-edit)
 };
 
 // One value per row.
@@ -32,19 +29,8 @@ struct LawRun {
   std::vector<double> dissipated;  // lost since rest [J/m^2]; `wong`: work of friction since rest
 };
 
-struct LawEntry {
-  std::string name;
-  std::string description;  // one line
-  bool built;               // false: announced, asking for it is refused
-};
-
-// All laws of the interface in its order.
-const std::vector<LawEntry>& law_catalogue();
-
-// Drives the law through `rows` in double precision, D = 1.
-// Parameters: prandtl: memory = stack (default) | stops, stack = 4|8|16|32|64 (default 64, reversal points
-// kept), stops = 4|8|16|32 (default 8); wong: recovery = masing (default) | reversible. Throws Error::request
-// for an unknown or unbuilt law and for unknown or impossible parameters.
+// Drives the law through `rows` in double precision, D = 1; parameters as in choose_law() for a law alone.
+// Laws that cannot be edited ignore `edit`.  Throws Error::request as choose_law() does.
 LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
 
 }  // namespace hysteron

@@ -22,11 +22,6 @@ ClothMesh rest_mesh(const Scene& scene) {
   return make_rectangle(c.length, width, scene.triangles, family, scene.seed);
 }
 
-bool inside(const Eigen::Vector3d& x, const Pin& pin) {
-  return ((x - pin.low).array() >= -kSelectionSlack).all() &&
-         ((pin.high - x).array() >= -kSelectionSlack).all();
-}
-
 void select(const ClothMesh& mesh, const Pin& pin, int index, std::vector<int>& pin_of) {
   if (pin.select == "nearest") {
     int nearest = 0;
@@ -38,11 +33,27 @@ void select(const ClothMesh& mesh, const Pin& pin, int index, std::vector<int>& 
       pin_of[mesh.edge[e].p2] = pin_of[mesh.edge[e].p3] = index;
   } else {
     for (int i = 0; i < mesh.vertices(); ++i)
-      if (inside(mesh.rest[i], pin)) pin_of[i] = index;
+      if (is_in_box(mesh.rest[i], pin.low, pin.high)) pin_of[i] = index;
   }
 }
 
 }  // namespace
+
+bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  return ((x - low).array() >= -kSelectionSlack).all() && ((high - x).array() >= -kSelectionSlack).all();
+}
+
+std::vector<Eigen::Vector3d> Cloth::element_centers(int dimension) const {
+  std::vector<Eigen::Vector3d> centers;
+  if (dimension == 1) {
+    for (int e = 0; e < mesh.interior_edges; ++e)
+      centers.push_back((mesh.rest[mesh.edge[e].p2] + mesh.rest[mesh.edge[e].p3]) / 2);
+  } else {
+    for (const auto& t : mesh.face)
+      centers.push_back((mesh.rest[t[0]] + mesh.rest[t[1]] + mesh.rest[t[2]]) / 3);
+  }
+  return centers;
+}
 
 std::vector<char> Cloth::held(const Scene& scene, double time) const {
   std::vector<char> result(pin.size());

@@ -15,7 +15,12 @@ struct Cloth {
 
   // Vertices that no force moves at `time` [s].
   std::vector<char> held(const Scene& scene, double time) const;
+  // Middles of the bending elements at rest [m]: of hinges (dimension 1) or of faces (3).
+  std::vector<Eigen::Vector3d> element_centers(int dimension) const;
 };
+
+// With a slack of 1 nm, so that corners meet grid vertices in spite of rounding.
+bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
 // Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for
 // pins that hold no vertex.

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/bending/law_run.h"
+#include "sim/bending/law_parameters.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron {
@@ -82,6 +82,13 @@ const KeyRow<Obstacle> kObstacleRows[] = {
     {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
 };
 
+const KeyRow<Command> kCommandRows[] = {
+    {"kind", at<&Command::kind>, "", any(), "iron | edit", "iron: forget all bends; edit: the present shape is at rest (grinspun-edit)"},
+    {"time", at<&Command::time>, "s", at_least(0), "", "when"},
+    {"low", at<&Command::low>, "m", any(), "", "corner of the box that holds the elements, on the flat cloth"},
+    {"high", at<&Command::high>, "m", any(), "", "opposite corner of the box, >= low"},
+};
+
 const KeyRow<Keyframe> kKeyframeRows[] = {
     {"time", at<&Keyframe::time>, "s", at_least(0), "", "ascending from key to key"},
     {"position", at<&Keyframe::position>, "m", any(), "", "displacement from the start"},
@@ -133,7 +140,7 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
 
 // The laws are listed once, where they are written.
 void name_laws(KeyDescription& key) {
-  for (const LawEntry& law : law_catalogue()) (law.built ? key.choices : key.announced).push_back(law.name);
+  for (const LawEntry& law : law_catalogue()) key.choices.push_back(law.name);
 }
 
 }  // namespace
@@ -147,6 +154,7 @@ Keys bind_scene(Scene& scene) {
 }
 Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
 Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
+Keys bind_command(Command& command) { return bind(kCommandRows, command); }
 Keys bind_keyframe(Keyframe& keyframe) { return bind(kKeyframeRows, keyframe); }
 
 std::vector<KeyDescription> scene_keys() {
@@ -187,6 +195,8 @@ Json to_json(const Scene& scene) {
     tree["obstacle"].push_back(to_json(bind_obstacle(obstacle)));
     tree["obstacle"].back()["keys"] = motion_json(obstacle.motion);
   }
+  tree["command"] = Json::array();
+  for (Command& command : copy.command) tree["command"].push_back(to_json(bind_command(command)));
   tree["origin"] = scene.origin;
   return tree;
 }

@@ -13,10 +13,11 @@ namespace hysteron {
 // Every key that a flag or the top level and plain tables of a scene file may set, in the manifest's order.
 std::vector<KeyDescription> scene_keys();
 
-// The same keys, and those of [[pin]], [[obstacle]] and their keyframes, bound to one object.
+// The same keys, and those of [[pin]], [[obstacle]], their keyframes and [[command]], bound to one object.
 Keys bind_scene(Scene& scene);
 Keys bind_pin(Pin& pin);
 Keys bind_obstacle(Obstacle& obstacle);
+Keys bind_command(Command& command);
 Keys bind_keyframe(Keyframe& keyframe);
 
 // Sets one key from a flag's text and remembers `origin` ("--step").  "fabric" and "fabric.name" load a whole

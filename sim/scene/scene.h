@@ -100,6 +100,14 @@ struct Obstacle {
   Motion motion;                        // obstacle.keys, obstacle.motion-axis, obstacle.motion-center
 };
 
+// An order to the bending elements whose middle lies in the box on the flat cloth.
+struct Command {
+  std::string kind = "iron";  // command.kind  iron: forget all bends | edit: the present shape is at rest
+  double time = 0;            // command.time  [s]
+  Eigen::Vector3d low{-1e3, -1e3, -1e3};  // command.low   box corner in builder coordinates [m]
+  Eigen::Vector3d high{1e3, 1e3, 1e3};    // command.high
+};
+
 struct Scene {
   ClothShape cloth;
   Fabric fabric;
@@ -125,6 +133,7 @@ struct Scene {
   unsigned seed = 1;               // seed
   std::vector<Pin> pin;            // [[pin]]
   std::vector<Obstacle> obstacle;  // [[obstacle]]
+  std::vector<Command> command;    // [[command]]
   // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;

@@ -97,21 +97,36 @@ void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string
   check_motion(scene, path, solid.motion);
 }
 
-// Of the interface, but no law of today takes them.
-const std::vector<std::string> kAnnouncedParameters = {"fatigue.dc", "fatigue.m-inf", "fatigue.set", "yield",
-                                                       "max-set",    "weakening",     "height",      "tau"};
-
+// One parameter at a time, so that the message can say where it stands; then what they are together.
 void check_parameters(const Scene& scene) {
+  const VirginCurve curve = scene.fabric.virgin_curve();
+  const auto refuse_with = [](const Error& error, const std::string& origin) {
+    throw Error::request(std::string(error.what()) + " (" + origin + ")");
+  };
   for (const auto& [name, text] : scene.param) {
-    const std::string origin = origin_of(scene, "param." + name);
-    if (std::count(kAnnouncedParameters.begin(), kAnnouncedParameters.end(), name)) {
-      throw Error::request("param " + name + " = " + text + " is not built yet (" + origin + ")");
-    }
     try {
-      hysteresis_choice(scene.law, {{name, text}});
+      choose_law(scene.law, curve, {{name, text}});
     } catch (const Error& error) {
-      throw Error::request(std::string(error.what()) + " (" + origin + ")");
+      refuse_with(error, origin_of(scene, "param." + name));
     }
+  }
+  try {
+    choose_law(scene.law, curve, scene.param);
+  } catch (const Error& error) {
+    refuse_with(error, origin_of(scene, "law"));
+  }
+}
+
+void check_command(const Scene& scene, const Command& command, const std::string& path) {
+  const auto place = [&](const std::string& key) {
+    const std::string full = path + "." + key;
+    return origin_of(scene, scene.origin.count(full) ? full : path);
+  };
+  if ((command.low.array() > command.high.array()).any())
+    throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") + ")");
+  if (command.kind == "edit" && scene.law != "grinspun-edit") {
+    throw Error::request(path + ".kind = edit needs law = grinspun-edit, not " + scene.law + " (" +
+                         place("kind") + ")");
   }
 }
 
@@ -124,6 +139,9 @@ void check_scene(const Scene& scene) {
   check_parameters(scene);
   for (std::size_t i = 0; i < scene.pin.size(); ++i) {
     check_pin(scene, scene.pin[i], "pin[" + std::to_string(i) + "]");
+  }
+  for (std::size_t i = 0; i < scene.command.size(); ++i) {
+    check_command(scene, scene.command[i], "command[" + std::to_string(i) + "]");
   }
   for (std::size_t i = 0; i < scene.obstacle.size(); ++i) {
     check_obstacle(scene, scene.obstacle[i], "obstacle[" + std::to_string(i) + "]");

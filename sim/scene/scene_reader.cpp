@@ -48,6 +48,7 @@ class SceneFile {
     const TomlNode& node = *setting.node;
     const std::string origin = place(file_, node);
     if (setting.path == "pin") return read_tables(node, scene_.pin, bind_pin);
+    if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
     const BoundKey& key = find_key(known_, setting.path, origin);
@@ -84,26 +85,28 @@ class SceneFile {
     scene_.origin["param." + name] = origin;
   }
 
-  template <class Solid>
-  void read_tables(const TomlNode& node, std::vector<Solid>& solids, Keys (*bind_one)(Solid&)) {
+  template <class Item>
+  void read_tables(const TomlNode& node, std::vector<Item>& items, Keys (*bind_one)(Item&)) {
     if (node.kind != TomlNode::Kind::array) {
       throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]] (" +
                            place(file_, node) + ")");
     }
-    solids.assign(node.children.size(), Solid{});
-    for (std::size_t i = 0; i < solids.size(); ++i) {
+    items.assign(node.children.size(), Item{});
+    for (std::size_t i = 0; i < items.size(); ++i) {
       const std::string path = node.key + "[" + std::to_string(i) + "]";
       scene_.origin[path] = place(file_, node.children[i]);
-      read_table(node.children[i], path, bind_one(solids[i]), solids[i].motion);
+      Motion* motion = nullptr;
+      if constexpr (requires { items[i].motion; }) motion = &items[i].motion;
+      read_table(node.children[i], path, bind_one(items[i]), motion);
     }
   }
 
-  void read_table(const TomlNode& table, const std::string& path, Keys keys, Motion& motion) {
+  void read_table(const TomlNode& table, const std::string& path, Keys keys, Motion* motion) {
     for (BoundKey& key : keys) key.description.path = path + "." + key.description.path;
     for (const TomlNode& child : table.children) {
       const std::string origin = place(file_, child);
-      if (child.key == "keys" && child.kind == TomlNode::Kind::array) {
-        read_keyframes(child, path, motion);
+      if (motion && child.key == "keys" && child.kind == TomlNode::Kind::array) {
+        read_keyframes(child, path, *motion);
         continue;
       }
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);

@@ -13,7 +13,8 @@ std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth&
 
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
   Cpu cpu(1);
-  return make_law_loop<double>(cpu, scene.law, scene.param, scene.fabric.virgin_curve(), op.dimension, 0)
+  return make_law_loop<double>(cpu, choose_law(scene.law, scene.fabric.virgin_curve(), scene.param),
+                               op.dimension, 0)
       ->largest_stiffness();
 }
 

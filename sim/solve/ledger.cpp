@@ -6,11 +6,11 @@ namespace hysteron {
 
 void Ledger::close() {
   const double now = kinetic + gravitational + membrane + bending + contact;
-  const double losses = bending_friction + viscous + air + contact_friction + integrator();
+  const double losses = commands + bending_friction + viscous + air + contact_friction + integrator();
   remainder = now - initial - handle_work - obstacle_work + losses;
   double scale = 0;
   for (double term : {kinetic, gravitational, membrane, bending, contact, handle_work, obstacle_work,
-                      bending_friction, viscous, air, contact_friction, inertia})
+                      commands, bending_friction, viscous, air, contact_friction, inertia})
     scale += std::abs(term);
   remainder_relative = scale > 0 ? std::abs(remainder) / scale : 0;
 }
@@ -24,6 +24,7 @@ std::vector<std::pair<std::string, double>> Ledger::rows() const {
           {"initial", initial},
           {"handle_work", handle_work},
           {"obstacle_work", obstacle_work},
+          {"commands", commands},
           {"bending_friction", bending_friction},
           {"viscous", viscous},
           {"air", air},

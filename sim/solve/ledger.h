@@ -8,7 +8,7 @@
 namespace hysteron {
 
 // All in joules.  Balance: (kinetic + gravitational + membrane + bending + contact) - initial
-//   = handle_work + obstacle_work - bending_friction - viscous - air - contact_friction
+//   = handle_work + obstacle_work - commands - bending_friction - viscous - air - contact_friction
 //     - inertia - bending_gap - implicit_gap - gravity_gap + remainder.
 // The four integrator terms come from their own formulas (header of semi_implicit.cpp), so the remainder is
 // the arithmetic's alone.
@@ -18,7 +18,8 @@ struct Ledger {
   double initial = 0;                                                       // their sum at the start
   double handle_work = 0, obstacle_work = 0;                                // done on the cloth
   double bending_friction = 0, viscous = 0, air = 0, contact_friction = 0;  // lost to physics
-  double inertia = 0;  // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
+  double commands = 0;  // recoverable bending energy taken away by ironing and edits, less what they gave
+  double inertia = 0;   // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
   double bending_gap =
       0;  // lost by explicit bending: -(change of bending energy + losses + work of its forces)
   double implicit_gap = 0;  // lost by the implicit stage: the same for membrane and contact

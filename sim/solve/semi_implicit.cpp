@@ -39,6 +39,7 @@ constexpr int kMostIterations = 2000;
 template <class Real, class Device>
 void Stepper<Real, Device>::advance(int steps) {
   for (int s = 0; s < steps; ++s) {
+    obey(time(), time() + scene_.step);
     // Stages of this step that end with an implicit solve or, explicit, with the contact's history.
     const int stages = together_ ? limits_.substeps : 1;
     for (int k = 0; k < stages; ++k)
@@ -46,6 +47,18 @@ void Stepper<Real, Device>::advance(int steps) {
     ++step_count_;
   }
   refuse_divergence();
+}
+
+// Commands act on the state accepted last, at the beginning of the step in which they are due.
+template <class Real, class Device>
+void Stepper<Real, Device>::obey(double start, double end) {
+  for (const Command& command : scene_.command) {
+    if (command.time < start || command.time >= end) continue;
+    std::vector<char> chosen;
+    for (const Eigen::Vector3d& center : command_center_)
+      chosen.push_back(is_in_box(center, command.low, command.high));
+    bending_.command(command.kind == "edit" ? CommandKind::edit : CommandKind::iron, chosen);
+  }
 }
 
 template <class Real, class Device>

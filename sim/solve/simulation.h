@@ -41,6 +41,7 @@ class Simulation {
   virtual std::vector<Eigen::Vector3d> positions() = 0;   // [m]
   virtual std::vector<Eigen::Vector3d> velocities() = 0;  // [m/s]
   virtual std::vector<double> curvature() = 0;            // `dimension` components per element [1/m]
+  virtual std::vector<double> moment() = 0;               // likewise, with viscosity [N]
   virtual std::vector<double> residual_curvature() = 0;   // likewise, where the moment is zero [1/m]
   virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
   virtual int dimension() const = 0;                      // 1: elements are hinges, 3: elements are faces

@@ -46,7 +46,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       matrix_(*device_, cloth.mesh),
       membrane_(*device_, cloth.mesh, scene.fabric, matrix_),
       bending_(*device_, cloth.mesh, op,
-               make_law_loop<Real>(*device_, scene.law, scene.param, scene.fabric.virgin_curve(),
+               make_law_loop<Real>(*device_, choose_law(scene.law, scene.fabric.virgin_curve(), scene.param),
                                    op.dimension, op.elements()),
                scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
                scene.fabric.damping * scene.fabric.b1),
@@ -72,6 +72,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
     pin_ = Buffer<int, Device>(*device_, cloth.pin);
   }
+  if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {
     contact_.emplace(*device_, cloth.mesh, scene);
     before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
@@ -151,8 +152,9 @@ Ledger Stepper<Real, Device>::ledger() {
     ledger.contact_friction = contact.friction;
     ledger.obstacle_work = contact.obstacle_work;
   }
-  ledger.bending_gap =
-      initial_.bending - ledger.bending - ledger.bending_friction - viscous_bending - bending_work;
+  ledger.commands = bending_.taken_by_commands();
+  ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - ledger.commands -
+                       viscous_bending - bending_work;
   ledger.gravity_gap = -ledger.gravitational - gravity_work;
   ledger.implicit_gap = initial_.membrane - ledger.membrane + initial_.contact - ledger.contact -
                         viscous_membrane - ledger.contact_friction + ledger.obstacle_work - implicit_work;
@@ -210,6 +212,7 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
       "solve: start, product, advance, direction", "the integrator is explicit");
   add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");
+  add("commands", !scene_.command.empty(), 0, "bending command", "no command");
   add("viscous damping", scene_.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene_.air_drag > 0, 0, "substep", "air-drag = 0");
   add("moving handles", moving_pins_, start_.bytes() + pin_.bytes(), "handles", "no pin moves");

@@ -45,6 +45,7 @@ class Stepper : public Simulation {
   std::vector<Eigen::Vector3d> positions() override;
   std::vector<Eigen::Vector3d> velocities() override;
   std::vector<double> curvature() override { return bending_.curvature(); }
+  std::vector<double> moment() override { return bending_.moment(); }
   std::vector<double> residual_curvature() override { return bending_.residual_curvature(); }
   std::vector<double> friction_share() override { return bending_.slip(); }
   int dimension() const override { return bending_.dimension(); }
@@ -62,8 +63,9 @@ class Stepper : public Simulation {
   int cuda_device() const override { return device_->cuda_device(); }
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
-  void stage(double start, Real h);  // one implicit solve and what leads to it
-  void hold(double start, Real h);   // pins: which vertices are held, and their velocity in this stage
+  void obey(double start, double end);  // commands that are due
+  void stage(double start, Real h);     // one implicit solve and what leads to it
+  void hold(double start, Real h);      // pins: which vertices are held, and their velocity in this stage
   void gather_impulses(Real h);  // bending and external forces, for a stage in which all forces act together
   void substep(Real dt);         // bending and external forces, explicit
   void explicit_substep(Real dt);  // every force, explicit
@@ -92,6 +94,7 @@ class Stepper : public Simulation {
   std::optional<Contact<Real, Device>> contact_;
   bool moving_pins_ = false, held_changes_ = false;
   std::vector<int> pin_host_;
+  std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
   Buffer<Vec3<Real>, Device> impulse_;  // of the explicit forces over a stage [N s]
   Buffer<Vec3<Real>, Device> change_,

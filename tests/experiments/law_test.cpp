@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "experiments/csv.h"
@@ -55,19 +56,32 @@ TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
 }
 
 TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
-  options_.parameters = {"recovery"};
-  EXPECT_NE(refusal().find("'recovery' must have the form name=value"), std::string::npos);
-  options_.parameters = {"recovery=elastic"};
-  EXPECT_NE(refusal().find("recovery = elastic must be masing (default) or reversible"), std::string::npos);
+  options_.parameters = {{"recovery", "elastic"}};
+  EXPECT_NE(refusal().find("recovery = elastic must be masing or reversible"), std::string::npos);
   options_.parameters = {};
   write("curvature [1/m],time [s]\n50,1\n100,0\n");
   EXPECT_NE(refusal().find("k.csv:3: time = 0 s must be >= 1 s"), std::string::npos);
+  write("curvature [1/m],edit\n50,2\n");
+  EXPECT_NE(refusal().find("k.csv:2: edit = 2 must be 0 or 1"), std::string::npos);
 }
 
-TEST_F(LawCommand, ReadsParametersAsNumbersWhereTheyAreNumbers) {
-  EXPECT_EQ(std::get<double>(parse_parameter("stops=16").second), 16);
-  EXPECT_EQ(std::get<std::string>(parse_parameter("memory=stops").second), "stops");
-  EXPECT_EQ(parse_parameter("memory=stops").first, "memory");
+TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
+  const auto moments = [&] {
+    EXPECT_EQ(run_law_command(options_), 0);
+    return read_csv(options_.out, {"moment [N]"}, {}, "law").columns[0].values;
+  };
+  options_.law = "terzopoulos";
+  write("curvature [1/m],time [s]\n200,0\n200,1\n200,1001\n");
+  const double m0 = 3e-5 * 50 / 2, excess = 1e-5 * 200 - m0;
+  constexpr double kRounding = 1e-15;
+  const std::vector<double> creep = moments();
+  EXPECT_NEAR(creep[0], m0 + excess, kRounding);  // no time has passed
+  EXPECT_NEAR(creep[1], m0 + excess * std::exp(-1), kRounding);
+  EXPECT_NEAR(creep[2], m0, kRounding);
+  options_.law = "grinspun-edit";
+  write("curvature [1/m],edit\n200,1\n150,0\n");
+  EXPECT_NEAR(moments()[0], 0, kRounding);
+  EXPECT_NEAR(moments()[1], -50e-5, kRounding);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ struct Bent {
     return {cpu,
             mesh,
             op,
-            make_law_loop<double>(cpu, law, parameters, testing::cotton_broad(), op.dimension, op.elements()),
+            make_law_loop<double>(cpu, choose_law(law, testing::cotton_broad(), parameters), op.dimension,
+                                  op.elements()),
             convention,
             0};
   }

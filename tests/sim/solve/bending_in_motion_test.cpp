@@ -201,10 +201,10 @@ TEST(History, IsCommittedOncePerSubstepAtThePositionsBeforeIt) {
       const CurvatureOperator op =
           make_curvature_operator("shape", trial.cloth.mesh, trial.cloth.held(trial.scene, 0));
       Cpu cpu(1);
-      Bending<double, Cpu> replay(
-          cpu, trial.cloth.mesh, op,
-          make_law_loop<double>(cpu, law, {}, scene.fabric.virgin_curve(), op.dimension, op.elements()),
-          ForceConvention::energy, 0);
+      Bending<double, Cpu> replay(cpu, trial.cloth.mesh, op,
+                                  make_law_loop<double>(cpu, choose_law(law, scene.fabric.virgin_curve(), {}),
+                                                        op.dimension, op.elements()),
+                                  ForceConvention::energy, 0);
       const std::vector<Vector3d> still(trial.cloth.start.size(), Vector3d::Zero());
       replay.commit(trial.cloth.start.data(), still.data(), 0);  // at the start
       for (int i = 0; i < 200; ++i) {

@@ -1,0 +1,115 @@
+// Plastic rest curvature with hardening, and a friction anchor, both with hold-time dependence (Gong et al.
+// 2025; rules as published, thresholds in angle read as curvatures).
+//
+//   plastic:   e = K - K_p, yields at |e| > y: d = (|e| - y) b2/(k + b2), K_p += sgn(e) d, hard += d,
+//              y = y0 + hard k/b2,  k = k_h (1 - (1 - exp(-t/tau)) k_h0)
+//   friction:  u = K - anchor, slips at |u| > r(t) = r_inf - (r_inf - r_0) exp(-t/tau)
+//   M = b2 (K - K_p) + (b1 - b2) u
+//
+// t, the time held, starts again at the end of a step that turned back; within a step it is fixed, so that
+// the moment has a potential.  k_h = 5 b2, k_h0 = 0.99, r_0 = r_inf/12, tau = 30 s are theirs.  Ours: y0 =
+// `yield`, k0 by default; r_inf = K0/2, so that the friction moment held for long is M0 = HB.  A threshold
+// that falls when t starts again lets the anchor slip at once; that energy is lost.
+#pragma once
+
+#include <cmath>
+
+#include "sim/bending/plastic_return.h"
+#include "sim/bending/zero_moment.h"
+
+namespace hysteron {
+
+template <class Real>
+struct Gong {
+  static constexpr int kDimension = 1;
+  static constexpr int kHistory = 6;
+  using Scalar = Real;
+  using Memory = History<Real, kHistory>;
+
+  Real b2 = 0;     // rigidity [N m]
+  Real g = 0;      // stiffness of friction b1 - b2 [N m]
+  Real yield = 0;  // y0 [1/m]
+  Real limit = 0;  // r_inf [1/m]
+  Real tau = 30;   // hold time [s]
+  Real dt = 0;     // time of the step [s]
+
+  static constexpr Real kHardening = 5;               // k_h/b2
+  static constexpr Real kHardeningLost = Real(0.99);  // k_h0
+  static constexpr Real kFirstLimit = Real(1) / 12;   // r_0/r_inf
+
+  static Gong make(const VirginCurve& curve, double yield, double tau) {
+    return {Real(curve.b2), Real(curve.b1 - curve.b2), Real(yield), Real(curve.k0 / 2), Real(tau), 0};
+  }
+
+  HYST_HD LawStep<Real, 1, kHistory> step(const Vec<Real, 1>& curvature, const Memory& before) const {
+    const Real k = curvature[0];
+    const Hold hold = hold_at(before);
+    const Real e = k - before[kSet], n = absolute(e);
+    const PlasticReturn<Real> plastic = PlasticReturn<Real>::hardening(n, hold.yield, hold.kept);
+    const Real u = k - before[kAnchor], stretch = clamped(u, hold.limit),
+               slipped = absolute(u) - absolute(stretch);
+    const Real elastic = n > plastic.held ? (e > 0 ? plastic.held : -plastic.held) : e;
+
+    LawStep<Real, 1, kHistory> result;
+    result.history = before;
+    if (n > plastic.held) {
+      result.history[kSet] = k - elastic;
+      result.history[kHard] += n - plastic.held;
+    }
+    remember_motion(k, before, result.history);
+    // A shorter hold ends with a lower threshold: the anchor slips at once.
+    const Real kept = clamped(stretch, result.history[kHeld] > 0 ? hold.limit : limit_after(0));
+    result.history[kAnchor] = k - kept;
+    result.moment[0] = b2 * elastic + g * stretch;
+    result.stored = (b2 * elastic * elastic + g * kept * kept) / 2;
+    result.dissipated =
+        b2 * plastic.lost + g * hold.limit * slipped + g * (stretch * stretch - kept * kept) / 2;
+    return result;
+  }
+
+  HYST_HD Tangent<Real, 1> tangent(const Vec<Real, 1>& curvature, const Memory& before) const {
+    const Real k = curvature[0];
+    const Hold hold = hold_at(before);
+    const Real u = k - before[kAnchor];
+    const Real plastic =
+        PlasticReturn<Real>::hardening(absolute(k - before[kSet]), hold.yield, hold.kept).slope;
+    return Tangent<Real, 1>(b2 * plastic + (absolute(u) > hold.limit ? Real(0) : g));
+  }
+
+  HYST_HD Vec<Real, 1> residual(const Memory& history) const {
+    return zero_moment(*this, history, Vec<Real, 1>(history[kSet]));
+  }
+  HYST_HD Real used(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(t)
+    const Real now = limit_after(history[kHeld]);
+    return now > 0 ? absolute(curvature[0] - history[kAnchor]) / now : Real(0);
+  }
+  HYST_HD Real largest_stiffness() const { return b2 + g; }
+
+ private:
+  enum Slot { kSet, kHard, kAnchor, kHeld, kPosition, kDirection };
+  struct Hold {
+    Real yield;  // y [1/m]
+    Real kept;   // k/(k + b2): share of the excess that stays elastic
+    Real limit;  // r(t) [1/m]
+  };
+
+  HYST_HD static Real absolute(Real x) { return x < 0 ? -x : x; }
+  HYST_HD static Real clamped(Real x, Real limit) { return x > limit ? limit : x < -limit ? -limit : x; }
+  HYST_HD Real limit_after(Real held) const {
+    using std::exp;
+    return limit * (1 - (1 - kFirstLimit) * exp(-held / tau));
+  }
+  HYST_HD Hold hold_at(const Memory& m) const {
+    using std::exp;
+    const Real held = m[kHeld] + dt, k = kHardening * (1 - (1 - exp(-held / tau)) * kHardeningLost);
+    return {yield + m[kHard] * k, k / (k + 1), limit_after(held)};
+  }
+  HYST_HD void remember_motion(Real k, const Memory& before, Memory& after) const {
+    const Real way = k - before[kPosition], direction = way > 0 ? Real(1) : way < 0 ? Real(-1) : Real(0);
+    after[kHeld] = direction * before[kDirection] < 0 ? Real(0) : before[kHeld] + dt;
+    if (direction != 0) after[kDirection] = direction;
+    after[kPosition] = k;
+  }
+};
+
+}  // namespace hysteron

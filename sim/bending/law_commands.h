@@ -1,0 +1,33 @@
+// What is done to a law from outside: the time of its steps, editing its rest curvature, ironing.
+#pragma once
+
+#include "sim/bending/law.h"
+
+namespace hysteron {
+
+// Tells a law that creeps or ages how long the coming step takes [s]; others have no time.
+template <class Law, class Real>
+HYST_HD void set_step_time(Law& law, Real seconds) {
+  if constexpr (requires { law.dt; })
+    law.dt = seconds;
+  else if constexpr (requires { law.law; })
+    set_step_time(law.law, seconds);
+}
+
+template <class Law>
+inline constexpr bool kIsEditable = requires(const Law& law,
+                                             const History<typename Law::Scalar, Law::kHistory>& h) {
+  law.edited(Vec<typename Law::Scalar, Law::kDimension>(), h);
+};
+
+// History after ironing at this curvature: as if virgin cloth had been bent there in one step, at once.  A
+// law with ironed() says what of its history ironing leaves.
+template <class Law, class Real, int D, int N>
+HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
+  set_step_time(law, Real(0));
+  History<Real, N> fresh;
+  if constexpr (requires { law.ironed(before); }) fresh = law.ironed(before);
+  return law.step(curvature, fresh).history;
+}
+
+}  // namespace hysteron

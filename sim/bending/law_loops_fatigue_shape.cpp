@@ -1,0 +1,11 @@
+#include "sim/bending/law_loops_friction.h"
+
+namespace hysteron {
+
+template std::unique_ptr<LawLoop<double, ThisDevice>> make_fatigue_loop<double, ThisDevice, 3>(
+    ThisDevice&, const LawChoice&, int);
+template std::unique_ptr<LawLoop<float, ThisDevice>> make_fatigue_loop<float, ThisDevice, 3>(ThisDevice&,
+                                                                                             const LawChoice&,
+                                                                                             int);
+
+}  // namespace hysteron
