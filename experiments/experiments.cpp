@@ -19,7 +19,10 @@ const std::vector<Experiment>& experiments() {
        .run = swing,
        .simulates = true},
       {.name = "compare", .question = "one scene under several laws"},
-      {.name = "kes", .question = "virtual KES-FB2 pure bending"},
+      {.name = "kes",
+       .question = "virtual KES-FB2 pure bending of laws alone: B, 2HB, residual curvature, loops",
+       .run = kes,
+       .own_keys = kes_keys},
       {.name = "cantilever", .question = "bending length under own weight (ASTM D1388)"},
       {.name = "buckle", .question = "strip that buckles under its own weight"},
       {.name = "accuracy", .question = "bending elements against closed forms"},
@@ -39,6 +42,10 @@ const std::vector<Experiment>& experiments() {
        .question = "write a run's folder as one page, report.html",
        .run = report,
        .names = "DIR"},
+      {.name = "figures",
+       .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
+       .run = figures,
+       .own_keys = figures_keys},
       {.name = "list",
        .question = "what there is: fabrics, laws, scenes, devices",
        .run = list,
@@ -65,6 +72,34 @@ std::vector<KeyDescription> descriptions(const Keys& keys) {
   std::vector<KeyDescription> result;
   for (const BoundKey& key : keys) result.push_back(key.description);
   return result;
+}
+
+void set_keys(const CommandLine& line, const Keys& keys) {
+  for (const Flag& flag : line.flags) {
+    if (flag.path == "fabric" || flag.path.starts_with("fabric.")) continue;
+    const std::string origin = "--" + flag.path;
+    const BoundKey& key = find_key(keys, flag.path, origin);
+    assign(key, parse_text(key.description, flag.text), origin);
+  }
+}
+
+std::vector<KeyDescription> fabric_keys() {
+  static const std::vector<std::string> kNames = {"fabric.name", "fabric.b1", "fabric.b2", "fabric.k0"};
+  std::vector<KeyDescription> keys = scene_keys();
+  std::erase_if(
+      keys, [](const KeyDescription& key) { return !std::count(kNames.begin(), kNames.end(), key.path); });
+  return keys;
+}
+
+Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags) {
+  std::vector<Flag> own = {{"fabric", name_or_file}};
+  for (const Flag& flag : flags) {
+    if (flag.path.starts_with("fabric.")) own.push_back(flag);
+  }
+  Scene scene;
+  apply_flags(scene, own);
+  check_scene(scene);
+  return scene.fabric;
 }
 
 }  // namespace hysteron::experiments

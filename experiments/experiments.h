@@ -40,14 +40,27 @@ Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {});
 // Descriptions of bound keys, for Experiment::own_keys.
 std::vector<KeyDescription> descriptions(const Keys& keys);
 
+// For experiments without a scene.  Sets `keys` from the flags; those of a fabric are left to fabric_of().
+// Throws Error::request.
+void set_keys(const CommandLine& line, const Keys& keys);
+// --fabric, --fabric.b1, --fabric.b2, --fabric.k0.
+std::vector<KeyDescription> fabric_keys();
+// The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a
+// scene's. Throws Error::request, Error::machine.
+Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags);
+
 int drape(const CommandLine& line);
 int swing(const CommandLine& line);
 int bench(const CommandLine& line);
+int kes(const CommandLine& line);
+int figures(const CommandLine& line);
 int law(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
 
 std::vector<KeyDescription> drape_keys();
 std::vector<KeyDescription> law_keys();
+std::vector<KeyDescription> kes_keys();
+std::vector<KeyDescription> figures_keys();
 
 }  // namespace hysteron::experiments

@@ -8,8 +8,9 @@ namespace {
 std::string frame_commands(const Plot& plot) {
   std::string script =
       "set border 3 lw 1.2 lc rgb '#444444'\nset tics nomirror out scale 0.6\n"
-      "set key outside right top vertical reverse Left samplen 2.5 spacing 1.25\nset datafile missing 'NaN'\n"
-      "set lmargin 11\nset bmargin 4\n";
+      "set datafile missing 'NaN'\nset lmargin 11\nset bmargin 4\n";
+  script += std::string("set key ") + (plot.key_inside ? "inside right bottom" : "outside right top") +
+            " vertical reverse Left samplen 2.5 spacing 1.25\n";
   script += plot.axes_at_zero
                 ? "set xzeroaxis lt 1 lw 1.2 lc rgb '#888888'\nset yzeroaxis lt 1 lw 1.2 lc rgb '#888888'\n"
                 : "set grid lc rgb '#DDDDDD' lw 0.8 lt 1, lc rgb '#EEEEEE' lw 0.5 lt 1\n";

@@ -38,6 +38,7 @@ struct Plot {
   bool equal_scales = false;       // one unit is as long along x as along y: outlines
   std::vector<Mark> marks{};
   bool axes_at_zero = false;  // lines through the origin instead of a grid
+  bool key_inside = false;    // in the lower right corner, not beside the plot
 };
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).

@@ -1,0 +1,22 @@
+// The chapter's moment-curvature figures, computed with the program's own laws.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/plot.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+struct Figure {
+  std::string name;     // of the files: "figure-4-3"
+  std::string caption;  // what is drawn, and where the chapter's text cannot hold as printed
+  render::Plot plot;    // series' labels name the curves; marks carry the chapter's letters
+};
+
+// Figures 4.2(b), 4.3, 4.4(a), (b), (c), (d).  Moments in mN, curvatures in 1/m.  Throws Error::request for
+// a fabric without friction (b1 = b2) or without b2: it has no loop, or no residual curvature to draw.
+std::vector<Figure> chapter_figures(const Fabric& fabric);
+
+}  // namespace hysteron::experiments

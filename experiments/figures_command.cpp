@@ -1,0 +1,77 @@
+// `hysteron figures`: the chapter's figures as pictures, curves and captions in one folder.
+#include <iostream>
+
+#include "experiments/experiments.h"
+#include "experiments/figures.h"
+#include "experiments/run.h"
+#include "sim/atomic_file.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// The curves and named points of a figure, one point per row.
+void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
+  AtomicFile file(path.string());
+  file.stream().precision(12);
+  file.stream() << "curve,curvature [1/m],moment [mN]\n";
+  for (const render::Series& series : plot.series) {
+    if (series.label.empty()) continue;
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      file.stream() << "\"" << series.label << "\"," << series.x[i] << "," << series.y[i] << "\n";
+  }
+  for (const render::Mark& mark : plot.marks) {
+    if (mark.dot) file.stream() << "\"point " << mark.text << "\"," << mark.x << "," << mark.y << "\n";
+  }
+  file.commit();
+}
+
+void write_captions(const std::filesystem::path& path, const std::vector<Figure>& figures,
+                    const std::string& command) {
+  AtomicFile file(path.string());
+  file.stream() << "# The chapter's figures, from the program's own laws\n\nWong, \"Modelling Bending "
+                   "Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer Graphics Forum 2013). "
+                   "Letters as in the chapter. Written by `"
+                << command << "`; curves and points are in the CSV files.\n";
+  for (const Figure& figure : figures) {
+    file.stream() << "\n![" << figure.plot.title << "](" << figure.name << ".png)\n\n**" << figure.plot.title
+                  << ".** " << figure.caption << "\n";
+  }
+  file.commit();
+}
+
+}  // namespace
+
+std::vector<KeyDescription> figures_keys() {
+  Options options;
+  std::vector<KeyDescription> keys = descriptions(bind_output_options(options));
+  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
+  return keys;
+}
+
+int figures(const CommandLine& line) {
+  Options options;
+  options.out = "out/figures";
+  set_keys(line, bind_output_options(options));
+  std::string name = Fabric{}.name;
+  for (const Flag& flag : line.flags) {
+    if (flag.path == "fabric") name = flag.text;
+  }
+  Scene scene;
+  scene.fabric = fabric_of(name, line.flags);
+  const std::vector<Figure> all = chapter_figures(scene.fabric);
+  Run run(line, options, {{"fabric", to_json(scene)["fabric"]}});
+  for (const Figure& figure : all) {
+    write_curves(run.path(figure.name + ".csv"), figure.plot);
+    if (options.no_images) continue;
+    render::write_plot(run.folder() / figure.name, figure.plot);
+    for (const char* ending : {".png", ".svg"}) run.path(figure.name + ending);
+  }
+  write_captions(run.path("README.md"), all, line.command);
+  run.finish();
+  if (!options.json) {
+    for (const Figure& figure : all) std::cout << figure.name << ": " << figure.plot.title << "\n";
+  }
+  return 0;
+}
+
+}  // namespace hysteron::experiments
