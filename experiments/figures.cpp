@@ -194,9 +194,9 @@ Figure figure_4_4a(const Chapter& c) {
   const double kg = c.curvature_at(1.5 * c.ma), h = c.residual("bilinear", kg, 1.5 * c.ma);
   Plot plot = empty_plot("Figure 4.4(a): the bilinear loop, " + c.fabric, -1.15 * km, 1.15 * km, -1.18 * mm,
                          1.18 * mm);
-  plot.series = {drawn(trace("bilinear", c.curve, {km, -km, km}, {}, 1), "loop", kBlue),
-                 drawn(trace("bilinear", c.curve, {km}), "first bending, oac", kOrange, 2),
-                 drawn(trace("bilinear", c.curve, {-km}), "the other way, obd", kGreen, 2),
+  plot.series = {drawn(trace("bilinear", c.curve, {km, inner, -km, -inner, km}, {}, 1), "loop", kBlue),
+                 drawn(trace("bilinear", c.curve, {k0, km}), "first bending, oac", kOrange, 2),
+                 drawn(trace("bilinear", c.curve, {-k0, -km}), "the other way, obd", kGreen, 2),
                  drawn(trace("bilinear", c.curve, {kg, h}, {}, 1), "recovery gh", "#CC79A7", 2)};
   plot.marks = {above("a", k0, c.ma),       above("c", km, mm),         beside("a′", inner, m_inner, 0.9),
                 below("b", -k0, -c.ma),     below("d", -km, -mm),       beside("b′", -inner, -m_inner, -0.9),
@@ -224,9 +224,11 @@ Plot recovery_plot(const Chapter& c, const std::string& title, double km, double
   const double right = 1.15 * std::max(km, c.curve.k0), level = mm > c.ma ? 2 * c.ma : c.ma;
   const double top = std::max(1.15 * mm, 1.1 * level);
   Plot plot = empty_plot(title + ", " + c.fabric, -0.1 * right, right, -0.26 * top, top);
+  std::vector<double> corners = {std::min(km, c.curve.k0), km, std::max(residual, km - 2 * c.curve.k0),
+                                 residual};
   const Trace quadratic = trace("prandtl", c.curve, {km, c.residual("prandtl", km, mm)});
   plot.series = {drawn(quadratic, "quadratic (prandtl)", "#E69F00", 2),
-                 drawn(trace("bilinear", c.curve, {km, residual}), "bilinear (the chapter)", kBlue)};
+                 drawn(trace("bilinear", c.curve, corners), "bilinear (the chapter)", kBlue)};
   draw_levels(c, right, plot);
   plot.marks.push_back(words("o", 0, 0, -0.6, -0.7));
   return plot;

@@ -12,9 +12,11 @@ namespace {
 
 using Family = MinorLoop::Family;
 
-constexpr double kAmplitudes[] = {0.1, 0.2, 0.4, 0.6, 0.8};     // of the full amplitude
-constexpr double kPartialReversals[] = {0.6, 0.2, -0.2, -0.6};  // of the full amplitude
-constexpr double kAreaRounding = 1e-12;  // of amplitude times moment: what a sum over no loop leaves
+constexpr double kAmplitudes[] = {0.1, 0.25, 0.45, 0.65, 0.85};  // of the full amplitude
+constexpr double kPartialReversals[] = {0.5, 0.1, -0.3, -0.7};   // of the full amplitude
+constexpr double kAreaRounding = 1e-9;  // of amplitude times moment: what the sum over a closed line leaves
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Rows and moments of one leg, on which the curvature is monotone.
 struct Leg {
@@ -28,7 +30,7 @@ struct Leg {
       if (a != b && (curvature - a) * (curvature - b) <= 0)
         return moment[i - 1] + (moment[i] - moment[i - 1]) * (curvature - a) / (b - a);
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNaN;
   }
   // Where the moment, positive at first, has come down to zero.
   double root() const {
@@ -38,7 +40,7 @@ struct Leg {
       const double share = moment[i - 1] / (moment[i - 1] - moment[i]);
       return row[i - 1].curvature + share * (row[i].curvature - row[i - 1].curvature);
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kNaN;
   }
   double work() const {  // int M dK
     double sum = 0;
@@ -59,6 +61,14 @@ std::vector<double> cycled(double amplitude, int cycles) {
   return turns;
 }
 
+// From the amplitude to its opposite and back, the area that the moments enclose [J/m^2].
+double area_of_cycle(int cycle, const KesWalk& walk, const std::vector<double>& moment) {
+  const Leg down = leg(walk, moment, 1 + 2 * cycle), back = leg(walk, moment, 2 + 2 * cycle);
+  const double area = down.work() + back.work();
+  const double rounding = kAreaRounding * std::abs(down.moment[0] * down.row[0].curvature);
+  return std::abs(area) > rounding ? area : 0;
+}
+
 KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vector<double>& moment) {
   const Leg up = leg(walk, moment, 0), down = leg(walk, moment, 1), back = leg(walk, moment, 2);
   const auto slope = [&](const Leg& loading, double side) {
@@ -71,10 +81,9 @@ KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vecto
                         down.moment_at(-p.width_at)) /
                        2;
   reading.residual = down.root();
-  const std::size_t last = walk.start.size() - 2;
-  const double area = leg(walk, moment, last - 1).work() + leg(walk, moment, last).work();
-  const double rounding = kAreaRounding * p.amplitude * std::abs(p.amplitude * reading.rigidity);
-  reading.loop_area = std::abs(area) > rounding ? area : 0;
+  reading.loop_area = area_of_cycle(p.cycles - 1, walk, moment);
+  const double before = p.cycles > 1 ? area_of_cycle(p.cycles - 2, walk, moment) : kNaN;
+  reading.area_change = before == 0 ? 0 : reading.loop_area / before - 1;
   return reading;
 }
 
@@ -158,7 +167,7 @@ KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol) {
   test.reading.residual_by_formula =
       has_residual_formula(law)
           ? residual_by_formula(law, protocol.amplitude, test.moment[test.walk.start[1] - 1])
-          : std::numeric_limits<double>::quiet_NaN();
+          : kNaN;
   if (!protocol.minor_loops) return test;
   for (double a : kAmplitudes)
     test_minor_loop(request, protocol, Family::amplitude, a * protocol.amplitude, test);

@@ -10,13 +10,13 @@
 namespace hysteron::experiments {
 
 struct KesProtocol {
-  double amplitude = 250;   // largest curvature [1/m]
-  double rate = 50;         // of curvature [1/(m s)], 0.5 per cm and second
-  double slope_from = 50;   // B is the slope between these two curvatures [1/m]
-  double slope_to = 150;    //
-  double width_at = 100;    // curvature at which 2HB, the loop's width, is read [1/m]
-  int steps = 1000;         // accepted steps from zero to the amplitude
-  int cycles = 3;           // the tester reads the first; the area is that of the last
+  double amplitude = 250;  // largest curvature [1/m]
+  double rate = 50;        // of curvature [1/(m s)], 0.5 per cm and second
+  double slope_from = 50;  // B is the slope between these two curvatures [1/m]
+  double slope_to = 150;   //
+  double width_at = 100;   // curvature at which 2HB, the loop's width, is read [1/m]
+  int steps = 20000;  // accepted steps to the amplitude; laws that take time need many to be exact to 1e-4
+  int cycles = 3;     // the tester reads the first; the area is that of the last
   bool minor_loops = true;  // test smaller amplitudes and partial reversals as well
 };
 
@@ -40,6 +40,7 @@ struct KesReading {
   double residual = 0;             // curvature at zero moment after release from the amplitude [1/m]
   double residual_by_formula = 0;  // the same in closed form; NaN if the law has none
   double loop_area = 0;            // of the last cycle [J/m^2]
+  double area_change = 0;          // of the area, by the last cycle; NaN if there was only one
 };
 
 // A smaller cycle, closed if the law closes it.

@@ -36,7 +36,7 @@ const KeyRow<KesFlags> kRows[] = {
     {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "the tester reads the first; the area is that of the last"},
 };
 // clang-format on
-constexpr int kQuickSteps = 100;
+constexpr int kQuickSteps = 1000;
 
 Keys keys_of(KesFlags& flags) {
   Keys keys = bind(kRows, flags);

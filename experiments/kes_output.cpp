@@ -102,6 +102,8 @@ double published(const Fabric& fabric, const std::string& name, const std::strin
   return found != fabric.published.end() && found->second.unit == unit ? found->second.value * si : NAN;
 }
 
+Json number_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
+
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
   std::printf("%-15s", name.c_str());
   for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
@@ -117,10 +119,10 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       const std::string p = prefix(result);
       run.metric(p + "B_N_m", r.rigidity);
       run.metric(p + "2HB_N", r.loop_width);
-      run.metric(p + "residual_curvature_per_m", r.residual);
-      run.metric(p + "residual_by_formula_per_m",
-                 std::isnan(r.residual_by_formula) ? Json() : Json(r.residual_by_formula));
+      run.metric(p + "residual_curvature_per_m", number_or_null(r.residual));
+      run.metric(p + "residual_by_formula_per_m", number_or_null(r.residual_by_formula));
       run.metric(p + "loop_area_J_per_m2", r.loop_area);
+      run.metric(p + "loop_area_change_percent", number_or_null(100 * r.area_change));
       run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
       run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
       run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);

@@ -12,9 +12,10 @@ namespace {
 constexpr const char* kLawColor = "#0072B2";
 constexpr const char* kReferenceColor = "#C8C8C8";
 constexpr const char* kMinorColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
-constexpr int kDrawnSteps = 100;    // points from zero to the amplitude
-constexpr double kMilli = 1e3;      // moments are drawn in mN
-constexpr double kHeadroom = 1.35;  // of the axis over the largest moment of `prandtl`
+constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
+constexpr double kSettled = 0.01;  // change of the area from cycle to cycle that counts as settled
+constexpr double kMilli = 1e3;     // moments are drawn in mN
+constexpr double kHeadroom = 1.7;  // of the axis over the largest moment of `prandtl`
 
 std::string formatted(const char* format, double value) {
   char text[60];
@@ -52,6 +53,7 @@ double largest_moment(const KesTest& test) {
 std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   std::vector<std::string> lines;
   if (result.law == "grinspun-edit") lines.push_back("rest curvature edited at both ends");
+  if (std::abs(result.test.reading.area_change) > kSettled) lines.push_back("not settled");
   const double largest = largest_moment(result.test);
   if (kMilli * largest > shown_moment)
     lines.push_back("cut: reaches " + formatted("%.2g mN", kMilli * largest));

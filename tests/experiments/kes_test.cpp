@@ -72,7 +72,7 @@ TEST_P(AnyLaw, IsReadTheSameWithHalfTheSteps) {
 
 TEST_P(AnyLaw, HasEveryReversalOfEveryLoopClassified) {
   KesProtocol p;
-  p.steps = 100;
+  p.steps = 200;
   const KesTest test = test_in_kes({GetParam(), kCotton, {}}, p);
   const int reversals_per_cycles = 2 * p.cycles, amplitudes = 5, partial = 4;
   EXPECT_EQ(test.recovery_cases[0] + test.recovery_cases[1] + test.recovery_cases[2],
