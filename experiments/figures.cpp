@@ -170,7 +170,7 @@ Figure figure_4_3(const Chapter& c) {
                 below("b", -k0, -c.ma),
                 below("d", -km, -mm),
                 beside("b′", -inner, -m_inner, -0.9),
-                {"f", f, 0, -0.5, -0.9},
+                {"f", f, 0, 0.4, -0.9},
                 words("o", 0, 0, 0.6, -0.7),
                 words("Kₘ", km, 0, 0, -0.9),
                 words("K₀′", inner, 0, 0.2, -0.9)};
@@ -261,7 +261,7 @@ Figure figure_4_4b(const Chapter& c) {
       "figure-4-4b",
       text("Recovery from K = %.4g/m < K0. ", km) +
           "The chapter, arguing with the bilinear model, has the moment come back along o-a and nothing "
-          "remain. Its quadratic branch (4.3.2) does not do that: " +
+          "remain. Its quadratic branch (4.3.2) does not do that. " +
           residuals(c, km) +
           "So sections 4.3.2 and 4.3.3 disagree for small bends. The program keeps the branch "
           "(`recovery = masing`); `wong` with `recovery = reversible` goes back to o as 4.3.3 has it, with "
