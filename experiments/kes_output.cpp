@@ -105,7 +105,7 @@ double published(const Fabric& fabric, const std::string& name, const std::strin
 Json number_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
 
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  std::printf("%-15s", name.c_str());
+  std::printf("%-19s", name.c_str());
   for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
   std::printf("\n");
 }
