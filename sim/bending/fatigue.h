@@ -27,7 +27,7 @@ struct Fatigue {
   using Real = Scalar;
   static constexpr int kDimension = Law::kDimension;
   static constexpr int D = kDimension;
-  static constexpr int kHistory = Law::kHistory + 2 + D;  // the law's, 1 - m, D [J/m^2], K_p [1/m]
+  static constexpr int kHistory = Law::kHistory + 1 + D;  // the law's, D [J/m^2], K_p [1/m]
   using Memory = History<Real, kHistory>;
 
   Law law;           // friction alone, at full strength
@@ -47,25 +47,27 @@ struct Fatigue {
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     const auto sound = law.step(curvature, part(before));
     const Vec<Real, D> elastic = curvature - load_set<Real, D>(before, kSet);
-    const Real m = 1 - before[kLost], slid = m * sound.dissipated;
+    const Real m = strength(before), slid = m * sound.dissipated,
+               spent = before[kSpent] + (slid > 0 ? slid : Real(0));
     LawStep<Real, D, kHistory> result;
     result.moment = b2 * elastic + m * sound.moment;
     result.history = before;
     for (int i = 0; i < Law::kHistory; ++i) result.history[i] = sound.history[i];
 
-    const Real weaker = strength_after(before, m, slid);
-    const Vec<Real, D> set = set_by(sound.moment, elastic, m - weaker), left = elastic - set;
-    result.stored = b2 * left.squaredNorm() / 2 + weaker * sound.stored;
-    const Real released = (m - weaker) * sound.stored + b2 * set.dot(elastic + left) / 2;
-    result.dissipated = slid + released;
-    result.history[kLost] = 1 - weaker;
-    result.history[kSpent] += (slid > 0 ? slid : Real(0)) + released;
+    // D counts what weakening itself releases; the release depends on the weakening: two rounds.
+    Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);
+    after = weakened(m, strength_at(spent + after.released), sound.moment, sound.stored, elastic);
+    result.history[kSpent] = spent + after.released;
+    after = weakened(m, strength(result.history), sound.moment, sound.stored, elastic);
+    const Vec<Real, D> left = elastic - after.set;
+    result.stored = b2 * left.squaredNorm() / 2 + (m - after.loss) * sound.stored;
+    result.dissipated = slid + after.released;
     store_set<Real, D>(curvature - left, result.history, kSet);
     return result;
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
-    return b2 * Tangent<Real, D>::Identity() + (1 - before[kLost]) * law.tangent(curvature, part(before));
+    return b2 * Tangent<Real, D>::Identity() + strength(before) * law.tangent(curvature, part(before));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
@@ -79,26 +81,35 @@ struct Fatigue {
   // Ironing flattens the set and the memory of bends; what has weakened stays weak.
   HYST_HD Memory ironed(const Memory& before) const {
     Memory after;
-    after[kLost] = before[kLost], after[kSpent] = before[kSpent];
+    after[kSpent] = before[kSpent];
     return after;
   }
 
   HYST_HD static Vec<Real, D> set_of(const Memory& m) { return load_set<Real, D>(m, kSet); }  // K_p [1/m]
-  HYST_HD static Real strength(const Memory& m) { return 1 - m[kLost]; }                      // M0(D)/M0
+  HYST_HD Real strength(const Memory& m) const { return strength_at(m[kSpent]); }             // M0(D)/M0
 
  private:
-  static constexpr int kLost = Law::kHistory, kSpent = kLost + 1, kSet = kSpent + 1;
+  static constexpr int kSpent = Law::kHistory, kSet = kSpent + 1;
+  struct Weakening {
+    Real loss;         // of m
+    Vec<Real, D> set;  // change of K_p [1/m]
+    Real released;     // energy that friction and elasticity lose by it [J/m^2]
+  };
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
     for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
     return result;
   }
-  HYST_HD Real strength_after(const Memory& before, Real m, Real slid) const {
+  HYST_HD Real strength_at(Real spent) const {
     using std::exp;
-    if (!(slid > 0)) return m;
-    const Real next = m_least + (1 - m_least) * exp(-(before[kSpent] + slid) / dc);
-    return next < m ? next : m;
+    return m_least + (1 - m_least) * exp(-spent / dc);
+  }
+  HYST_HD Weakening weakened(Real m, Real weaker, const Vec<Real, D>& friction, Real friction_energy,
+                             const Vec<Real, D>& elastic) const {
+    const Real loss = m > weaker ? m - weaker : Real(0);
+    const Vec<Real, D> set = set_by(friction, elastic, loss);
+    return {loss, set, loss * friction_energy + b2 * set.dot(elastic - set / 2)};
   }
   // Towards the fold, and never so far that it would store energy.
   HYST_HD Vec<Real, D> set_by(const Vec<Real, D>& friction, const Vec<Real, D>& elastic,

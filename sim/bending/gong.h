@@ -44,35 +44,33 @@ struct Gong {
   HYST_HD LawStep<Real, 1, kHistory> step(const Vec<Real, 1>& curvature, const Memory& before) const {
     const Real k = curvature[0];
     const Hold hold = hold_at(before);
-    const Real e = k - before[kSet], n = absolute(e);
-    const PlasticReturn<Real> plastic = PlasticReturn<Real>::hardening(n, hold.yield, hold.kept);
-    const Real u = k - before[kAnchor], stretch = clamped(u, hold.limit),
-               slipped = absolute(u) - absolute(stretch);
-    const Real elastic = n > plastic.held ? (e > 0 ? plastic.held : -plastic.held) : e;
+    const Aged aged = aged_set(before, hold);
+    const Real e = k - aged.set, n = absolute(e), y = threshold(aged.hard, hold);
+    const PlasticReturn<Real> plastic = PlasticReturn<Real>::hardening(n, y, hold.kept);
+    const Real elastic = e > 0 ? plastic.held : -plastic.held;
+    const Real u = k - before[kAnchor], stretch = clamped(u, hold.limit);
 
     LawStep<Real, 1, kHistory> result;
     result.history = before;
-    if (n > plastic.held) {
-      result.history[kSet] = k - elastic;
-      result.history[kHard] += n - plastic.held;
-    }
+    result.history[kSet] = n > plastic.held ? k - elastic : aged.set;
+    result.history[kHard] = aged.hard + (n - plastic.held);
     remember_motion(k, before, result.history);
     // A shorter hold ends with a lower threshold: the anchor slips at once.
     const Real kept = clamped(stretch, result.history[kHeld] > 0 ? hold.limit : limit_after(0));
     result.history[kAnchor] = k - kept;
     result.moment[0] = b2 * elastic + g * stretch;
     result.stored = (b2 * elastic * elastic + g * kept * kept) / 2;
-    result.dissipated =
-        b2 * plastic.lost + g * hold.limit * slipped + g * (stretch * stretch - kept * kept) / 2;
+    result.dissipated = b2 * (aged.lost + plastic.lost_by_yielding(n, y < n ? y : n)) +
+                        g * hold.limit * (absolute(u) - absolute(stretch)) +
+                        g * (stretch * stretch - kept * kept) / 2;
     return result;
   }
 
   HYST_HD Tangent<Real, 1> tangent(const Vec<Real, 1>& curvature, const Memory& before) const {
-    const Real k = curvature[0];
     const Hold hold = hold_at(before);
-    const Real u = k - before[kAnchor];
-    const Real plastic =
-        PlasticReturn<Real>::hardening(absolute(k - before[kSet]), hold.yield, hold.kept).slope;
+    const Aged aged = aged_set(before, hold);
+    const Real n = absolute(curvature[0] - aged.set), u = curvature[0] - before[kAnchor];
+    const Real plastic = PlasticReturn<Real>::hardening(n, threshold(aged.hard, hold), hold.kept).slope;
     return Tangent<Real, 1>(b2 * plastic + (absolute(u) > hold.limit ? Real(0) : g));
   }
 
@@ -88,9 +86,13 @@ struct Gong {
  private:
   enum Slot { kSet, kHard, kAnchor, kHeld, kPosition, kDirection };
   struct Hold {
-    Real yield;  // y [1/m]
+    Real k;      // hardening modulus over b2
     Real kept;   // k/(k + b2): share of the excess that stays elastic
     Real limit;  // r(t) [1/m]
+  };
+  struct Aged {
+    Real set, hard;  // K_p and hard after a softer k has let the held stretch yield [1/m]
+    Real lost;       // per unit of stiffness [1/m^2]
   };
 
   HYST_HD static Real absolute(Real x) { return x < 0 ? -x : x; }
@@ -102,7 +104,14 @@ struct Gong {
   HYST_HD Hold hold_at(const Memory& m) const {
     using std::exp;
     const Real held = m[kHeld] + dt, k = kHardening * (1 - (1 - exp(-held / tau)) * kHardeningLost);
-    return {yield + m[kHard] * k, k / (k + 1), limit_after(held)};
+    return {k, k / (k + 1), limit_after(held)};
+  }
+  HYST_HD Real threshold(Real hard, const Hold& hold) const { return yield + hard * hold.k; }
+  HYST_HD Aged aged_set(const Memory& m, const Hold& hold) const {
+    const Real e = m[kPosition] - m[kSet], n = absolute(e);
+    const PlasticReturn<Real> now = PlasticReturn<Real>::hardening(n, threshold(m[kHard], hold), hold.kept);
+    if (!(n > now.held)) return {m[kSet], m[kHard], 0};
+    return {m[kPosition] - (e > 0 ? now.held : -now.held), m[kHard] + (n - now.held), now.lost_by_creep(n)};
   }
   HYST_HD void remember_motion(Real k, const Memory& before, Memory& after) const {
     const Real way = k - before[kPosition], direction = way > 0 ? Real(1) : way < 0 ? Real(-1) : Real(0);

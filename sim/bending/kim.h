@@ -33,27 +33,23 @@ struct Kim {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const Vec<Real, D> set = residual(before), trial = curvature - set;
-    const Real n = trial.norm(), stiff = stiffness(before[D]);
-    const PlasticReturn<Real> now = returned(n, set, trial);
+    const PlasticFlow<Real, D> flow = flow_to(curvature, before);
+    const Real stiff = stiffness(before[D]), half = flow.elastic.squaredNorm() / 2;
     LawStep<Real, D, kHistory> result;
     result.history = before;
-    Vec<Real, D> elastic = trial;
-    if (n > now.held) {
-      elastic = now.held / n * trial;
-      store_set<Real, D>(curvature - elastic, result.history);
-      result.history[D] += (n - now.held) / yield;
+    if (flow.moved > 0) {
+      store_set<Real, D>(flow.set, result.history);
+      result.history[D] += flow.moved / yield;
     }
-    const Real softer = stiffness(result.history[D]), half = elastic.squaredNorm() / 2;
-    result.moment = stiff * elastic;
+    const Real softer = stiffness(result.history[D]),
+               trial = (curvature - residual(before)).squaredNorm() / 2;
+    result.moment = stiff * flow.elastic;
     result.stored = softer * half;
-    result.dissipated = stiff * now.lost + (stiff - softer) * half;
+    result.dissipated = stiff * trial - softer * half;
     return result;
   }
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
-    const Vec<Real, D> set = residual(before), trial = curvature - set;
-    const Real n = trial.norm();
-    return stiffness(before[D]) * returned(n, set, trial).template derivative<D>(trial, n);
+    return stiffness(before[D]) * flow_to(curvature, before).tangent;
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
@@ -63,19 +59,12 @@ struct Kim {
 
  private:
   HYST_HD Real stiffness(Real damage) const { return b2 / (1 + weakening * damage); }
-  // The set moves along the trial stretch, and no further than its bound allows: beyond that the law is
-  // elastic.
-  HYST_HD PlasticReturn<Real> returned(Real n, const Vec<Real, D>& set, const Vec<Real, D>& trial) const {
+  HYST_HD PlasticFlow<Real, D> flow_to(const Vec<Real, D>& curvature, const Memory& before) const {
     using std::exp;
-    using std::sqrt;
-    const Real f = exp(-dt / tau);
-    const PlasticReturn<Real> free = PlasticReturn<Real>::relaxing(n, yield, f);
-    if (!(n > free.held)) return free;
-    const Real along = set.dot(trial) / n;
-    const Real room = -along + sqrt(along * along + max_set * max_set - set.squaredNorm());
-    if (!(n - free.held > room)) return free;
-    const Real last = room + yield > room / (1 - f) ? room + yield : room / (1 - f);
-    return {n - room, 1, PlasticReturn<Real>::relaxing(last, yield, f).lost};
+    const Vec<Real, D> set = residual(before), trial = curvature - set;
+    const Real n = trial.norm();
+    return plastic_flow<Real, D>(trial, n, set, PlasticReturn<Real>::relaxing(n, yield, exp(-dt / tau)),
+                                 max_set);
   }
 };
 

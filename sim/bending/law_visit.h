@@ -3,6 +3,7 @@
 // directions).
 #pragma once
 
+#include <cmath>
 #include <utility>
 
 #include "sim/bending/bridson.h"
@@ -64,6 +65,11 @@ bool visit_memoryless(const LawChoice& c, Visit&& visit) {
 template <class Real, int D, class Visit>
 bool visit_plastic(const LawChoice& c, Visit&& visit) {
   if (c.name == "terzopoulos") return visit(Terzopoulos<Real, D>::make(c.curve, c.tau)), true;
+  if constexpr (D > 1) {  // a bounded set: scalar form only
+    if (std::isfinite(c.max_set)) {
+      return visit_plastic<Real, 1>(c, [&](const auto& law) { visit(in_dimension<D>(law)); });
+    }
+  }
   if (c.name == "obrien") return visit(Obrien<Real, D>::make(c.curve, c.yield, c.max_set)), true;
   if (c.name == "kim")
     return visit(Kim<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening, c.tau)), true;

@@ -2,6 +2,7 @@
 // at 200/m with weakening 1 to 2).
 //
 //   as `obrien` with the yield curvature y;  M = b2/(1 + w d) (K - K_p);  when it yields: d += |e|/y - 1
+//   (the way of K_p over y, also where K_p meets its bound)
 //
 // y = `yield`, k0 by default; w = `weakening`, 1 by default.  The damage d acts from the next step on, so
 // that the moment of a step has a potential; the elastic energy that softening releases is booked as lost.
@@ -28,11 +29,12 @@ struct Narain {
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
     const auto sound = plastic.step(curvature, set_of(before));
-    const Real stiff = stiffness(before[D]), n = (curvature - residual(before)).norm();
+    const Vec<Real, D> set = load_set<Real, D>(sound.history);
+    const Real stiff = stiffness(before[D]);
     LawStep<Real, D, kHistory> result;
     result.history = before;
-    store_set<Real, D>(load_set<Real, D>(sound.history), result.history);
-    if (n > plastic.yield) result.history[D] += n / plastic.yield - 1;
+    store_set<Real, D>(set, result.history);
+    result.history[D] += (set - residual(before)).norm() / plastic.yield;
     const Real softer = stiffness(result.history[D]);
     result.moment = stiff * sound.moment;
     result.stored = softer * sound.stored;

@@ -37,7 +37,7 @@ struct Terzopoulos {
     LawStep<Real, D, D> result;
     result.moment = b2 * elastic;
     result.stored = b2 * now.held * now.held / 2;
-    result.dissipated = b2 * now.lost;
+    result.dissipated = b2 * now.lost_by_creep(n);
     result.history = before;
     if (n > now.held) store_set<Real, D>(curvature - elastic, result.history);
     return result;
@@ -45,7 +45,8 @@ struct Terzopoulos {
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> trial = curvature - residual(before);
     const Real n = trial.norm();
-    return b2 * returned(n).template derivative<D>(trial, n);
+    return b2 *
+           plastic_flow<Real, D>(trial, n, Vec<Real, D>::Zero(), returned(n), 2 * n).tangent;  // no bound
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y

@@ -28,30 +28,6 @@ Eigen::Matrix3d turned(double angle) {
   return q;
 }
 
-template <class Tensor, class Scalar>
-void expect_cylinders_follow(const Tensor& tensor, const Scalar& scalar) {
-  constexpr double kRounding = 1e-13;
-  const VirginCurve c = cotton_broad();
-  for (int direction = 0; direction < 24; ++direction) {
-    const Vec<double, 3> bend = cylinder(kPi * direction / 24);
-    Driven<Tensor> sheet(tensor);
-    Driven<Scalar> strip(scalar);
-    for (double k : random_turns(60, 2 * c.k0, 61)) {
-      const double m = strip.moment(k);
-      ASSERT_LE((sheet.to(Vec<double, 3>(k * bend)).moment - m * bend).norm(), kRounding * c.b1 * c.k0);
-      ASSERT_NEAR(sheet.last.stored, strip.last.stored, kRounding * c.b1 * c.k0 * c.k0);
-      ASSERT_NEAR(sheet.last.dissipated, strip.last.dissipated, kRounding * c.b1 * c.k0 * c.k0);
-    }
-  }
-}
-
-TEST(TensorLaw, CylinderInAnyDirectionFollowsTheScalarLaw) {
-  const VirginCurve c = cotton_broad();
-  expect_cylinders_follow(Linear<double, 3>::make(c), Linear<double, 1>::make(c));
-  expect_cylinders_follow(Pabst<double, 3>::make(c), Pabst<double, 1>::make(c));
-  expect_cylinders_follow(PrandtlStops<double, 3, 8>::make(c), PrandtlStops<double, 1, 8>::make(c));
-}
-
 template <class Law>
 void expect_isotropic(const Law& law) {
   constexpr double kRounding = 1e-13;

@@ -127,5 +127,14 @@ TEST(VirginCurve, WithoutFrictionEveryLawIsTheStraightLine) {
   }
 }
 
+TEST(VirginCurve, BeginsWithTheInitialRigidityAsTangent) {
+  const VirginCurve c = cotton_broad();
+  const Vec<double, 1> rest(0.0);
+  EXPECT_DOUBLE_EQ((Pabst<double, 1>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStops<double, 1, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStack<double, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ(Wong<double>::make(c).tangent(rest, {})(0, 0), c.b1);
+}
+
 }  // namespace
 }  // namespace hysteron::testing
