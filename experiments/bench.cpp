@@ -1,10 +1,11 @@
-// Time and memory of a step: a square of 0.5 m, hanging from two corners.
+// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
 
 #include "experiments/experiments.h"
+#include "experiments/law_cost.h"
 #include "experiments/run.h"
 #include "sim/scene/cloth.h"
 #include "sim/solve/simulation.h"
@@ -15,9 +16,29 @@ namespace {
 struct Case {
   const char* element;
   const char* law;
+  const char* memory = "stops";  // of prandtl
 };
 constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", "wong"},
-                           {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "wong"}};
+                           {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "prandtl", "stack"},
+                           {"hinge", "wong"}};
+
+struct BenchOptions {
+  bool laws = false;
+  double elements = 1e6;
+};
+// clang-format off
+const KeyRow<BenchOptions> kRows[] = {
+    {"laws", at<&BenchOptions::laws>, "", any(), "", "the laws alone: error on random histories, time and memory per element"},
+    {"elements", at<&BenchOptions::elements>, "", between(1, 1e8), "", "of --laws"},
+};
+// clang-format on
+
+void take(const Case& c, Scene& scene) {
+  scene.element = c.element;
+  scene.law = c.law;
+  scene.param.clear();
+  if (scene.law == "prandtl") scene.param["memory"] = c.memory;
+}
 constexpr int kBatches = 7;  // the median of their times is reported
 
 Setup defaults() {
@@ -72,6 +93,7 @@ Json measure(Simulation& simulation, const Scene& scene, int triangles, int step
   row["precision"] = scene.precision;
   row["element"] = scene.element;
   row["law"] = scene.law;
+  if (scene.law == "prandtl") row["memory"] = scene.param.at("memory");
   row["integrator"] = scene.integrator;
   row["substeps"] = simulation.limits().substeps;
   row["solver_iterations"] = simulation.solver_iterations();
@@ -104,18 +126,40 @@ void print(const Json& row) {
 int common_substeps(Scene scene, const Cloth& cloth) {
   int most = scene.substeps;
   for (const Case& c : kCases) {
-    scene.law = c.law;
-    scene.element = c.element;
+    take(c, scene);
     scene.substeps = 0;
     most = std::max(most, make_simulation(scene, cloth)->limits().substeps);
   }
   return most;
 }
 
+int bench_laws(const Setup& setup, int elements) {
+  const Json rows = law_cost_table(setup.scene, setup.options.quick ? elements / 100 + 1 : elements);
+  if (setup.options.json) {
+    std::cout << rows.dump(2) << std::endl;
+    return 0;
+  }
+  std::printf("%-18s element  largest  rms [%% of M0]  ns/element  bytes/element\n", "law");
+  for (const Json& row : rows) {
+    std::printf("%-18s %-7s %8.2f %8.2f %12.3f %10.0f\n", row["law"].get<std::string>().c_str(),
+                row["element"].get<std::string>().c_str(), row["largest_error_percent_of_M0"].get<double>(),
+                row["rms_error_percent_of_M0"].get<double>(), row["ns_per_element"].get<double>(),
+                row["history_bytes_per_element"].get<double>());
+  }
+  return 0;
+}
+
 }  // namespace
 
+std::vector<KeyDescription> bench_keys() {
+  BenchOptions own;
+  return descriptions(bind(kRows, own));
+}
+
 int bench(const CommandLine& line) {
-  const Setup setup = set_up(line, defaults());
+  BenchOptions own;
+  const Setup setup = set_up(line, defaults(), bind(kRows, own));
+  if (own.laws) return bench_laws(setup, static_cast<int>(own.elements));
   Json rows = Json::array();
   const Cloth cloth = make_cloth(setup.scene);
   Scene scene = setup.scene;
@@ -123,8 +167,7 @@ int bench(const CommandLine& line) {
   if (!setup.options.json)
     std::printf("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
   for (const Case& c : kCases) {
-    scene.element = c.element;
-    scene.law = c.law;
+    take(c, scene);
     const auto simulation = make_simulation(scene, cloth);
     rows.push_back(measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? 4 : 40));
     if (!setup.options.json) print(rows.back());

@@ -58,6 +58,7 @@ int law(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
 
+std::vector<KeyDescription> bench_keys();
 std::vector<KeyDescription> drape_keys();
 std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();

@@ -6,6 +6,7 @@
 
 #include "experiments/record.h"
 #include "experiments/report.h"
+#include "sim/bending/recovery.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -26,6 +27,31 @@ std::vector<std::string> ledger_columns() {
   std::vector<std::string> columns;
   for (const auto& [name, joules] : Ledger{}.rows()) columns.push_back(name + " [J]");
   return columns;
+}
+
+// Elements by the moment they hold now, and the curvature they would keep if let go: found on the law, and by
+// the closed form for a first reversal from the virgin curve (which a longer history only resembles).
+void note_recovery(Run& run, Simulation& simulation, const Scene& scene) {
+  const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param);
+  if (scene.law == "pabst" || scene.law == "linear" || !has_residual_formula(law)) return;
+  const int d = simulation.dimension();
+  const std::vector<double> k = simulation.curvature(), m = simulation.moment();
+  const std::vector<double> root = simulation.residual_curvature();
+  long cases[3] = {0, 0, 0};
+  double by_root = 0, by_formula = 0;
+  for (std::size_t i = 0; i < k.size(); i += d) {
+    const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d), rest(&root[i], d);
+    const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
+    ++cases[static_cast<int>(recovery_case(law.curve, moment.norm())) - 1];
+    by_root += rest.squaredNorm();
+    by_formula += std::pow(residual_by_formula(law, size, std::max(along, 0.0)), 2);
+  }
+  const double elements = static_cast<double>(k.size()) / d;
+  run.metric("recovery_elastic_count", cases[0]);
+  run.metric("recovery_partial_count", cases[1]);
+  run.metric("recovery_full_slip_count", cases[2]);
+  run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
+  run.metric("residual_curvature_formula_rms_per_m", std::sqrt(by_formula / elements));
 }
 
 }  // namespace
@@ -132,6 +158,7 @@ void Session::finish(const std::string& title) {
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
+  note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");
   run_->finish();
   write_report(run_->folder());

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/bending/curvature_operator.h"
+#include "sim/bending/law_cost.h"
 #include "sim/solve/simulation.h"
 
 namespace hysteron {
@@ -18,6 +19,11 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
 
 // Bound on dM/dK of the scene's law on an element of this dimension [N m].
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
+
+// Cost of a law's loop alone; precision = double | float, threads 0 = all.  Error::machine without a GPU.
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
+                     int threads);
+LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision);
 
 std::string cpu_description();
 int gpu_count(std::string& reason);  // usable GPUs; why there are none

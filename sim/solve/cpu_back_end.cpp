@@ -18,6 +18,13 @@ double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
       ->largest_stiffness();
 }
 
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
+                     int threads) {
+  Cpu cpu(threads);
+  return precision == "float" ? law_cost<float>(cpu, choice, dimension, elements)
+                              : law_cost<double>(cpu, choice, dimension, elements);
+}
+
 std::string cpu_description() { return "cpu: " + Cpu(0).description(); }
 
 }  // namespace hysteron

@@ -11,6 +11,12 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
   throw Error::machine("device = cuda: " + reason);
 }
 
+LawCost gpu_law_cost(const LawChoice&, int, int, const std::string&) {
+  std::string reason;
+  gpu_count(reason);
+  throw Error::machine("device = cuda: " + reason);
+}
+
 int gpu_count(std::string& reason) {
   reason = "this build has no CUDA back end";
   return 0;

@@ -1,6 +1,7 @@
 // Small scenes that the tests of the solver share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -32,7 +33,9 @@ struct Trial {
 struct Method {
   std::string law, element, integrator;
   std::string name() const {
-    return law + "_" + element + (integrator == "explicit" ? "_explicit" : "_semi_implicit");
+    std::string name = law + "_" + element;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name + (integrator == "explicit" ? "_explicit" : "_semi_implicit");
   }
 };
 

@@ -1,0 +1,15 @@
+// What the memory of `prandtl` costs and how exact it is: the table from which its defaults are chosen.
+#pragma once
+
+#include "experiments/options.h"
+#include "experiments/run.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+// One row per law and memory: largest and root-mean-square error of the moment over random histories [% of
+// M0] against a stack of 64, nanoseconds per element and step on the scene's device, bytes of history per
+// element.
+Json law_cost_table(const Scene& scene, int elements);
+
+}  // namespace hysteron::experiments
