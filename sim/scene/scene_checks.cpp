@@ -113,7 +113,10 @@ void check_parameters(const Scene& scene) {
   try {
     choose_law(scene.law, curve, scene.param);
   } catch (const Error& error) {
-    refuse_with(error, origin_of(scene, "law"));
+    std::string blamed = "law";
+    for (const auto& [name, text] : scene.param)
+      if (std::string(error.what()).find(name + " = ") != std::string::npos) blamed = "param." + name;
+    refuse_with(error, origin_of(scene, blamed));
   }
 }
 

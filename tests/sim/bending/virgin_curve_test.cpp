@@ -136,5 +136,28 @@ TEST(VirginCurve, BeginsWithTheInitialRigidityAsTangent) {
   EXPECT_DOUBLE_EQ(Wong<double>::make(c).tangent(rest, {})(0, 0), c.b1);
 }
 
+// The quadratic branches run into the straight lines with the same moment and the same slope.
+template <class Law>
+void expect_smooth_joins(const Law& law) {
+  const VirginCurve c = cotton_broad();
+  constexpr double kStep = 1e-6;                            // of K0
+  const double bend = 4 * std::abs(c.c1()) * kStep * c.k0;  // change of slope over two steps
+  for (const double turn : {0.0, 1.0, 2.5, 7.0}) {          // in K0; 0: the virgin curve
+    Driven<Law> cloth(law);
+    if (turn > 0) cloth.moment(turn * c.k0);
+    const double join = turn > 0 ? turn - 2 : 1, way = turn > 0 ? -1 : 1;
+    const auto at = [&](double x) { return Vec<double, 1>((join + way * x) * c.k0); };
+    const auto slope = [&](double x) { return law.tangent(at(x), cloth.history)(0, 0); };
+    const auto moment = [&](double x) { return law.step(at(x), cloth.history).moment[0]; };
+    EXPECT_NEAR(slope(-kStep), slope(kStep), bend) << "join at " << join << " K0";
+    EXPECT_NEAR(moment(kStep) - moment(-kStep), way * c.b2 * 2 * kStep * c.k0, 2 * bend * kStep * c.k0);
+  }
+}
+
+TEST(VirginCurve, AndItsBranchesJoinTheStraightLinesWithoutAKink) {
+  expect_smooth_joins(PrandtlStack<double, 8>::make(cotton_broad()));
+  expect_smooth_joins(Wong<double>::make(cotton_broad()));
+}
+
 }  // namespace
 }  // namespace hysteron::testing

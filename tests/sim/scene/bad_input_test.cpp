@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"FatigueWithoutEnergy", "[param]\nfatigue.dc = 0.0\n", 2, {"fatigue.dc = 0", "> 0 J/m^2"}},
         BadScene{"FatigueOnALongMemory",
                  "[param]\nfatigue.dc = 1\nstops = 32\n",
-                 1,
+                 3,
                  {"stops = 32 must be 8 or 16 with fatigue"}},
         BadScene{"InvertedCommandBox",
                  "[[command]]\nlow = [2e3, 0, 0]\n",
