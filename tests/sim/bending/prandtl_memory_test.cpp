@@ -53,6 +53,18 @@ TEST(PrandtlStack, EqualsTenThousandStopsOnRandomHistories) {
   EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 0);
 }
 
+TEST(PrandtlStack, EqualsAThousandStopsOnAThousandRandomHistories) {
+  const VirginCurve c = cotton_broad();
+  constexpr int kStops = 1000;
+  const double near = 40 / (4. * kStops * kStops) * c.friction_moment();  // as above
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
+    ManyStops reference(c, kStops);
+    for (double k : random_turns(40, 2 * c.k0, seed))
+      ASSERT_NEAR(cloth.moment(k), reference.to(k).moment, near);
+  }
+}
+
 TEST(PrandtlStops, EqualsItsDefinitionOnRandomHistories) {
   const VirginCurve c = cotton_broad();
   constexpr double kRounding = 1e-13;
