@@ -68,9 +68,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
           if (!chosen[i]) return;
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
-          auto after = ironed(law, k, before);
-          if constexpr (kIsEditable<Law>)
-            if (kind == CommandKind::edit) after = law.edited(k, before);
+          const auto after = kind == CommandKind::edit ? edited(law, k, before) : ironed(law, k, before);
           taken[i] +=
               static_cast<double>(op.area[i] * (law.step(k, before).stored - law.step(k, after).stored));
           store_history<Law>(history, i, op.elements, after);
@@ -107,11 +105,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
         device, "friction state", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto memory = load_history<Law>(history, i, op.elements);
-          share[i] = 0;
-          if constexpr (requires { law.used(k, memory); })
-            share[i] = law.used(k, memory);
-          else if (Law::kHistory > 0 && m0 > 0)
-            share[i] = (law.step(k, memory).moment - b2 * k).norm() / m0;
+          share[i] = share_used(law, k, memory, b2, m0);
         });
   }
 
