@@ -55,11 +55,13 @@ int bench(const CommandLine& line);
 int kes(const CommandLine& line);
 int figures(const CommandLine& line);
 int law(const CommandLine& line);
+int fit(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
 
 std::vector<KeyDescription> bench_keys();
 std::vector<KeyDescription> drape_keys();
+std::vector<KeyDescription> fit_keys();
 std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();
 std::vector<KeyDescription> figures_keys();

@@ -15,6 +15,7 @@ program_packages=(
   "libcli11-dev|command line"
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
+  "libceres-dev|least squares of hysteron fit"
   "libtinyobjloader-dev|reads OBJ meshes"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"

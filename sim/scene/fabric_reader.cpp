@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-const std::vector<std::string> kConfidences = {"published", "derived", "assumed"};
+const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "assumed"};
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
 
 struct Reader {
@@ -57,11 +57,15 @@ struct Reader {
   // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
   PublishedNumber quantity(const TomlNode& node, const TomlNode* sources) const {
     if (node.kind != TomlNode::Kind::table) {
-      throw refusal(node.key + " must be a table {value, unit, source, confidence}", node);
+      throw refusal(node.key + " must be a table {value, unit, source, confidence, stderr}", node);
     }
-    only_known(node, {"value", "unit", "source", "confidence"});
+    only_known(node, {"value", "unit", "source", "confidence", "stderr"});
     PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), text(node, "confidence")}};
     if (node.find("unit")) number.unit = text(node, "unit");
+    if (node.find("stderr")) {
+      number.provenance.standard_error = this->number(node, "stderr");
+      if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
+    }
     if (!std::count(kConfidences.begin(), kConfidences.end(), number.provenance.confidence)) {
       throw refusal(node.key + ": confidence = " + number.provenance.confidence + " must be " +
                         join(kConfidences, " | "),

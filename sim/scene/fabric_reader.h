@@ -6,6 +6,7 @@
 //   kes = "Author Year, ..."
 //   [parameters]         the keys fabric.* of a scene, in their SI units
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
+//                        optional: stderr = 2e-7, the standard error in the same unit
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
 #pragma once

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,12 @@
 
 namespace hysteron {
 
-// Where a number of a fabric comes from.  Confidence: published, derived, assumed, or given (scene file or
-// flag).
+// Where a number of a fabric comes from.  Confidence: published, fitted, derived, assumed, or given (scene
+// file or flag).
 struct Provenance {
   std::string source;
   std::string confidence;
+  std::optional<double> standard_error = {};  // of the number, in its unit; none: not known
 };
 
 // A measured number that is no parameter of the model: what the source prints, or what to compare results

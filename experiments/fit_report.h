@@ -1,0 +1,35 @@
+// The folder of a fit: the fabric's file, the data beside the law, plots, metrics, and what is said of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/fit_identification.h"
+#include "experiments/fit_stops.h"
+#include "experiments/run.h"
+
+namespace hysteron::experiments {
+
+// What a fabric's file holds besides the fitted numbers.
+struct FabricNotes {
+  std::string name;                          // of the fabric
+  std::string from;                          // one line: what it was identified from
+  std::optional<double> density, thickness;  // [kg/m^2], [m]; none: the program's default, marked as assumed
+};
+
+// A file for read_fabric(); standard errors as `stderr` beside the values.
+void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes);
+
+// Writes fabric.toml, fit.csv, both plots and the metrics into the run.  Of several laws the first is the
+// best; metrics are then called `<law>.<key>`.
+void report_fits(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes);
+
+// stops.csv, and the metrics of the elements.
+void report_stops(Run& run, const std::vector<Stop>& stops);
+
+// What a reader is told: a line per law if there are several; of the best, numbers with standard errors, what
+// is undetermined, statements.
+std::string summary(const std::vector<Identification>& fits);
+
+}  // namespace hysteron::experiments
