@@ -26,10 +26,12 @@ Trial rippled(const std::string& law, const LawParameters& parameters = {}) {
   return trial;
 }
 
-class EveryLawInMotion : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Laws, EveryLawInMotion, testing::ValuesIn(law_names()), [](const auto& law) {
+std::string shown_name(const testing::TestParamInfo<std::string>& law) {
   return test::Method{law.param, "shape", "semi-implicit"}.name();
-});
+}
+
+class EveryLawInMotion : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Laws, EveryLawInMotion, testing::ValuesIn(law_names()), shown_name);
 
 // The integrator's share of bending is its own error: of first order in the substep.
 TEST_P(EveryLawInMotion, LosesToTheIntegratorOnlyWhatShrinksWithTheStep) {
