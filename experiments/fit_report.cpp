@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "experiments/csv.h"
-#include "render/plot.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -53,46 +52,10 @@ void write_rows(Run& run, const std::vector<Identification>& fits) {
   write_csv(run.path("fit.csv"), table);
 }
 
-// Moments read best in mN.
-std::vector<double> milli(std::vector<double> values) {
-  for (double& value : values) value *= 1e3;
-  return values;
-}
-
-constexpr std::size_t kMostDrawn = 6;  // laws in a plot, the best ones
-
 std::string percent_text(const Identification& fit) {
   char text[16];
   std::snprintf(text, sizeof text, "%.2g %%", 100 * fit.residual_rms() / fit.largest_moment());
   return text;
-}
-
-// A dashed frame of one rms above and below zero.
-render::Series one_rms(const Identification& fit) {
-  const auto [low, high] = std::minmax_element(fit.curvature.begin(), fit.curvature.end());
-  const double rms = 1e3 * fit.residual_rms();
-  return {"rms of " + fit.law,
-          {*low, *high, *high, *low, *low},
-          {rms, rms, -rms, -rms, rms},
-          render::Series::Style::dashed};
-}
-
-void draw(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes) {
-  render::Plot curves{
-      "Bending of " + notes.name + ": " + notes.from, {"curvature [1/m]"}, {"moment [mN]"}, {}};
-  render::Plot residuals{"What the law leaves of " + notes.from, {"curvature [1/m]"}, {"residual [mN]"}, {}};
-  using Style = render::Series::Style;
-  curves.series.push_back({"data", fits[0].curvature, milli(fits[0].moment), Style::points});
-  for (std::size_t i = 0; i < std::min(kMostDrawn, fits.size()); ++i) {
-    const Identification& fit = fits[i];
-    std::vector<double> left = fit.moment;
-    for (std::size_t row = 0; row < left.size(); ++row) left[row] -= fit.model[row];
-    curves.series.push_back({fit.law + ", rms " + percent_text(fit), fit.curvature, milli(fit.model)});
-    residuals.series.push_back({fit.law, fit.curvature, milli(left), Style::points});
-  }
-  residuals.series.push_back(one_rms(fits[0]));
-  run.plot("plot_fit", [&](const std::filesystem::path& base) { render::write_plot(base, curves); });
-  run.plot("plot_residual", [&](const std::filesystem::path& base) { render::write_plot(base, residuals); });
 }
 
 std::string with_error(const Row& row) {
@@ -129,7 +92,7 @@ void report_fits(Run& run, const std::vector<Identification>& fits, const Fabric
   Json statements = Json::object();
   for (const Identification& fit : fits) statements[fit.law] = fit.statements;
   run.note("statements", several ? statements : Json(fits[0].statements));
-  draw(run, fits, notes);
+  draw_fits(run, fits, notes.name + ": " + notes.from);
 }
 
 void report_stops(Run& run, const std::vector<Stop>& stops) {

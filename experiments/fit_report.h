@@ -25,6 +25,9 @@ void write_fabric(const std::filesystem::path& file, const Identification& found
 // best; metrics are then called `<law>.<key>`.
 void report_fits(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes);
 
+// plot_fit and plot_residual; a panel for each of several laws.
+void draw_fits(Run& run, const std::vector<Identification>& fits, const std::string& title);
+
 // stops.csv, and the metrics of the elements.
 void report_stops(Run& run, const std::vector<Stop>& stops);
 

@@ -153,11 +153,14 @@ bool is_straight(const CurveModel& model, const Assumptions& assumptions, Soluti
   result.b1.standard_error = result.b1.determined ? line.best.b2 * std::sqrt(c.matrix(0, 0)) : kNone;
   result.b2 = {line.best.b2, kNone, false, "b2 = b1: the data show no bend", "assumed"};
   result.k0 = {assumptions.k0, kNone, false, assumptions.k0_source(), "assumed"};
-  result.statements.push_back(
-      "within its noise the curve is a straight line without a loop: it fixes b1 and shows neither a bend "
-      "nor "
-      "friction up to " +
-      rounded(model.largest_curvature()) + " 1/m; b2 = b1 is taken");
+  const std::string range = " up to " + rounded(model.largest_curvature()) + " 1/m; b2 = b1 is taken";
+  result.statements.push_back(solution.covariance.widening > 1
+                                  ? "the law describes these data no better with friction than without it" +
+                                        range
+                                  : "within its noise the curve is a straight line without a loop: it fixes "
+                                    "b1 and shows neither a bend nor "
+                                    "friction" +
+                                        range);
   return true;
 }
 
