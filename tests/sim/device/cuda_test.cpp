@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Cases, BothDevices, testing::ValuesIn(methods()),
 TEST_P(BothDevices, AgreeOnEveryPosition) {
   std::string reason;
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU to compare with: " << reason;
-  constexpr double kAgreement = 1e-9;  // [m]
+  // gong's clock starts again by the sign of a motion, however small: rounding decides where cloth rests.
+  const double kAgreement = GetParam().law == "gong" ? 1e-7 : 1e-9;  // [m]
   const Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
   EXPECT_EQ(gpu->device().substr(0, 4), "cuda");
