@@ -204,24 +204,6 @@ TEST(PrandtlStops, EachStopEnclosesFourLimitsTimesTheSlippedWay) {
   EXPECT_NEAR(loop_area(law, amplitude), area, kRounding * c.friction_moment() * c.k0);
 }
 
-// Work int M dK along straight pieces by the trapezium rule; the moment is piecewise smooth.
-template <class Law>
-double balance_error(const Law& law, const Path<double, Law::kDimension>& corners, int pieces) {
-  Driven<Law> cloth(law);
-  Vec<double, Law::kDimension> at = Vec<double, Law::kDimension>::Zero(), moment = at;
-  double work = 0;
-  for (const auto& corner : corners) {
-    const Vec<double, Law::kDimension> way = (corner - at) / pieces;
-    for (int i = 1; i <= pieces; ++i) {
-      cloth.to(Vec<double, Law::kDimension>(at + way * i));
-      work += (moment + cloth.last.moment).dot(way) / 2;
-      moment = cloth.last.moment;
-    }
-    at = corner;
-  }
-  return std::abs(work - cloth.last.stored - cloth.dissipated);
-}
-
 template <class Law>
 void expect_balance(const Law& law, const Path<double, Law::kDimension>& corners, double order) {
   const VirginCurve c = cotton_broad();
