@@ -33,7 +33,7 @@ struct Axis {
 struct Plot {
   std::string title;
   Axis x, y;
-  std::vector<Series> series;
+  std::vector<Series> series{};
   int width = 1200, height = 800;  // of the PNG [pixels]
   bool equal_scales = false;       // one unit is as long along x as along y: outlines
   std::vector<Mark> marks{};

@@ -57,7 +57,7 @@ struct Reader {
   // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
   PublishedNumber quantity(const TomlNode& node, const TomlNode* sources) const {
     if (node.kind != TomlNode::Kind::table) {
-      throw refusal(node.key + " must be a table {value, unit, source, confidence, stderr}", node);
+      throw refusal(node.key + " must be a table {value, unit, source, confidence}, stderr if known", node);
     }
     only_known(node, {"value", "unit", "source", "confidence", "stderr"});
     PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), text(node, "confidence")}};

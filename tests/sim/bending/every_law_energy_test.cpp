@@ -44,7 +44,9 @@ void expect_balance(const Law& law) {
   const double coarse = balance_error(law, corners, 500), fine = balance_error(law, corners, 4000);
   constexpr double kFirstOrder = 0.8, kQuadratureRounding = 1e-10;
   EXPECT_LE(coarse, 0.1 * scale);
-  if (fine > kQuadratureRounding * scale) EXPECT_GE(std::log(coarse / fine) / std::log(8), kFirstOrder);
+  if (fine > kQuadratureRounding * scale) {
+    EXPECT_GE(std::log(coarse / fine) / std::log(8), kFirstOrder);
+  }
 }
 
 TEST_P(EveryLawEnergy, StoresOrLosesTheWorkDoneAlongFinePaths) {
