@@ -56,6 +56,7 @@ class Simulation {
 
   virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
   virtual double solver_iterations() const = 0;  // mean per step
+  virtual long retried_steps() const = 0;        // steps that were taken again in halves
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;

@@ -56,6 +56,7 @@ class Stepper : public Simulation {
   std::uint64_t state_hash() override;
   std::vector<std::pair<std::string, double>> stage_seconds() override;
   double solver_iterations() const override;
+  long retried_steps() const override { return retried_steps_; }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return device_->bytes; }
@@ -84,7 +85,7 @@ class Stepper : public Simulation {
   bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;
-  long solver_iterations_ = 0;
+  long solver_iterations_ = 0, retried_steps_ = 0;
   StepLimits limits_;
   StageClock<Device> clock_;
   BlockRows<Real, Device> matrix_;
