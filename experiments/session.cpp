@@ -158,6 +158,10 @@ void Session::finish(const std::string& title) {
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
+  if (setup_.scene.is_implicit()) {
+    run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
+    run_->metric("retried_steps_count", simulation_->retried_steps());
+  }
   note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");
   run_->finish();

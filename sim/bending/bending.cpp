@@ -95,7 +95,7 @@ BendingForceView<Real> Bending<Real, Device>::forces() const {
 
 template <class Real, class Device>
 void Bending<Real, Device>::commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt) {
-  compute_angles(position);
+  compute_angles(position, angle_.data(), angle_.data());
   if (viscosity_ > 0) compute_rates(velocity);
   law_->commit(device_, view(), angle_.data(), dt, {viscosity_, rate_.data(), viscous_.data()},
                moment_area_.data());
@@ -103,16 +103,15 @@ void Bending<Real, Device>::commit(const Vec3<Real>* position, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-void Bending<Real, Device>::compute_angles(const Vec3<Real>* x) {
+void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* previous, Real* change) {
   const Eigen::Vector4i* corner = corner_.data();
   const Real* rest = rest_angle_.data();
-  Real* change = angle_.data();
   Real* gradient = gradient_.data();
   for_each(
       device_, "bending angles", hinges_, HYST_KERNEL(int h) {
         const Eigen::Vector4i c = corner[h];
         const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-        change[h] = continued_angle(a.theta, change[h] + rest[h]) - rest[h];
+        change[h] = continued_angle(a.theta, previous[h] + rest[h]) - rest[h];
         Real* g = gradient + 8 * h;
         for (int k = 0; k < 3; ++k) {
           g[k] = a.g0[k];
@@ -140,20 +139,24 @@ void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
 
 template <class Real, class Device>
 void Bending<Real, Device>::compute_forces(const Vec3<Real>* x) {
+  if (convention_ == ForceConvention::energy) return compute_energy_forces();
   const Eigen::Vector4i* corner = corner_.data();
+  const Real *moment_area = moment_area_.data(), *area = area_.data();
+  Vec3<Real>* force = force_.data();
+  for_each(
+      device_, "bending forces as printed", hinges_, HYST_KERNEL(int h) {
+        const Eigen::Vector4i c = corner[h];
+        chapter_forces<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]], moment_area[h] / area[h], force + 4 * h);
+      });
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::compute_energy_forces() {
   const int d = dimension_;
   const int *start = column_start_.data(), *element = column_element_.data();
   const Real *coefficient = transposed_.data(), *moment_area = moment_area_.data();
-  const Real *gradient = gradient_.data(), *area = area_.data();
+  const Real* gradient = gradient_.data();
   Vec3<Real>* force = force_.data();
-  if (convention_ == ForceConvention::chapter) {
-    for_each(
-        device_, "bending forces as printed", hinges_, HYST_KERNEL(int h) {
-          const Eigen::Vector4i c = corner[h];
-          chapter_forces<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]], moment_area[h] / area[h], force + 4 * h);
-        });
-    return;
-  }
   for_each(
       device_, "bending forces", hinges_, HYST_KERNEL(int h) {
         Real torque = 0;
@@ -257,7 +260,8 @@ std::size_t Bending<Real, Device>::bytes() const {
                                    column_element_.bytes();
   return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
          rate_.bytes() + viscous_.bytes() + gradient_.bytes() + moment_area_.bytes() + force_.bytes() +
-         energy_.bytes() + taken_.bytes();
+         energy_.bytes() + taken_.bytes() + trial_angle_.bytes() + tangent_.bytes() +
+         hinge_stiffness_.bytes() + reference_.bytes() + angle_before_.bytes();
 }
 
 template class Bending<double, ThisDevice>;

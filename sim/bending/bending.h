@@ -6,6 +6,7 @@
 #include "sim/bending/angle.h"
 #include "sim/bending/law_loop.h"
 #include "sim/mesh/cloth_mesh.h"
+#include "sim/solve/step_formula.h"
 
 namespace hysteron {
 
@@ -22,6 +23,13 @@ struct BendingForceView {
   }
 };
 
+// What an assembled stiffness is made of, at the last linearise().
+template <class Real>
+struct StiffnessView {
+  const Real* gradient;      // 8 per hinge: d angle/d p0, d angle/d p1, t0, t1
+  const Real* tangent_area;  // D (D + 1)/2 per element, rows of the lower triangle [N m^3]
+};
+
 enum class ForceConvention { energy, chapter };
 
 template <class Real, class Device>
@@ -34,6 +42,20 @@ class Bending {
   // acts through the viscosity alone, whose loss is that over the coming dt [s].
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
   BendingForceView<Real> forces() const;
+
+  // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed: (angle - reference)/over
+  // with the reference (1 + lag) times the accepted angle minus lag times the one accepted before it; lag is
+  // 0 in backward Euler.  evaluate() tries a step to `position`; accept() commits it.
+  void begin_step(const StepFormula& formula);
+  void evaluate(const Vec3<Real>* position);                 // forces(), and energies()
+  const double* energies() const { return energy_.data(); }  // incremental potential per element [J]
+  void linearise();                                          // tangents where evaluate() was called last
+  // forces() = -K p with K the Gauss-Newton stiffness J^T C^T (A dM/dK) C J of the last linearise() [N].
+  void apply_stiffness(const Vec3<Real>* p);
+  // Adds the diagonal blocks of K, less what several hinges of one element have in common.
+  void add_stiffness_diagonal(Mat3<Real>* diagonal);
+  void accept(const Vec3<Real>* position);
+  StiffnessView<Real> stiffness() const;
 
   // Irons or edits the elements with chosen[i] != 0 at the last accepted state.
   void command(CommandKind kind, const std::vector<char>& chosen);
@@ -53,9 +75,12 @@ class Bending {
   std::size_t bytes() const;  // without the law's history
 
   // The parts of commit(); public because nvcc allows no device lambda in a private member function.
-  void compute_angles(const Vec3<Real>* position);
+  void compute_angles(const Vec3<Real>* position, const Real* previous, Real* change);
   void compute_rates(const Vec3<Real>* velocity);
   void compute_forces(const Vec3<Real>* position);
+  void compute_energy_forces();  // from the gradients and moments at hand
+  void compute_trial_rates();
+  typename LawLoop<Real, Device>::Trial trial_step() const;
 
  private:
   OperatorView<Real> view() const;
@@ -77,6 +102,10 @@ class Bending {
   Buffer<Vec3<Real>, Device> force_;  // 4 per hinge [N]
   Buffer<double, Device> energy_;     // per element, scratch of measurements
   Buffer<double, Device> taken_;      // by commands, per element [J]; empty until the first
+  // Of implicit steps; empty before the first.
+  StepFormula formula_;
+  Buffer<Real, Device> trial_angle_, tangent_, hinge_stiffness_;
+  Buffer<Real, Device> reference_, angle_before_;  // with viscosity
 };
 
 // Largest eigenvalue of M^-1 J^T C^T A b C J at rest: the square of the highest bending frequency [1/s^2].

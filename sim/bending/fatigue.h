@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "sim/bending/law_parameters.h"
+#include "sim/bending/law_potential.h"
 #include "sim/bending/plastic_return.h"
 #include "sim/bending/zero_moment.h"
 
@@ -68,6 +69,11 @@ struct Fatigue {
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     return b2 * Tangent<Real, D>::Identity() + strength(before) * law.tangent(curvature, part(before));
+  }
+  // Strength and set act from the next step on.
+  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
+    return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 +
+           strength(before) * step_potential(law, curvature, part(before));
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));

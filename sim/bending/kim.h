@@ -51,6 +51,25 @@ struct Kim {
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
     return stiffness(before[D]) * flow_to(curvature, before).tangent;
   }
+  // int of the held stretch over the trial one: n below y, y up to y/f, then f n; n - moved again where the
+  // set meets its bound.
+  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
+    using std::exp;
+    const Vec<Real, D> set = residual(before), trial = curvature - set;
+    const Real n = trial.norm(), f = exp(-dt / tau);
+    Real end = n;
+    if constexpr (D == 1) {
+      const Real room = max_set - (trial[0] < 0 ? -set[0] : set[0]);
+      const Real meets = f * (yield + room) > yield ? room / (1 - f) : yield + room;
+      if (meets < n) end = meets > 0 ? meets : Real(0);
+    }
+    Real sum = (end < yield ? end : yield) * (end < yield ? end : yield) / 2;
+    if (end > yield) sum += yield * ((f * end > yield ? yield / f : end) - yield);
+    if (f * end > yield) sum += (f * end * end - yield * yield / f) / 2;
+    const Real moved = end - PlasticReturn<Real>::relaxing(end, yield, f).held;
+    sum += ((n - moved) * (n - moved) - (end - moved) * (end - moved)) / 2;
+    return stiffness(before[D]) * sum;
+  }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
     return yield > 0 ? (curvature - residual(history)).norm() / yield : Real(0);

@@ -50,6 +50,19 @@ class LawLoop {
   // dissipation added [J].
   virtual void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real dt,
                       const Viscous& viscous, Real* moment_area) = 0;
+  // The step from the accepted history to these angles, tried: nothing is remembered.  angle_rate is built up
+  // over `over` [s], the inverse of its derivative by the angle.
+  struct Trial {
+    Real dt, over;           // [s]
+    Real viscosity;          // [N m s]
+    const Real* angle_rate;  // per hinge [rad/s]; null without viscosity
+  };
+  // moment_area = A M (D per element), energy = A times the incremental potential, viscosity included [J].
+  virtual void trial(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+                     const Trial& trial, Real* moment_area, double* energy) = 0;
+  // A dM/dK, positive semidefinite: rows of the lower triangle, D (D + 1)/2 numbers per element [N m^3].
+  virtual void tangents(Device& device, const OperatorView<Real>& op, const Real* angle_change,
+                        const Trial& trial, Real* tangent_area) = 0;
   // Carries out a command on the elements with chosen[i] != 0 and adds the recoverable energy that it takes
   // away (it may give some) to taken[i] [J].  Laws without history ignore it.
   virtual void command(Device& device, const OperatorView<Real>& op, const Real* angle_change,

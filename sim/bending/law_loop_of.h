@@ -5,6 +5,7 @@
 
 #include "sim/bending/law_commands.h"
 #include "sim/bending/law_loop.h"
+#include "sim/bending/law_potential.h"
 
 namespace hysteron {
 
@@ -55,6 +56,45 @@ class LawLoopOf : public LawLoop<Real, Device> {
           for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
           store_history<Law>(history, i, op.elements, step.history);
           if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
+        });
+  }
+
+  using typename LawLoop<Real, Device>::Trial;
+
+  void trial(Device& device, const OperatorView<Real>& op, const Real* angle_change, const Trial& trial,
+             Real* moment_area, double* energy) override {
+    Law law = law_;
+    set_step_time(law, trial.dt);
+    const Real* history = history_.data();
+    for_each(
+        device, "bending law, tried", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const auto before = load_history<Law>(history, i, op.elements);
+          Vec<Real, D> moment = law.step(k, before).moment;
+          Real potential = step_potential(law, k, before);
+          if (trial.viscosity > 0) {
+            const Vec<Real, D> rate = op.template curvature<D>(i, trial.angle_rate);
+            moment += trial.viscosity * rate;
+            potential += trial.viscosity * trial.over / 2 * rate.squaredNorm();
+          }
+          for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
+          energy[i] = static_cast<double>(op.area[i] * potential);
+        });
+  }
+
+  void tangents(Device& device, const OperatorView<Real>& op, const Real* angle_change, const Trial& trial,
+                Real* tangent_area) override {
+    Law law = law_;
+    set_step_time(law, trial.dt);
+    const Real viscous = trial.viscosity > 0 ? trial.viscosity / trial.over : Real(0);
+    const Real* history = history_.data();
+    for_each(
+        device, "bending tangent", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
+          const Tangent<Real, D> t = convex_tangent(law, k, load_history<Law>(history, i, op.elements));
+          Real* row = tangent_area + i * (D * (D + 1) / 2);
+          for (int a = 0; a < D; ++a)
+            for (int b = 0; b <= a; ++b) *row++ = op.area[i] * (t(a, b) + (a == b ? viscous : Real(0)));
         });
   }
 

@@ -23,14 +23,22 @@ struct RadialElastic {
     return result;
   }
   HYST_HD Tangent<R, D> tangent(const Vec<R, D>& curvature, const History<R, 0>&) const {
-    const R k = curvature.norm(), secant = law().secant(k);
-    Tangent<R, D> result = secant * Tangent<R, D>::Identity();
-    if (k > 0) result += (law().slope(k) - secant) / (k * k) * curvature * curvature.transpose();
-    return result;
+    const R k = curvature.norm();
+    return along_and_across(curvature, k, law().slope(k), law().secant(k));
+  }
+  // The same without negative stiffness.
+  HYST_HD Tangent<R, D> convex_tangent(const Vec<R, D>& curvature, const History<R, 0>&) const {
+    const R k = curvature.norm(), slope = law().slope(k), secant = law().secant(k);
+    return along_and_across(curvature, k, slope > 0 ? slope : R(0), secant > 0 ? secant : R(0));
   }
   HYST_HD Vec<R, D> residual(const History<R, 0>&) const { return Vec<R, D>::Zero(); }
 
  private:
+  HYST_HD static Tangent<R, D> along_and_across(const Vec<R, D>& curvature, R k, R along, R across) {
+    Tangent<R, D> result = across * Tangent<R, D>::Identity();
+    if (k > 0) result += (along - across) / (k * k) * curvature * curvature.transpose();
+    return result;
+  }
   HYST_HD const Law& law() const { return static_cast<const Law&>(*this); }
 };
 

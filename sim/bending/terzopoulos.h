@@ -48,6 +48,12 @@ struct Terzopoulos {
     return b2 *
            plastic_flow<Real, D>(trial, n, Vec<Real, D>::Zero(), returned(n), 2 * n).tangent;  // no bound
   }
+  // Creep ends at a shorter stretch for each longer trial one: the moment follows `held`, whatever is lost.
+  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
+    const Real n = (curvature - residual(before)).norm();
+    const PlasticReturn<Real> now = returned(n);
+    return b2 * (now.held * now.held / 2 + now.lost_by_yielding(n, yield < n ? yield : n));
+  }
   HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
     return yield > 0 ? (curvature - residual(history)).norm() / yield : Real(0);

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sim/contact/penalty.h"
+#include "sim/contact/touch.h"
 #include "sim/error.h"
 #include "sim/scene/motion.h"
 
@@ -12,66 +13,6 @@ namespace {
 
 // Tangential over normal penalty stiffness.
 constexpr double kTangential = 0.5;
-
-template <class Real>
-struct ContactModel {
-  Real shell, stiffness, tangential;
-};
-
-// Everything about one vertex in contact.
-template <class Real>
-struct Touch {
-  Vec3<Real> normal_force = Vec3<Real>::Zero();  // sum over obstacles [N]
-  Mat3<Real> normal_stiffness = Mat3<Real>::Zero();
-  double energy = 0;                                // of the normal penalty [J]
-  Vec3<Real> obstacle_motion = Vec3<Real>::Zero();  // of the strongest obstacle's point over the step [m]
-  Vec3<Real> normal = Vec3<Real>::Zero();
-  Real strongest = 0, friction = 0;  // largest normal force [N], its coefficient
-  int index = -1;
-};
-
-template <class Real>
-HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const ContactModel<Real>& model,
-                                        const Vec3<Real>& x, Real area) {
-  Touch<Real> t;
-  for (int o = 0; o < set.count; ++o) {
-    const Obstacle3<Real>& obstacle = set.item[o];
-    const Distance<Real> d =
-        signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
-    const Real depth = model.shell - d.value;
-    if (!(depth > 0)) continue;
-    const Vec3<Real> n = obstacle.rotation * d.normal;
-    const Real k = model.stiffness * area, force = k * depth;
-    t.normal_force += force * n;
-    t.normal_stiffness += k * n * n.transpose();
-    t.energy += static_cast<double>(force * depth / 2);
-    if (force > t.strongest) {
-      t.strongest = force;
-      t.friction = obstacle.friction;
-      t.normal = n;
-      t.index = obstacle.index;
-      t.obstacle_motion = x - (obstacle.back_rotation * x + obstacle.back_translation);
-    }
-  }
-  return t;
-}
-
-// Trial slip, and the share of it that friction can hold.
-template <class Real>
-struct Slip {
-  Vec3<Real> trial;
-  Real share;
-};
-
-template <class Real>
-HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, Real area,
-                        const Vec3<Real>& moved, const Vec3<Real>& before, int touching) {
-  Vec3<Real> e = moved - t.obstacle_motion;
-  if (touching == t.index + 1) e += before;
-  e -= t.normal * t.normal.dot(e);
-  const Real limit = t.friction * t.strongest / (model.tangential * area), length = e.norm();
-  return {e, length > limit ? limit / length : Real(1)};
-}
 
 }  // namespace
 
@@ -195,7 +136,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return area_.bytes() + slip_.bytes() + touching_.bytes() + loss_.bytes() + work_.bytes() + energy_.bytes();
+  return area_.bytes() + slip_.bytes() + touching_.bytes() + loss_.bytes() + work_.bytes() + energy_.bytes() +
+         lagged_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -32,6 +32,14 @@ struct ObstacleSet {
   Obstacle3<Real> item[kMostObstacles];
 };
 
+// Friction of one vertex as an implicit step sees it: what depends on the normal force, held fixed.
+template <class Real>
+struct LaggedFriction {
+  Vec3<Real> normal;
+  Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
+  Real limit;        // mu f_n [N]; 0: no contact
+};
+
 struct ContactLoss {
   double friction = 0;       // dissipated [J]
   double obstacle_work = 0;  // done on the cloth by moving obstacles [J]
@@ -47,6 +55,14 @@ class Contact {
   // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks, unless these are null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            Mat3<Real>* diagonal);
+  // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
+  // them friction has a potential, to which evaluate() adds the normal penalty's: its gradient to `gradient`,
+  // its energies() per vertex.  add_stiffness() is its positive semidefinite part.
+  void lag(const Vec3<Real>* position);
+  void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
+  const double* energies() const { return energy_.data(); }  // [J]
+  void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal);
+
   // Accepts the positions: slips and losses.
   void commit(const Vec3<Real>* position, const Vec3<Real>* before);
 
@@ -66,6 +82,7 @@ class Contact {
   Buffer<Vec3<Real>, Device> slip_;  // E [m]
   Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
   Buffer<double, Device> loss_, work_, energy_;
+  Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
 };
 
 }  // namespace hysteron

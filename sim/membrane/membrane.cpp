@@ -82,9 +82,8 @@ MembraneForceView<Real> Membrane<Real, Device>::forces() const {
 }
 
 template <class Real, class Device>
-void Membrane<Real, Device>::assemble(Real step, BlockRowsView<Real> matrix) {
+void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix) {
   const MembraneStiffness<Real> c = stiffness_;
-  const Real factor = step * step + step * damping_, geometric = step * step;
   const int *start = vertex_start_.data(), *item = vertex_item_.data(), *slot = slot_.data();
   const MembraneRest<Real>* rest = rest_.data();
   const Deformation<Real>* deformed = deformation_.data();
@@ -168,7 +167,8 @@ double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
 template <class Real, class Device>
 std::size_t Membrane<Real, Device>::bytes() const {
   return rest_.bytes() + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + slot_.bytes() +
-         deformation_.bytes() + stress_.bytes() + tension_.bytes() + measure_.bytes() + viscous_.bytes();
+         deformation_.bytes() + stress_.bytes() + tension_.bytes() + measure_.bytes() + viscous_.bytes() +
+         reference_.bytes();
 }
 
 template class Membrane<double, ThisDevice>;

@@ -5,6 +5,7 @@
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
 #include "sim/solve/block_rows.h"
+#include "sim/solve/step_formula.h"
 
 namespace hysteron {
 
@@ -40,14 +41,26 @@ class Membrane {
   // Strains and stresses (elastic, and viscous of `velocity`) at `position`; forces() then gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   MembraneForceView<Real> forces() const;
-  // matrix = step^2 * elastic + step * viscous stiffness at the last update, to which callers add mass and
-  // contact.
-  void assemble(Real step, BlockRowsView<Real> matrix);
+  // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
+  // which callers add mass and contact.
+  void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix);
+  Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
+
+  // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + lag) E(now) - lag E(before)
+  // (`before` may be null if lag = 0).  evaluate() sets forces(), energies() of elastic and viscous stress,
+  // and what assemble() needs, at `position`.
+  void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
+  void evaluate(const Vec3<Real>* position);
+  const double* energies() const { return measure_.data(); }  // per face [J]
+  // Viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
+  Real viscous_factor() const;
+  void add_viscous_loss();  // of the step that evaluate() saw last
 
   double stored_energy(const Vec3<Real>* position);              // [J]
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
   double viscous_loss() const;                                   // since the start [J]
   double largest_stretch(const Vec3<Real>* position);            // largest principal stretch minus 1
+  int faces() const { return faces_; }
   std::size_t bytes() const;
 
  private:
@@ -61,6 +74,8 @@ class Membrane {
   Buffer<Deformation<Real>, Device> deformation_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> measure_, viscous_;
+  StepFormula formula_;                   // of implicit steps
+  Buffer<Vec3<Real>, Device> reference_;  // strain from which rates are measured; empty without damping
 };
 
 }  // namespace hysteron

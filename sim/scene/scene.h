@@ -120,11 +120,14 @@ struct Scene {
   std::string force = "energy";   // force      energy | chapter (hinge only)
   std::string mesh = "random";    // mesh       family of the builder, or FILE.obj
   int triangles = 5000;           // triangles
-  std::string integrator = "semi-implicit";  // integrator semi-implicit | explicit
+  std::string integrator = "semi-implicit";  // integrator semi-implicit | implicit | bdf2 | explicit
   double step = 1e-3;                        // step       large step hi [s]
   int substeps = 0;                          // substeps   alpha; 0 = the least stable one
   std::string implicit_every = "substep";    // implicit-every  substep | step (the chapter's)
   double solver_tolerance = 1e-4;            // solver-tolerance  relative residual of the implicit solve
+  double newton_residual = 1e-6;             // newton-residual   unbalanced force over the weight
+  double newton_velocity = 1e-9;             // newton-velocity   or: correction over the step's time [m/s]
+  std::string linear_solver = "auto";        // linear-solver     auto | pcg | cholesky
   std::string device = "auto";               // device     auto | cpu | cuda
   std::string precision = "double";          // precision  double | float
   int threads = 0;                           // threads    0 = all cores
@@ -139,6 +142,8 @@ struct Scene {
   // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;
+
+  bool is_implicit() const { return integrator == "implicit" || integrator == "bdf2"; }
 };
 
 }  // namespace hysteron

@@ -20,10 +20,20 @@ std::size_t Pcg<Real, Device>::bytes() const {
   return inverse_.bytes() + 4 * r_.bytes() + scalars_.bytes();
 }
 
+// -K p of bending, to be gathered by vertex; no rows without bending.
+template <class Real, class Device>
+BendingForceView<Real> Pcg<Real, Device>::bend(const System& system, const Vec3<Real>* p) {
+  if (!system.bending) return {nullptr, nullptr, nullptr};
+  system.bending->apply_stiffness(p);
+  return system.bending->forces();
+}
+
 // q = matrix * guess, and the factor alpha for which alpha * guess is nearest to the solution.
 template <class Real, class Device>
-void Pcg<Real, Device>::project(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
+  const BlockRowsView<Real> matrix = system.matrix;
+  const BendingForceView<Real> bending = bend(system, guess);
   Vec3<Real>* q = q_.data();
   Scalars* s = scalars_.data();
   for_each_sum<2>(
@@ -31,6 +41,7 @@ void Pcg<Real, Device>::project(BlockRowsView<Real> matrix, const char* held, co
       HYST_KERNEL(int i, Sums<2>& sums) {
         if (held[i]) return;
         q[i] = matrix.times(i, guess);
+        if (bending.start) q[i] -= bending.at(i);
         sums.term[0] += static_cast<double>(guess[i].dot(rhs[i]));
         sums.term[1] += static_cast<double>(guess[i].dot(q[i]));
       },
@@ -40,10 +51,12 @@ void Pcg<Real, Device>::project(BlockRowsView<Real> matrix, const char* held, co
 }
 
 template <class Real, class Device>
-void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3<Real>* rhs,
                               const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
                               double tolerance) {
-  if (guess) project(matrix, held, rhs, guess);
+  if (guess) project(system, held, rhs, guess);
+  const BlockRowsView<Real> matrix = system.matrix;
+  const Mat3<Real>* bending = system.bending_diagonal;
   const Vec3<Real>* q = q_.data();
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
@@ -55,7 +68,9 @@ void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, cons
           x[i] = r[i] = z[i] = p[i] = Vec3<Real>::Zero();
           return;
         }
-        inverse[i] = matrix.diagonal[i].inverse();
+        Mat3<Real> block = matrix.diagonal[i];
+        if (bending) block += bending[i];
+        inverse[i] = block.inverse();
         x[i] = guess ? Vec3<Real>(static_cast<Real>(s->alpha) * guess[i]) : Vec3<Real>(Vec3<Real>::Zero());
         r[i] = guess ? Vec3<Real>(rhs[i] - static_cast<Real>(s->alpha) * q[i]) : rhs[i];
         z[i] = inverse[i] * r[i];
@@ -70,23 +85,72 @@ void Pcg<Real, Device>::start(BlockRowsView<Real> matrix, const char* held, cons
         s->iterations = 0;
         s->done = !(s->residual > s->target);
       });
+  if (system.preconditioner) start_preconditioned(system, held, rhs, known, tolerance);
+}
+
+// The same with the caller's preconditioner: z, p and the two norms again.
+template <class Real, class Device>
+void Pcg<Real, Device>::start_preconditioned(const System& system, const char* held, const Vec3<Real>* rhs,
+                                             const Vec3<Real>* known, double tolerance) {
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *scale = q_.data();
+  Scalars* s = scalars_.data();
+  for_each(
+      device_, "solve: scale", rows_, HYST_KERNEL(int i) {
+        scale[i] = held[i] ? Vec3<Real>(Vec3<Real>::Zero())
+                   : known ? Vec3<Real>(rhs[i] - known[i])
+                           : Vec3<Real>(rhs[i]);
+      });
+  system.preconditioner->apply(scale, z);
+  for_each_sum<1>(
+      device_, "solve: target", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(scale[i].dot(z[i])); },
+      HYST_KERNEL(const Sums<1>& total) { s->target = tolerance * tolerance * total.term[0]; });
+  system.preconditioner->apply(r, z);
+  for_each_sum<1>(
+      device_, "solve: first direction", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        p[i] = z[i];
+        sums.term[0] += static_cast<double>(r[i].dot(z[i]));
+      },
+      HYST_KERNEL(const Sums<1>& total) {
+        s->residual = total.term[0];
+        s->done = !(s->residual > s->target);
+      });
 }
 
 template <class Real, class Device>
-void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Vec3<Real>* x) {
-  const Mat3<Real>* inverse = inverse_.data();
-  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
+  const BlockRowsView<Real> matrix = system.matrix;
+  Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
   Scalars* s = scalars_.data();
+  const BendingForceView<Real> bending = bend(system, p);
   for_each_sum<1>(
       device_, "solve: product", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (s->done || held[i]) return;
         q[i] = matrix.times(i, p);
+        if (bending.start) q[i] -= bending.at(i);
         sums.term[0] += static_cast<double>(p[i].dot(q[i]));
       },
       HYST_KERNEL(const Sums<1>& total) {
         if (!s->done) s->alpha = s->residual / total.term[0];
       });
+  if (system.preconditioner)
+    advance_preconditioned(system, held, x);
+  else
+    advance(held, x);
+  for_each(
+      device_, "solve: direction", rows_, HYST_KERNEL(int i) {
+        if (s->done || held[i]) return;
+        p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
+      });
+}
+
+template <class Real, class Device>
+void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
+  const Mat3<Real>* inverse = inverse_.data();
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+  Scalars* s = scalars_.data();
   for_each_sum<1>(
       device_, "solve: advance", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
@@ -104,20 +168,39 @@ void Pcg<Real, Device>::iterate(BlockRowsView<Real> matrix, const char* held, Ve
         s->iterations += 1;
         s->done = !(s->residual > s->target);
       });
+}
+
+template <class Real, class Device>
+void Pcg<Real, Device>::advance_preconditioned(const System& system, const char* held, Vec3<Real>* x) {
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
+  Scalars* s = scalars_.data();
   for_each(
-      device_, "solve: direction", rows_, HYST_KERNEL(int i) {
+      device_, "solve: advance", rows_, HYST_KERNEL(int i) {
         if (s->done || held[i]) return;
-        p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
+        const Real alpha = static_cast<Real>(s->alpha);
+        x[i] += alpha * p[i];
+        r[i] -= alpha * q[i];
+      });
+  system.preconditioner->apply(r, z);
+  for_each_sum<1>(
+      device_, "solve: weigh", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(r[i].dot(z[i])); },
+      HYST_KERNEL(const Sums<1>& total) {
+        if (s->done) return;
+        s->beta = total.term[0] / s->residual;
+        s->residual = total.term[0];
+        s->iterations += 1;
+        s->done = !(s->residual > s->target);
       });
 }
 
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve
 // took.
 template <class Real, class Device>
-PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
+PcgOutcome Pcg<Real, Device>::solve(const System& system, const char* held, const Vec3<Real>* rhs,
                                     const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
                                     double tolerance, int most_iterations) {
-  start(matrix, held, rhs, known, guess, x, tolerance);
+  start(system, held, rhs, known, guess, x, tolerance);
   constexpr int kAskAgain = 4;
   Scalars scalars{};
   for (int sent = 0;;) {
@@ -126,7 +209,7 @@ PcgOutcome Pcg<Real, Device>::solve(BlockRowsView<Real> matrix, const char* held
       device_download(device_, &scalars, scalars_.data(), sizeof(Scalars));
       if (scalars.done || sent >= most_iterations) break;
     }
-    for (int i = 0; i < batch; ++i) iterate(matrix, held, x);
+    for (int i = 0; i < batch; ++i) iterate(system, held, x);
     sent += batch;
   }
   last_iterations_ = scalars.iterations;

@@ -1,7 +1,10 @@
-// Conjugate gradients for the implicit solve, preconditioned by the inverted diagonal blocks.
+// Conjugate gradients for the implicit solve, preconditioned by the inverted diagonal blocks or by what the
+// caller brings.
 #pragma once
 
+#include "sim/bending/bending.h"
 #include "sim/solve/block_rows.h"
+#include "sim/solve/preconditioner.h"
 
 namespace hysteron {
 
@@ -10,19 +13,29 @@ struct PcgOutcome {
   bool converged = false;
 };
 
+// matrix * p, plus bending's stiffness at its last linearise() where there is one.
+template <class Real, class Device>
+struct LinearSystem {
+  BlockRowsView<Real> matrix;
+  Bending<Real, Device>* bending = nullptr;
+  const Mat3<Real>* bending_diagonal = nullptr;  // added to the matrix's blocks before they are inverted
+  Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
+};
+
 template <class Real, class Device>
 class Pcg {
  public:
   Pcg(Device& device, int rows);
 
-  // Solves matrix * x = rhs for the rows that are not held; held rows of x are zero.
+  using System = LinearSystem<Real, Device>;
+
+  // Solves the system for the rows that are not held; held rows of x are zero, and rhs is not read there.
   // Starts from the multiple of `guess` that is best in the matrix's norm, from x = 0 if guess is null;
   // `guess` may be x itself. Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the
-  // inverted diagonal blocks: where known impulses balance those of the implicit forces, these set the scale.
+  // preconditioner: where known impulses balance those of the implicit forces, these set the scale.
   // known may be null.
-  PcgOutcome solve(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs,
-                   const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x, double tolerance,
-                   int most_iterations);
+  PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
+                   const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
   std::size_t bytes() const;
 
   struct Scalars {  // on the device, so that iterations need no word from the host
@@ -30,10 +43,15 @@ class Pcg {
     int iterations, done;
   };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
-  void project(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* guess);
-  void start(BlockRowsView<Real> matrix, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
+  BendingForceView<Real> bend(const System& system, const Vec3<Real>* p);
+  void project(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* guess);
+  void start(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
              const Vec3<Real>* guess, Vec3<Real>* x, double tolerance);
-  void iterate(BlockRowsView<Real> matrix, const char* held, Vec3<Real>* x);
+  void start_preconditioned(const System& system, const char* held, const Vec3<Real>* rhs,
+                            const Vec3<Real>* known, double tolerance);
+  void iterate(const System& system, const char* held, Vec3<Real>* x);
+  void advance(const char* held, Vec3<Real>* x);
+  void advance_preconditioned(const System& system, const char* held, Vec3<Real>* x);
 
  private:
   Device& device_;

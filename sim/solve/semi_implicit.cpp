@@ -42,8 +42,9 @@ void Stepper<Real, Device>::advance(int steps) {
     obey(time(), time() + scene_.step);
     // Stages of this step that end with an implicit solve or, explicit, with the contact's history.
     const int stages = together_ ? limits_.substeps : 1;
-    for (int k = 0; k < stages; ++k)
+    for (int k = 0; k < stages && !all_implicit_; ++k)
       stage(time() + scene_.step * k / stages, static_cast<Real>(scene_.step / stages));
+    if (all_implicit_) implicit_interval(time(), scene_.step, 0);
     ++step_count_;
   }
   refuse_divergence();
@@ -81,10 +82,7 @@ void Stepper<Real, Device>::stage(double start, Real h) {
   hold(start, h);
   if (contact_) {
     contact_->move(start, start + static_cast<double>(h));
-    const Vec3<Real>* x = x_.data();
-    Vec3<Real>* before = before_.data();
-    for_each(
-        *device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
+    remember_positions();
   }
   if (together_) {
     gather_impulses(h);
@@ -98,6 +96,14 @@ void Stepper<Real, Device>::stage(double start, Real h) {
     contact_->commit(x_.data(), before_.data());
     clock_.end(Stage::contact);
   }
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::remember_positions() {
+  const Vec3<Real>* x = x_.data();
+  Vec3<Real>* before = before_.data();
+  for_each(
+      *device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
 }
 
 // Held vertices move at the constant velocity that brings them to their place at the end of the step.
@@ -230,7 +236,7 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
   clock_.begin(Stage::membrane);
   membrane_.update(x_.data(), v_.data());
   const BlockRowsView<Real> matrix = matrix_.view();
-  membrane_.assemble(h, matrix);
+  membrane_.assemble(h * h + h * membrane_.damping(), h * h, matrix);
   const MembraneForceView<Real> force = membrane_.forces();
   const Real* mass = mass_.data();
   const bool together = together_;
@@ -257,7 +263,7 @@ void Stepper<Real, Device>::implicit_stage(Real h) {
     linear_system(h, iteration == 0);
     clock_.begin(Stage::solve);
     const PcgOutcome outcome =
-        pcg_.solve(matrix_.view(), held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
+        pcg_.solve({matrix_.view()}, held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
                    iteration == 0 ? change_.data() : nullptr, correction_.data(), scene_.solver_tolerance,
                    kMostIterations);
     solver_iterations_ += outcome.iterations;

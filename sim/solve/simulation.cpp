@@ -54,6 +54,11 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   const double b1 = law_largest_stiffness(scene, op);
   const double bending = bending_eigenvalue(scene, cloth, op, mass, held, b1);
   StepLimits limits;
+  if (scene.is_implicit()) {
+    limits.bending_step = stable_step(bending, scene.fabric.damping);
+    limits.substep = scene.step;
+    return limits;
+  }
   limits.bending_step = stable_step(bending, scene.fabric.damping);
   double largest = limits.bending_step;
   if (scene.integrator == "explicit") {
@@ -90,9 +95,6 @@ bool wants_gpu(const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
-  if (scene.integrator != "semi-implicit" && scene.integrator != "explicit")
-    throw Error::request("integrator = " + scene.integrator +
-                         " is not built yet: use semi-implicit or explicit");
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");
@@ -100,6 +102,11 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
       make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, scene.seconds));
   if (scene.force == "chapter" && op.dimension != 1)
     throw Error::request("force = chapter needs element = hinge");
+  if (scene.force == "chapter" && scene.is_implicit())
+    throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
+                         scene.integrator);
+  if (scene.linear_solver == "cholesky" && wants_gpu(scene))
+    throw Error::request("linear-solver = cholesky runs on the CPU: use pcg or --device cpu");
   const StepLimits limits = choose_substeps(scene, cloth, op);
   return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)
                           : make_cpu_simulation(scene, cloth, op, limits);

@@ -56,6 +56,7 @@ class Simulation {
 
   virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
   virtual double solver_iterations() const = 0;  // mean per step
+  virtual double newton_iterations() const = 0;  // mean per step; 0 where there is no Newton solve
   virtual long retried_steps() const = 0;        // steps that were taken again in halves
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;

@@ -6,6 +6,7 @@
 
 #include "sim/device/share_positions.h"
 #include "sim/error.h"
+#include "sim/solve/cholesky_solver.h"
 
 namespace hysteron {
 
@@ -39,7 +40,8 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     : device_(std::move(device)),
       scene_(scene),
       explicit_(scene.integrator == "explicit"),
-      together_(!explicit_ && scene.implicit_every == "substep"),
+      all_implicit_(scene.is_implicit()),
+      together_(!explicit_ && !all_implicit_ && scene.implicit_every == "substep"),
       vertices_(cloth.mesh.vertices()),
       limits_(limits),
       clock_(*device_),
@@ -50,7 +52,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
                                    op.dimension, op.elements()),
                scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
                scene.fabric.damping * scene.fabric.b1),
-      pcg_(*device_, explicit_ ? 0 : vertices_),
+      pcg_(*device_, explicit_ || all_implicit_ ? 0 : vertices_),
       pin_host_(cloth.pin),
       x_(*device_, cast<Real>(cloth.start)),
       v_(*device_, vertices_),
@@ -59,7 +61,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       held_(*device_, cloth.held(scene, 0)),
       ledger_(*device_, vertices_),
       size_(*device_, 1) {
-  if (!explicit_) {
+  if (!explicit_ && !all_implicit_) {
     change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     if (together_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
@@ -78,6 +80,10 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     contact_->move(0, 0);
   }
+  if (all_implicit_)
+    implicit_ = std::make_unique<ImplicitStep<Real, Device>>(
+        *device_, scene, mass_, matrix_, membrane_, bending_, contact_ ? &*contact_ : nullptr,
+        make_linear_solver<Real>(*device_, scene, cloth.mesh, op));
   bending_.commit(x_.data(), v_.data(), 0);
   initial_ = measure();
   initial_.initial =
@@ -194,6 +200,11 @@ double Stepper<Real, Device>::solver_iterations() const {
 }
 
 template <class Real, class Device>
+double Stepper<Real, Device>::newton_iterations() const {
+  return step_count_ ? static_cast<double>(newton_iterations_) / static_cast<double>(step_count_) : 0;
+}
+
+template <class Real, class Device>
 std::string Stepper<Real, Device>::device() const {
   return (Device::kGpu ? "cuda: " : "cpu: ") + device_->description();
 }
@@ -208,7 +219,9 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   };
   add("state", true, x_.bytes() + v_.bytes() + mass_.bytes() + rhs_.bytes() + held_.bytes(), "substep", "");
   add("membrane", true, membrane_.bytes(), "membrane stress, membrane matrix", "");
-  add("implicit solve", !explicit_, matrix_.bytes() + pcg_.bytes() + 2 * change_.bytes() + impulse_.bytes(),
+  add("implicit solve", !explicit_,
+      matrix_.bytes() + pcg_.bytes() + 2 * change_.bytes() + impulse_.bytes() +
+          (implicit_ ? implicit_->bytes() : 0),
       "solve: start, product, advance, direction", "the integrator is explicit");
   add("bending", true, bending_.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");

@@ -1,5 +1,5 @@
-// The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp
-// steps.
+// The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp and
+// implicit_interval.cpp step.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,11 @@
 #include "sim/membrane/membrane.h"
 #include "sim/scene/motion.h"
 #include "sim/solve/back_end.h"
+#include "sim/solve/implicit_step.h"
 #include "sim/solve/pcg.h"
 #include "sim/solve/simulation.h"
 
 namespace hysteron {
-
-// Running sums of one vertex [J]; their differences are the ledger's integrator terms.
-struct VertexLedger {
-  double bending_work = 0;   // of bending forces over the substeps' displacements
-  double gravity_work = 0;   // of gravity over the substeps' displacements
-  double air = 0;            // lost to air drag
-  double inertia = 0;        // m |dv|^2/2
-  double implicit_work = 0;  // of the implicit stage's impulse over step * velocity
-  double handle_work = 0;    // done on the cloth by the hand that moves this vertex
-};
 
 template <class Real>
 struct PinPlacements {
@@ -56,6 +47,7 @@ class Stepper : public Simulation {
   std::uint64_t state_hash() override;
   std::vector<std::pair<std::string, double>> stage_seconds() override;
   double solver_iterations() const override;
+  double newton_iterations() const override;
   long retried_steps() const override { return retried_steps_; }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
@@ -73,6 +65,9 @@ class Stepper : public Simulation {
   void implicit_stage(Real h);     // tension, damping and contact, implicit
   void linear_system(Real h, bool first);
   void accept_implicit(Real h);
+  // An implicit step from start to start + h, in halves if it does not converge.
+  void implicit_interval(double start, double h, int halvings);
+  void remember_positions();
   void refuse_divergence();  // Error::run when a position or velocity is no longer finite
 
  private:
@@ -82,10 +77,11 @@ class Stepper : public Simulation {
   std::unique_ptr<Device> device_;
   Scene scene_;
   bool explicit_;
+  bool all_implicit_;  // bending too
   bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;
-  long solver_iterations_ = 0, retried_steps_ = 0;
+  long newton_iterations_ = 0, solver_iterations_ = 0, retried_steps_ = 0;
   StepLimits limits_;
   StageClock<Device> clock_;
   BlockRows<Real, Device> matrix_;
@@ -93,6 +89,7 @@ class Stepper : public Simulation {
   Bending<Real, Device> bending_;
   Pcg<Real, Device> pcg_;
   std::optional<Contact<Real, Device>> contact_;
+  std::unique_ptr<ImplicitStep<Real, Device>> implicit_;
   bool moving_pins_ = false, held_changes_ = false;
   std::vector<int> pin_host_;
   std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed

@@ -35,7 +35,7 @@ struct ImplicitSystem {
     Membrane<double, Cpu> membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows);
     const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
     membrane.update(x.data(), still.data());
-    membrane.assemble(kStep, rows.view());
+    membrane.assemble(kStep * kStep + kStep * membrane.damping(), kStep * kStep, rows.view());
     for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
       rows.view().diagonal[i].diagonal().array() += trial.mass(i);
   }
@@ -46,7 +46,7 @@ struct ImplicitSystem {
     Pcg<double, Cpu> pcg(cpu, static_cast<int>(held.size()));
     std::vector<Vector3d> known;
     for (const Vector3d& f : load) known.push_back(-scale * f);
-    return pcg.solve(rows.view(), held.data(), rhs.data(), known.data(), guess, solution.data(), tolerance,
+    return pcg.solve({rows.view()}, held.data(), rhs.data(), known.data(), guess, solution.data(), tolerance,
                      iterations);
   }
 

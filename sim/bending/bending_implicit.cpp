@@ -1,0 +1,134 @@
+// Bending in an implicit step: the incremental potential of the laws along the pipeline angles -> curvatures
+// -> moments -> forces, and its Gauss-Newton stiffness as a product.
+#include <cmath>
+
+#include "sim/bending/bending.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+void Bending<Real, Device>::begin_step(const StepFormula& formula) {
+  formula_ = formula;
+  const int packed = dimension_ * (dimension_ + 1) / 2;
+  if (trial_angle_.size() == 0) {
+    trial_angle_ = Buffer<Real, Device>(device_, hinges_);
+    hinge_stiffness_ = Buffer<Real, Device>(device_, hinges_);
+    tangent_ = Buffer<Real, Device>(device_, static_cast<std::size_t>(elements_) * packed);
+    if (rate_.size() == 0) rate_ = Buffer<Real, Device>(device_, hinges_);
+    if (viscosity_ > 0) reference_ = Buffer<Real, Device>(device_, hinges_);
+    if (viscosity_ > 0) angle_before_ = Buffer<Real, Device>(device_, hinges_);
+  }
+  if (viscosity_ <= 0) return;
+  const Real now = static_cast<Real>(1 + formula.lag), lag = static_cast<Real>(formula.lag);
+  const Real *angle = angle_.data(), *before = angle_before_.data();
+  Real* reference = reference_.data();
+  for_each(
+      device_, "bending reference", hinges_,
+      HYST_KERNEL(int h) { reference[h] = now * angle[h] - lag * before[h]; });
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::compute_trial_rates() {
+  const Real inverse = static_cast<Real>(1 / formula_.over);
+  const Real *trial = trial_angle_.data(), *reference = reference_.data();
+  Real* rate = rate_.data();
+  for_each(
+      device_, "bending rates, tried", hinges_,
+      HYST_KERNEL(int h) { rate[h] = inverse * (trial[h] - reference[h]); });
+}
+
+template <class Real, class Device>
+typename LawLoop<Real, Device>::Trial Bending<Real, Device>::trial_step() const {
+  const bool viscous = viscosity_ > 0 && std::isfinite(formula_.over);
+  return {static_cast<Real>(formula_.dt), static_cast<Real>(formula_.over), viscous ? viscosity_ : Real(0),
+          rate_.data()};
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::evaluate(const Vec3<Real>* x) {
+  compute_angles(x, angle_.data(), trial_angle_.data());
+  if (viscosity_ > 0) compute_trial_rates();
+  law_->trial(device_, view(), trial_angle_.data(), trial_step(), moment_area_.data(), energy_.data());
+  compute_energy_forces();
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::linearise() {
+  law_->tangents(device_, view(), trial_angle_.data(), trial_step(), tangent_.data());
+}
+
+template <class Real, class Device>
+StiffnessView<Real> Bending<Real, Device>::stiffness() const {
+  return {gradient_.data(), tangent_.data()};
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
+  compute_rates(p);
+  const OperatorView<Real> op = view();
+  const Real *rate = rate_.data(), *tangent = tangent_.data();
+  Real* moment_area = moment_area_.data();
+  if (dimension_ == 1) {
+    for_each(
+        device_, "bending stiffness", elements_,
+        HYST_KERNEL(int i) { moment_area[i] = tangent[i] * op.template curvature<1>(i, rate)[0]; });
+  } else {
+    for_each(
+        device_, "bending stiffness", elements_, HYST_KERNEL(int i) {
+          const Vec<Real, 3> k = op.template curvature<3>(i, rate);
+          const Real* t = tangent + 6 * i;
+          moment_area[3 * i] = t[0] * k[0] + t[1] * k[1] + t[3] * k[2];
+          moment_area[3 * i + 1] = t[1] * k[0] + t[2] * k[1] + t[4] * k[2];
+          moment_area[3 * i + 2] = t[3] * k[0] + t[4] * k[1] + t[5] * k[2];
+        });
+  }
+  compute_energy_forces();
+}
+
+// For each hinge c^T (A dM/dK) c of its column c of C, summed over the elements; then its gradients' squares.
+template <class Real, class Device>
+void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
+  const int d = dimension_;
+  const int *start = column_start_.data(), *element = column_element_.data();
+  const Real *coefficient = transposed_.data(), *tangent = tangent_.data();
+  Real* stiffness = hinge_stiffness_.data();
+  for_each(
+      device_, "bending stiffness of hinges", hinges_, HYST_KERNEL(int h) {
+        Real sum = 0;
+        for (int j = start[h]; j < start[h + 1]; ++j) {
+          const Real* t = tangent + element[j] * (d * (d + 1) / 2);
+          for (int a = 0; a < d; ++a)
+            for (int b = 0; b <= a; ++b)
+              sum += (a == b ? 1 : 2) * coefficient[j * d + a] * *t++ * coefficient[j * d + b];
+        }
+        stiffness[h] = sum;
+      });
+  const int *first = vertex_start_.data(), *item = vertex_item_.data();
+  const Real* gradient = gradient_.data();
+  for_each(
+      device_, "bending diagonal", static_cast<int>(vertex_start_.size()) - 1, HYST_KERNEL(int v) {
+        for (int j = first[v]; j < first[v + 1]; ++j) {
+          const Vec3<Real> g = angle_gradient(gradient + 8 * (item[j] / 4), item[j] % 4);
+          diagonal[v] += stiffness[item[j] / 4] * g * g.transpose();
+        }
+      });
+}
+
+template <class Real, class Device>
+void Bending<Real, Device>::accept(const Vec3<Real>* x) {
+  compute_angles(x, angle_.data(), trial_angle_.data());
+  if (viscosity_ > 0) {
+    compute_trial_rates();
+    std::swap(angle_before_, angle_);
+  }
+  std::swap(angle_, trial_angle_);
+  const auto trial = trial_step();
+  law_->commit(device_, view(), angle_.data(), trial.dt, {trial.viscosity, rate_.data(), viscous_.data()},
+               moment_area_.data());
+  compute_energy_forces();
+}
+
+template class Bending<double, ThisDevice>;
+template class Bending<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,85 @@
+// The membrane in an implicit step: elastic energy W(E), and viscosity as the potential
+//   damping/over * W(E - E_ref),   whose stress is damping * C dE/dt with dE/dt = (E - E_ref)/over,
+// so that a step is a minimum problem and rotations cost nothing.
+#include <cmath>
+
+#include "sim/membrane/membrane.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<Real>* now,
+                                        const Vec3<Real>* before) {
+  formula_ = formula;
+  if (damping_ <= 0) return;
+  if (reference_.size() == 0) reference_ = Buffer<Vec3<Real>, Device>(device_, faces_);
+  const Real lag = static_cast<Real>(formula.lag);
+  const MembraneRest<Real>* rest = rest_.data();
+  const Eigen::Vector3i* corner = corner_.data();
+  Vec3<Real>* reference = reference_.data();
+  for_each(
+      device_, "membrane reference", faces_, HYST_KERNEL(int f) {
+        const Eigen::Vector3i t = corner[f];
+        const Vec3<Real> last = green_strain(deformation(rest[f], now[t[0]], now[t[1]], now[t[2]]));
+        reference[f] = last;
+        if (lag > 0)
+          reference[f] +=
+              lag * (last - green_strain(deformation(rest[f], before[t[0]], before[t[1]], before[t[2]])));
+      });
+}
+
+template <class Real, class Device>
+Real Membrane<Real, Device>::viscous_factor() const {
+  return std::isfinite(formula_.over) ? damping_ / static_cast<Real>(formula_.over) : Real(0);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
+  const MembraneStiffness<Real> c = stiffness_;
+  const Real viscous = viscous_factor();
+  const MembraneRest<Real>* rest = rest_.data();
+  const Eigen::Vector3i* corner = corner_.data();
+  const Vec3<Real>* reference = reference_.data();
+  Deformation<Real>* deformed = deformation_.data();
+  MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  double* energy = measure_.data();
+  for_each(
+      device_, "membrane stress, tried", faces_, HYST_KERNEL(int f) {
+        const Eigen::Vector3i t = corner[f];
+        const Deformation<Real> d = deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]);
+        Vec3<Real> strain = green_strain(d);
+        Real potential = membrane_energy(c, strain);
+        if (viscous > 0) {
+          const Vec3<Real> way = strain - reference[f];
+          potential += viscous * membrane_energy(c, way);
+          strain += viscous * way;
+        }
+        deformed[f] = d;
+        stress[f] = membrane_stress(c, strain);
+        tension[f] = tensile_part(stress[f]);
+        energy[f] = static_cast<double>(rest[f].area * potential);
+      });
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::add_viscous_loss() {
+  const Real viscous = viscous_factor();
+  if (!(viscous > 0)) return;
+  const MembraneStiffness<Real> c = stiffness_;
+  // dt damping dE/dt C dE/dt
+  const Real factor = 2 * viscous * static_cast<Real>(formula_.dt / formula_.over);
+  const MembraneRest<Real>* rest = rest_.data();
+  const Deformation<Real>* deformed = deformation_.data();
+  const Vec3<Real>* reference = reference_.data();
+  double* lost = viscous_.data();
+  for_each(
+      device_, "viscous loss", faces_, HYST_KERNEL(int f) {
+        const Vec3<Real> way = green_strain(deformed[f]) - reference[f];
+        lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, way));
+      });
+}
+
+template class Membrane<double, ThisDevice>;
+template class Membrane<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,177 @@
+// Ledger.  Over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, a = (v_{n+1} -
+// v^)/over with v^ the formula's combination of older velocities.  What of it does not become kinetic energy,
+//   m a.d - m (|v_{n+1}|^2 - |v_n|^2)/2,   in backward Euler m |dv|^2/2,
+// the integrator has taken away; so it has, of each energy, the gap between its change and the work of its
+// forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
+#include "sim/solve/implicit_step.h"
+
+#include <numeric>
+
+namespace hysteron {
+
+namespace {
+
+template <class Real, class Device>
+double sum_of(const Buffer<Real, Device>& values) {
+  const std::vector<Real> host = values.download();
+  return std::accumulate(host.begin(), host.end(), 0.0);
+}
+
+template <class Real>
+NewtonLimits newton_limits(const Scene& scene) {
+  NewtonLimits limits;
+  limits.residual = scene.newton_residual;
+  limits.velocity = scene.newton_velocity;
+  return limits;
+}
+
+}  // namespace
+
+template <class Real, class Device>
+ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
+                                         BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+                                         Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+                                         std::unique_ptr<LinearSolver<Real, Device>> solver)
+    : device_(device),
+      two_step_(scene.integrator == "bdf2"),
+      gravity_(scene.gravity.cast<Real>()),
+      drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
+      vertices_(static_cast<int>(mass.size())),
+      total_mass_(sum_of(mass)),
+      membrane_(membrane),
+      bending_(bending),
+      potential_(device, matrix, membrane, bending, contact, mass),
+      solver_(std::move(solver)),
+      newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene)),
+      end_(device, vertices_),
+      reference_(device, vertices_),
+      drift_(device, vertices_),
+      predicted_(device, vertices_),
+      acceleration_(device, vertices_),
+      x_before_(device, two_step_ ? vertices_ : 0),
+      v_before_(device, two_step_ ? vertices_ : 0) {}
+
+template <class Real, class Device>
+std::size_t ImplicitStep<Real, Device>::bytes() const {
+  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes();
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h) {
+  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;
+  formula_ = two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
+  place(state);
+  potential_.begin({formula_, state.x, x_before_.data(), reference_.data(), predicted_.data(), state.held,
+                    gravity_, drag_});
+  // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
+  const double steady = potential_of_guess(state, false);
+  if (last_h_ > 0 && !(potential_of_guess(state, true) < steady)) guess(state, false);
+  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, formula_.over);
+}
+
+template <class Real, class Device>
+double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state, bool accelerated) {
+  guess(state, accelerated);
+  potential_.lag_friction(end_.data());
+  return potential_.evaluate(end_.data(), nullptr).energy;
+}
+
+// What the formula starts from.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
+  const Real over = static_cast<Real>(formula_.over), lag = static_cast<Real>(formula_.lag);
+  const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
+  for_each(
+      device_, "implicit start", vertices_, HYST_KERNEL(int i) {
+        reference[i] = x[i];
+        drift[i] = v[i];
+        if (lag > 0) {
+          reference[i] += lag * (x[i] - x0[i]);
+          drift[i] += lag * (v[i] - v0[i]);
+        }
+        predicted[i] = reference[i] + over * drift[i];
+      });
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool accelerated) {
+  const Real h = static_cast<Real>(formula_.dt), over2 = static_cast<Real>(formula_.over * formula_.over);
+  const Real share = accelerated ? over2 : Real(0);
+  const Vec3<Real>*x = state.x, *v = state.v, *predicted = predicted_.data(), *a = acceleration_.data();
+  const char* held = state.held;
+  Vec3<Real>* end = end_.data();
+  for_each(
+      device_, "implicit guess", vertices_, HYST_KERNEL(int i) {
+        end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + share * a[i]);
+      });
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLedger* ledger) {
+  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
+  bending_.accept(end_.data());
+  book(state, ledger);
+  membrane_.add_viscous_loss();
+  move_on(state);
+  last_h_ = formula_.dt;
+}
+
+// Work of the forces at the end of the step over the way there.  Membrane and contact: what is left of the
+// gradient.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
+  const Real over = static_cast<Real>(formula_.over);
+  const Real inertia = 1 / (over * over), drag = drag_ / over;
+  const Vec3<Real> g = gravity_;
+  const BendingForceView<Real> bending = bending_.forces();
+  const Vec3<Real>*x = state.x, *v = state.v, *end = end_.data(), *reference = reference_.data();
+  const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
+  const char* held = state.held;
+  const Real* mass = state.mass;
+  for_each(
+      device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
+        const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
+        const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
+        const Vec3<Real> rest = inertial - air - weight - bend - gradient[i];
+        VertexLedger& sum = ledger[i];
+        sum.bending_work += static_cast<double>(bend.dot(d));
+        sum.gravity_work += static_cast<double>(weight.dot(d));
+        sum.implicit_work += static_cast<double>(rest.dot(d));
+        if (held[i]) {
+          sum.handle_work -= static_cast<double>((bend + weight + rest).dot(d));
+          return;
+        }
+        sum.air -= static_cast<double>(air.dot(d));
+        const Vec3<Real> moved = drift[i] + inertia * over * (end[i] - predicted[i]);
+        sum.inertia +=
+            static_cast<double>(inertial.dot(d) - mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
+      });
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
+  const Real over = static_cast<Real>(formula_.over), h = static_cast<Real>(formula_.dt);
+  const bool two_step = two_step_;
+  Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  const Vec3<Real>*end = end_.data(), *reference = reference_.data();
+  Vec3<Real>* acceleration = acceleration_.data();
+  const char* held = state.held;
+  for_each(
+      device_, "implicit end", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>((end[i] - reference[i]) / over);
+        if (two_step) {
+          x0[i] = x[i];
+          v0[i] = v[i];
+        }
+        acceleration[i] = (moved - v[i]) / h;
+        x[i] = end[i];
+        v[i] = moved;
+      });
+}
+
+template class ImplicitStep<double, ThisDevice>;
+template class ImplicitStep<float, ThisDevice>;
+
+}  // namespace hysteron

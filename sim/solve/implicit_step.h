@@ -1,0 +1,65 @@
+// One implicit step: backward Euler, or two-step backward differences (bdf2).
+#pragma once
+
+#include <memory>
+
+#include "sim/scene/scene.h"
+#include "sim/solve/newton.h"
+#include "sim/solve/vertex_ledger.h"
+
+namespace hysteron {
+
+// State of the cloth's vertices on the device, owned by the stepper.
+template <class Real>
+struct VertexState {
+  Vec3<Real>*x, *v;  // v of held vertices: that of the coming step
+  const char* held;
+  const Real* mass;
+};
+
+template <class Real, class Device>
+class ImplicitStep {
+ public:
+  ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
+               BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+               Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+               std::unique_ptr<LinearSolver<Real, Device>> solver);
+
+  // Looks for the positions after h [s]; changes nothing that lasts.
+  NewtonOutcome solve(const VertexState<Real>& state, double h);
+  // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
+  // caller's.
+  void accept(const VertexState<Real>& state, VertexLedger* ledger);
+  std::size_t bytes() const;
+
+  // The parts; public because nvcc allows no device lambda in a private member function.
+  void place(const VertexState<Real>& state);
+  void guess(const VertexState<Real>& state, bool accelerated);
+  void book(const VertexState<Real>& state, VertexLedger* ledger);
+  void move_on(const VertexState<Real>& state);
+
+ private:
+  static constexpr double kMostGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
+  double potential_of_guess(const VertexState<Real>& state, bool accelerated);
+
+  Device& device_;
+  bool two_step_;
+  Vec3<Real> gravity_;
+  Real drag_;  // over mass [1/s]
+  int vertices_;
+  double total_mass_;
+  Membrane<Real, Device>& membrane_;
+  Bending<Real, Device>& bending_;
+  IncrementalPotential<Real, Device> potential_;
+  std::unique_ptr<LinearSolver<Real, Device>> solver_;
+  Newton<Real, Device> newton_;
+  StepFormula formula_;
+  double last_h_ = 0;               // of the step before; 0: none
+  Buffer<Vec3<Real>, Device> end_;  // positions looked for
+  Buffer<Vec3<Real>, Device> reference_, drift_,
+      predicted_;                                   // r [m], velocity that goes with it [m/s], y [m]
+  Buffer<Vec3<Real>, Device> acceleration_;         // over the step before [m/s^2]
+  Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
+};
+
+}  // namespace hysteron

@@ -1,0 +1,151 @@
+#include "sim/solve/incremental_potential.h"
+
+#include <cmath>
+
+namespace hysteron {
+
+template <class Real, class Device>
+IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix,
+                                                         Membrane<Real, Device>& membrane,
+                                                         Bending<Real, Device>& bending,
+                                                         Contact<Real, Device>* contact,
+                                                         const Buffer<Real, Device>& mass)
+    : device_(device),
+      matrix_(matrix),
+      membrane_(membrane),
+      bending_(bending),
+      contact_(contact),
+      mass_(mass),
+      vertices_(static_cast<int>(mass.size())),
+      gradient_(device, vertices_),
+      bending_diagonal_(device, vertices_),
+      sums_(device, 1) {}
+
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
+  start_ = start;
+  membrane_.begin_step(start.formula, start.now, start.before);
+  bending_.begin_step(start.formula);
+}
+
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::lag_friction(const Vec3<Real>* x) {
+  if (contact_) contact_->lag(x);
+}
+
+template <class Real, class Device>
+PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
+                                                            const Vec3<Real>* direction) {
+  membrane_.evaluate(x);
+  bending_.evaluate(x);
+  compute_gradient(x);
+  if (contact_) {
+    contact_->evaluate(x, start_.now, gradient_.data());
+    add_energies(contact_->energies(), vertices_);
+  }
+  add_energies(membrane_.energies(), membrane_.faces());
+  add_energies(bending_.energies(), bending_.elements());
+  measure_gradient(direction);
+  const Totals t = sums_.download()[0];
+  return {t.energy, t.size, std::sqrt(t.residual2), t.slope};
+}
+
+// Inertia, drag and weight with their energies; the gradients of membrane and bending.
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
+  const StepStart<Real> s = start_;
+  const Real over = static_cast<Real>(s.formula.over);
+  const Real inertia = 1 / (over * over), drag = s.drag / over;  // 0 in statics
+  const MembraneForceView<Real> membrane = membrane_.forces();
+  const BendingForceView<Real> bending = bending_.forces();
+  const Real* mass = mass_.data();
+  Vec3<Real>* gradient = gradient_.data();
+  Totals* totals = sums_.data();
+  for_each_sum<2>(
+      device_, "potential: vertices", vertices_,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
+        gradient[i] = mass[i] * (inertia * moved + drag * drift - s.gravity) - membrane.at(i) - bending.at(i);
+        if (s.held[i]) return;
+        const double kinetic =
+            static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
+        const double weight = static_cast<double>(mass[i] * s.gravity.dot(x[i] - s.now[i]));
+        sums.term[0] += kinetic - weight;
+        sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        totals->energy = total.term[0];
+        totals->size = total.term[1];
+      });
+}
+
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::add_energies(const double* energies, int count) {
+  Totals* totals = sums_.data();
+  for_each_sum<2>(
+      device_, "potential: sum", count,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        sums.term[0] += energies[i];
+        sums.term[1] += energies[i] < 0 ? -energies[i] : energies[i];
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        totals->energy += total.term[0];
+        totals->size += total.term[1];
+      });
+}
+
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* direction) {
+  const Vec3<Real>* gradient = gradient_.data();
+  const char* held = start_.held;
+  Totals* totals = sums_.data();
+  for_each_sum<2>(
+      device_, "potential: gradient", vertices_,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        if (held[i]) return;
+        sums.term[0] += static_cast<double>(gradient[i].squaredNorm());
+        if (direction) sums.term[1] += static_cast<double>(gradient[i].dot(direction[i]));
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        totals->residual2 = total.term[0];
+        totals->slope = total.term[1];
+      });
+}
+
+template <class Real, class Device>
+LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const Vec3<Real>* x, Real shift) {
+  const BlockRowsView<Real> matrix = matrix_.view();
+  membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix);
+  bending_.linearise();
+  const Real over = static_cast<Real>(start_.formula.over);
+  const Real inertia = 1 / (over * over) + start_.drag / over + shift;
+  const Real* mass = mass_.data();
+  Mat3<Real>* bending = bending_diagonal_.data();
+  for_each(
+      device_, "potential: masses", vertices_, HYST_KERNEL(int i) {
+        for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
+        bending[i].setZero();
+      });
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal);
+  bending_.add_stiffness_diagonal(bending);
+  return {matrix, &bending_, bending, nullptr};
+}
+
+template <class Real, class Device>
+double IncrementalPotential<Real, Device>::load() {
+  const StepStart<Real> s = start_;
+  const Real* mass = mass_.data();
+  Totals* totals = sums_.data();
+  for_each_sum<1>(
+      device_, "potential: load", vertices_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        if (!s.held[i]) sums.term[0] += static_cast<double>((mass[i] * s.gravity).squaredNorm());
+      },
+      HYST_KERNEL(const Sums<1>& total) { totals->slope = total.term[0]; });
+  return std::sqrt(sums_.download()[0].slope);
+}
+
+template class IncrementalPotential<double, ThisDevice>;
+template class IncrementalPotential<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,79 @@
+// An implicit step as a minimum problem (Martin et al. 2011 for elastic bodies; with hysteresis because
+// moment is a function of curvature from the accepted history on):
+//
+//   Phi(x) = sum m/2 |x - y|^2/over^2 + drag m/2 |x - r|^2/over - m g.(x - x_n)
+//            + membrane + bending law + viscosity + contact + friction [J]
+//
+// r = the formula's reference position, y = r + over * (the same combination of velocities).  Statics have
+// over = infinity: no inertia, drag or viscosity.
+#pragma once
+
+#include "sim/bending/bending.h"
+#include "sim/contact/contact.h"
+#include "sim/membrane/membrane.h"
+#include "sim/solve/pcg.h"
+
+namespace hysteron {
+
+// Where a step starts; arrays of vertices.
+template <class Real>
+struct StepStart {
+  StepFormula formula;
+  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read if formula.lag = 0)
+  const Vec3<Real>*reference, *predicted;  // r, y
+  const char* held;
+  Vec3<Real> gravity;  // [m/s^2]
+  Real drag;           // air drag over mass [1/s]
+};
+
+struct PotentialValue {
+  double energy = 0;    // Phi [J]
+  double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
+  double residual = 0;  // norm of the gradient over all free vertices [N]
+  double slope = 0;     // gradient . direction [J]
+};
+
+template <class Real, class Device>
+class IncrementalPotential {
+ public:
+  IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+                       Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+                       const Buffer<Real, Device>& mass);
+
+  void begin(const StepStart<Real>& start);
+  // Limits of friction from the contact at x; Phi changes with them.
+  void lag_friction(const Vec3<Real>* x);
+  // Phi and its gradient; the direction may be null.
+  PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
+  // The positive semidefinite Hessian where evaluate() was called last, with `shift` times the masses added
+  // [1/s^2].
+  LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift);
+  const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
+  double load();  // norm of the weight of all free vertices [N]
+  bool has_friction() const { return contact_ != nullptr; }
+  std::size_t bytes() const { return gradient_.bytes() + bending_diagonal_.bytes() + sums_.bytes(); }
+
+  // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
+  void compute_gradient(const Vec3<Real>* x);
+  void add_energies(const double* energies, int count);
+  void measure_gradient(const Vec3<Real>* direction);
+
+ private:
+  struct Totals {  // on the device
+    double energy, size, residual2, slope;
+  };
+
+  Device& device_;
+  BlockRows<Real, Device>& matrix_;
+  Membrane<Real, Device>& membrane_;
+  Bending<Real, Device>& bending_;
+  Contact<Real, Device>* contact_;
+  const Buffer<Real, Device>& mass_;
+  int vertices_;
+  StepStart<Real> start_{};
+  Buffer<Vec3<Real>, Device> gradient_;
+  Buffer<Mat3<Real>, Device> bending_diagonal_;
+  Buffer<Totals, Device> sums_;
+};
+
+}  // namespace hysteron

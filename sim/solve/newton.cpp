@@ -1,0 +1,135 @@
+#include "sim/solve/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hysteron {
+
+namespace {
+constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step must reach (Armijo 1966)
+constexpr int kMostHalvings = 30;
+constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow; then they stay
+// What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
+template <class Real>
+constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
+}  // namespace
+
+template <class Real, class Device>
+Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
+                             LinearSolver<Real, Device>& solver, const NewtonLimits& limits)
+    : device_(device),
+      vertices_(vertices),
+      potential_(potential),
+      solver_(solver),
+      limits_(limits),
+      direction_(device, vertices),
+      trial_(device, vertices),
+      rhs_(device, vertices),
+      sums_(device, 1) {}
+
+// Linear systems are solved the better the nearer the minimum (Eisenstat & Walker 1996, choice 2).
+template <class Real, class Device>
+NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
+                                             double total_mass, double over) {
+  constexpr double kLoosest = 0.1, kTightest = 1e-5;
+  NewtonOutcome outcome;
+  outcome.load = potential_.load();
+  const double enough = limits_.residual * outcome.load;
+  potential_.lag_friction(x);
+  PotentialValue value = potential_.evaluate(x, nullptr);
+  double forcing = kLoosest;
+  for (;; ++outcome.iterations) {
+    outcome.residual = value.residual;
+    outcome.converged |= value.residual <= enough;
+    if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
+    const LinearSystem<Real, Device> system = potential_.linearise(x, 0);
+    negate_gradient();
+    outcome.linear_iterations +=
+        solver_.solve(system, held, rhs_.data(), direction_.data(), std::max(forcing, kTightest)).iterations;
+    const Correction correction = measure_correction(mass, held);
+    const double before = value.residual;
+    if (!search(x, value, correction.slope)) {
+      outcome.converged = -correction.slope <= kRounding<Real> * value.size;  // no more to gain in Real
+      break;
+    }
+    outcome.converged = std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity;
+    if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
+      potential_.lag_friction(x);
+      value = potential_.evaluate(x, nullptr);
+    }
+    forcing = std::min(kLoosest, 0.9 * std::pow(value.residual / before, 2));
+  }
+  return outcome;
+}
+
+// Takes the first share of the direction, 1 or less, that lowers the potential enough.  Where the difference
+// is within rounding, the slope must have become flatter instead (Hager & Zhang 2005).
+template <class Real, class Device>
+bool Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
+  if (!(slope < 0)) return false;
+  const double rounding = kRounding<Real> * value.size;
+  double share = 1;
+  for (int halving = 0; halving < kMostHalvings; ++halving) {
+    try_share(x, static_cast<Real>(share));
+    const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
+    const double rise = trial.energy - value.energy;
+    const bool lower = rise <= kEnough * share * slope,
+               flatter = std::abs(rise) <= rounding && std::abs(trial.slope) <= -0.9 * slope;
+    if (lower || flatter) {
+      take_trial(x);
+      value = trial;
+      return true;
+    }
+    const double curved = 2 * (rise - share * slope);  // minimum of the parabola through what is known
+    const double next = curved > 0 ? -slope * share * share / curved : 0;
+    share = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * share, 0.5 * share);
+  }
+  return false;
+}
+
+template <class Real, class Device>
+typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(const Real* mass,
+                                                                                   const char* held) {
+  const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
+  Correction* result = sums_.data();
+  for_each_sum<2>(
+      device_, "newton: correction", vertices_,
+      HYST_KERNEL(int i, Sums<2>& sums) {
+        if (held[i]) return;
+        sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
+        sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        result->size2 = total.term[0];
+        result->slope = total.term[1];
+      });
+  return sums_.download()[0];
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::try_share(const Vec3<Real>* x, Real share) {
+  const Vec3<Real>* d = direction_.data();
+  Vec3<Real>* trial = trial_.data();
+  for_each(
+      device_, "newton: try", vertices_, HYST_KERNEL(int i) { trial[i] = x[i] + share * d[i]; });
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::take_trial(Vec3<Real>* x) {
+  const Vec3<Real>* trial = trial_.data();
+  for_each(
+      device_, "newton: take", vertices_, HYST_KERNEL(int i) { x[i] = trial[i]; });
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::negate_gradient() {
+  const Vec3<Real>* gradient = potential_.gradient();
+  Vec3<Real>* rhs = rhs_.data();
+  for_each(
+      device_, "newton: load", vertices_, HYST_KERNEL(int i) { rhs[i] = -gradient[i]; });
+}
+
+template class Newton<double, ThisDevice>;
+template class Newton<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,57 @@
+// Newton's method with line search on the incremental potential.
+#pragma once
+
+#include "sim/solve/incremental_potential.h"
+#include "sim/solve/linear_solver.h"
+
+namespace hysteron {
+
+// A step has converged when the unbalanced force is small or the last correction was.
+struct NewtonLimits {
+  double residual = 1e-6;  // norm of the unbalanced force over that of the weight
+  double velocity = 1e-9;  // root mean square of a correction over the step's time [m/s]
+  int iterations = 60;
+};
+
+struct NewtonOutcome {
+  bool converged = false;
+  int iterations = 0;
+  long linear_iterations = 0;
+  double residual = 0;  // [N]
+  double load = 0;      // [N]
+};
+
+template <class Real, class Device>
+class Newton {
+ public:
+  Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
+         LinearSolver<Real, Device>& solver, const NewtonLimits& limits);
+
+  // Minimises the potential over the vertices that are not held, from x on.  `over` turns corrections into
+  // velocities [s].  Each accepted iterate lowers the potential, up to rounding.
+  NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass, double over);
+  std::size_t bytes() const { return direction_.bytes() + trial_.bytes() + rhs_.bytes() + sums_.bytes(); }
+
+  // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
+  struct Correction {
+    double size2;  // sum of m |d|^2 [kg m^2]
+    double slope;  // gradient . d [J]
+  };
+  Correction measure_correction(const Real* mass, const char* held);
+  void try_share(const Vec3<Real>* x, Real share);
+  void take_trial(Vec3<Real>* x);
+  void negate_gradient();
+
+ private:
+  bool search(Vec3<Real>* x, PotentialValue& value, double slope);
+
+  Device& device_;
+  int vertices_;
+  IncrementalPotential<Real, Device>& potential_;
+  LinearSolver<Real, Device>& solver_;
+  NewtonLimits limits_;
+  Buffer<Vec3<Real>, Device> direction_, trial_, rhs_;
+  Buffer<Correction, Device> sums_;
+};
+
+}  // namespace hysteron

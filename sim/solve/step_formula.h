@@ -1,0 +1,21 @@
+// How an implicit step forms velocities.
+#pragma once
+
+namespace hysteron {
+
+// v = (x - reference)/over with reference = (1 + lag) x_n - lag x_{n-1}.
+struct StepFormula {
+  double dt = 0;    // from x_n to x [s]
+  double over = 0;  // [s]; infinite in statics
+  double lag = 0;
+
+  static StepFormula backward_euler(double dt) { return {dt, dt, 0}; }
+  // Two-step backward differences on unequal steps: ratio w = dt/before (Hairer, Norsett & Wanner 1993,
+  // III.5).
+  static StepFormula bdf2(double dt, double before) {
+    const double w = dt / before;
+    return {dt, dt * (1 + w) / (1 + 2 * w), w * w / (1 + 2 * w)};
+  }
+};
+
+}  // namespace hysteron

@@ -1,0 +1,223 @@
+// The incremental potential of a whole cloth, its gradient, its stiffness and its minimum.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/solve/assembled_stiffness.h"
+#include "sim/solve/cholesky_solver.h"
+#include "sim/solve/newton.h"
+#include "tests/sim/solve/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Positions;
+using test::Trial;
+
+constexpr double kStep = 1.0 / 60;
+
+Positions random_vectors(std::size_t count, double size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  Positions result;
+  for (std::size_t i = 0; i < count; ++i)
+    result.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+  return result;
+}
+
+double dot(const Positions& a, const Positions& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+Positions moved(const Positions& x, double share, const Positions& d) {
+  Positions result = x;
+  for (std::size_t i = 0; i < x.size(); ++i) result[i] += share * d[i];
+  return result;
+}
+
+// A cloth on an inclined ground with everything a step can have: history, viscosity, drag, friction.
+struct Step {
+  Trial trial;
+  Cpu cpu{1};
+  CurvatureOperator op;
+  std::vector<char> held;
+  BlockRows<double, Cpu> rows;
+  Membrane<double, Cpu> membrane;
+  Bending<double, Cpu> bending;
+  Contact<double, Cpu> contact;
+  Buffer<double, Cpu> mass;
+  IncrementalPotential<double, Cpu> potential;
+  Positions reference, predicted;
+
+  static Scene scene(const std::string& law, const std::string& element, double friction) {
+    Scene s = test::hanging_square(150);
+    s.law = law;
+    s.element = element;
+    s.air_drag = 0.1;
+    s.fabric.friction = friction;
+    Obstacle ground;
+    ground.center = {0.1, 0.1, -0.2e-3};
+    ground.axis = {0, 0, 1};
+    s.obstacle = {ground};
+    return s;
+  }
+
+  Step(const std::string& law, const std::string& element, double friction = 0.3)
+      : trial(scene(law, element, friction)),
+        op(make_curvature_operator(element, trial.cloth.mesh, trial.cloth.held(trial.scene, 0))),
+        held(trial.cloth.held(trial.scene, 0)),
+        rows(cpu, trial.cloth.mesh),
+        membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows),
+        bending(cpu, trial.cloth.mesh, op,
+                make_law_loop<double>(cpu, choose_law(law, trial.scene.fabric.virgin_curve(), {}),
+                                      op.dimension, op.elements()),
+                ForceConvention::energy, trial.scene.fabric.damping * trial.scene.fabric.b1),
+        contact(cpu, trial.cloth.mesh, trial.scene),
+        mass(cpu, masses()),
+        potential(cpu, rows, membrane, bending, &contact, mass),
+        reference(trial.cloth.mesh.rest),
+        predicted(trial.cloth.mesh.rest) {
+    contact.move(0, 0);
+    const Positions still(reference.size(), Vector3d::Zero());
+    bending.commit(reference.data(), still.data(), 0);
+  }
+
+  std::vector<double> masses() const {
+    std::vector<double> m;
+    for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) m.push_back(trial.mass(i));
+    return m;
+  }
+  // Bends and unbends the cloth so that its history is not virgin.
+  void give_it_a_past() {
+    const Positions still(reference.size(), Vector3d::Zero());
+    for (double size : {2e-3, -1e-3, 0.5e-3}) {
+      const Positions x = moved(trial.cloth.mesh.rest, size, random_vectors(reference.size(), 1, 3));
+      bending.commit(x.data(), still.data(), 1e-3);
+    }
+  }
+  void begin() {
+    potential.begin({StepFormula::backward_euler(kStep), reference.data(), nullptr, reference.data(),
+                     predicted.data(), held.data(), trial.scene.gravity,
+                     trial.scene.air_drag / trial.scene.fabric.density});
+  }
+  PotentialValue at(const Positions& x, const Positions& direction) {
+    return potential.evaluate(x.data(), direction.data());
+  }
+  Positions gradient() const {
+    Positions g(potential.gradient(), potential.gradient() + reference.size());
+    for (std::size_t i = 0; i < g.size(); ++i)
+      if (held[i]) g[i].setZero();
+    return g;
+  }
+  Positions free_direction(unsigned seed) const {
+    Positions d = random_vectors(reference.size(), 1, seed);
+    for (std::size_t i = 0; i < d.size(); ++i)
+      if (held[i]) d[i].setZero();
+    return d;
+  }
+  Positions product(const LinearSystem<double, Cpu>& system, const Positions& p) {
+    system.bending->apply_stiffness(p.data());
+    Positions q(p.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (!held[i])
+        q[i] = system.matrix.times(static_cast<int>(i), p.data()) - bending.forces().at(static_cast<int>(i));
+    return q;
+  }
+};
+
+struct Case {
+  std::string law, element;
+};
+class OfACloth : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Laws, OfACloth,
+                         testing::Values(Case{"linear", "hinge"}, Case{"prandtl", "hinge"},
+                                         Case{"prandtl", "shape"}, Case{"wong", "shape"},
+                                         Case{"kim", "shape"}, Case{"terzopoulos", "hinge"}),
+                         [](const auto& c) { return c.param.law + "_" + c.param.element; });
+
+TEST_P(OfACloth, GradientIsTheDerivativeOfThePotentialToSecondOrder) {
+  Step step(GetParam().law, GetParam().element);
+  step.give_it_a_past();
+  step.begin();
+  const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
+  const Positions d = step.free_direction(6);
+  step.potential.lag_friction(x.data());
+  const double slope = step.at(x, d).slope;
+  ASSERT_NE(slope, 0);
+  const auto error = [&](double h) {
+    const double rise = step.at(moved(x, h, d), d).energy - step.at(moved(x, -h, d), d).energy;
+    return std::abs(rise / (2 * h) - slope);
+  };
+  const double coarse = error(2e-5), fine = error(5e-6);
+  EXPECT_GT(std::log(coarse / fine) / std::log(4), 1.7);
+}
+
+// Without stress the Gauss-Newton stiffness is the whole Hessian.
+TEST_P(OfACloth, StiffnessIsTheDerivativeOfTheGradientWhereNothingIsStressed) {
+  Step step(GetParam().law, GetParam().element);
+  step.begin();
+  const Positions x = step.reference, p = step.free_direction(7);
+  step.potential.lag_friction(x.data());
+  step.at(x, p);
+  const Positions base = step.gradient();
+  const Positions linear = step.product(step.potential.linearise(x.data(), 0), p);
+  ASSERT_GT(dot(linear, p), 0);
+  const auto error = [&](double h) {
+    step.at(moved(x, h, p), p);
+    const Positions difference = moved(step.gradient(), -1, base);
+    return std::sqrt(dot(moved(difference, -h, linear), moved(difference, -h, linear)));
+  };
+  EXPECT_GT(std::log10(error(1e-6) / error(1e-7)), 1.7);
+}
+
+TEST_P(OfACloth, StiffnessIsPositiveAlsoUnderCompressionAndTheAssembledMatrixIsTheSame) {
+  constexpr double kSame = 1e-12;  // rounding of sums of some hundred terms
+  Step step(GetParam().law, GetParam().element);
+  step.give_it_a_past();
+  step.begin();
+  Positions x = moved(step.reference, 5e-4, random_vectors(step.reference.size(), 1, 8));
+  for (Vector3d& p : x) p.x() *= 0.9;
+  step.potential.lag_friction(x.data());
+  step.at(x, x);
+  const LinearSystem<double, Cpu> system = step.potential.linearise(x.data(), 0);
+  AssembledStiffness assembled(step.trial.cloth.mesh, step.op);
+  const Eigen::SparseMatrix<double>& lower =
+      assembled.assemble(step.cpu, system.matrix, step.bending.stiffness(), step.held.data());
+  for (unsigned seed = 10; seed < 20; ++seed) {
+    const Positions p = step.free_direction(seed), q = step.product(system, p);
+    EXPECT_GT(dot(p, q), 0);
+    const Eigen::Map<const Eigen::VectorXd> flat(p[0].data(), 3 * static_cast<long>(p.size()));
+    const Eigen::VectorXd same = lower.selfadjointView<Eigen::Lower>() * flat;
+    const Eigen::Map<const Eigen::VectorXd> product(q[0].data(), flat.size());
+    EXPECT_LT((same - product).norm(), kSame * product.norm());
+  }
+}
+
+// The first iterates are the same however many are allowed, so that their potentials can be compared.
+TEST_P(OfACloth, LineSearchNeverAcceptsAnIncrease) {
+  double last = 1e30;
+  int decreases = 0;
+  for (int iterations = 0; iterations <= 8; ++iterations) {
+    Step step(GetParam().law, GetParam().element, 0);  // friction's limits change from iterate to iterate
+    step.give_it_a_past();
+    step.begin();
+    CholeskySolver<double> solver(step.cpu, step.trial.cloth.mesh, step.op);
+    NewtonLimits limits;
+    limits.iterations = iterations;
+    Newton<double, Cpu> newton(step.cpu, step.mass.size(), step.potential, solver, limits);
+    Positions x = moved(step.reference, 3e-3, step.free_direction(9));
+    newton.minimise(x.data(), step.held.data(), step.mass.data(), 1, kStep);
+    const PotentialValue value = step.at(x, x);
+    const double rounding = 1e-14 * value.size;
+    EXPECT_LE(value.energy, last + rounding) << iterations;
+    decreases += value.energy < last - rounding;
+    last = value.energy;
+  }
+  EXPECT_GE(decreases, 4);
+}
+
+}  // namespace
+}  // namespace hysteron
