@@ -120,20 +120,22 @@ struct Scene {
   std::string force = "energy";   // force      energy | chapter (hinge only)
   std::string mesh = "random";    // mesh       family of the builder, or FILE.obj
   int triangles = 5000;           // triangles
-  std::string integrator = "semi-implicit";  // integrator semi-implicit | implicit | bdf2 | explicit
-  double step = 1e-3;                        // step       large step hi [s]
-  int substeps = 0;                          // substeps   alpha; 0 = the least stable one
-  std::string implicit_every = "substep";    // implicit-every  substep | step (the chapter's)
-  double solver_tolerance = 1e-4;            // solver-tolerance  relative residual of the implicit solve
-  double newton_residual = 1e-6;             // newton-residual   unbalanced force over the weight
-  double newton_velocity = 1e-9;             // newton-velocity   or: correction over the step's time [m/s]
-  std::string linear_solver = "auto";        // linear-solver     auto | pcg | cholesky
-  std::string device = "auto";               // device     auto | cpu | cuda
-  std::string precision = "double";          // precision  double | float
-  int threads = 0;                           // threads    0 = all cores
-  double seconds = 1;                        // seconds    simulated time [s]
-  Eigen::Vector3d gravity{0, 0, -9.81};      // gravity    [m/s^2]
-  double air_drag = 0;                       // air-drag   linear drag per area [kg/(m^2 s)]
+  std::string integrator =
+      "semi-implicit";  // integrator semi-implicit | implicit | bdf2 | quasi-static | explicit
+  double step = 1e-3;   // step       large step hi [s]
+  int substeps = 0;     // substeps   alpha; 0 = the least stable one
+  std::string implicit_every = "substep";  // implicit-every  substep | step (the chapter's)
+  double solver_tolerance = 1e-4;          // solver-tolerance  relative residual of the implicit solve
+  double newton_residual = 1e-6;           // newton-residual   unbalanced force over the weight
+  double newton_velocity = 1e-9;           // newton-velocity   or: correction over the step's time [m/s]
+  std::string linear_solver = "auto";      // linear-solver     auto | pcg | cholesky
+  double ramp = 0;                         // ramp      quasi-static: time in which the weight grows [s]
+  std::string device = "auto";             // device     auto | cpu | cuda
+  std::string precision = "double";        // precision  double | float
+  int threads = 0;                         // threads    0 = all cores
+  double seconds = 1;                      // seconds    simulated time [s]
+  Eigen::Vector3d gravity{0, 0, -9.81};    // gravity    [m/s^2]
+  double air_drag = 0;                     // air-drag   linear drag per area [kg/(m^2 s)]
   double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
   unsigned seed = 1;               // seed
   std::vector<Pin> pin;            // [[pin]]
@@ -143,7 +145,10 @@ struct Scene {
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;
 
-  bool is_implicit() const { return integrator == "implicit" || integrator == "bdf2"; }
+  // Bending as well: every force at the end of the step.
+  bool is_implicit() const {
+    return integrator == "implicit" || integrator == "bdf2" || integrator == "quasi-static";
+  }
 };
 
 }  // namespace hysteron

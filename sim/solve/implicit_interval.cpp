@@ -6,6 +6,22 @@
 
 namespace hysteron {
 
+// Statics let the weight grow over the scene's `ramp`; with it, nothing moves through states that the cloth
+// would not pass.
+template <class Real, class Device>
+double Stepper<Real, Device>::load_share(double time) const {
+  if (scene_.integrator != "quasi-static" || !(scene_.ramp > time)) return 1;
+  return time / scene_.ramp;
+}
+
+template <class Real, class Device>
+std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
+  std::vector<Eigen::Vector3d> result;
+  if (!implicit_) return result;
+  for (const auto& f : implicit_->handle_forces(held_.data())) result.push_back(f.template cast<double>());
+  return result;
+}
+
 template <class Real, class Device>
 void Stepper<Real, Device>::implicit_interval(double start, double h, int halvings) {
   constexpr int kMostHalvings = 10;
@@ -16,7 +32,7 @@ void Stepper<Real, Device>::implicit_interval(double start, double h, int halvin
   }
   const VertexState<Real> state{x_.data(), v_.data(), held_.data(), mass_.data()};
   clock_.begin(Stage::solve);
-  const NewtonOutcome outcome = implicit_->solve(state, h);
+  const NewtonOutcome outcome = implicit_->solve(state, h, load_share(start + h));
   clock_.end(Stage::solve);
   newton_iterations_ += outcome.iterations;
   solver_iterations_ += outcome.linear_iterations;

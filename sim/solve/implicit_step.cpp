@@ -22,6 +22,11 @@ NewtonLimits newton_limits(const Scene& scene) {
   NewtonLimits limits;
   limits.residual = scene.newton_residual;
   limits.velocity = scene.newton_velocity;
+  if (scene.integrator == "quasi-static") {
+    limits.iterations = 400;
+    limits.first_shift = 1e4;  // as in a step of 10 ms
+    limits.least_shift = 1e-4;
+  }
   return limits;
 }
 
@@ -34,6 +39,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
                                          std::unique_ptr<LinearSolver<Real, Device>> solver)
     : device_(device),
       two_step_(scene.integrator == "bdf2"),
+      static_(scene.integrator == "quasi-static"),
       gravity_(scene.gravity.cast<Real>()),
       drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
       vertices_(static_cast<int>(mass.size())),
@@ -57,16 +63,31 @@ std::size_t ImplicitStep<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
-NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h) {
+NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share) {
   const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;
-  formula_ = two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
+  formula_ = static_     ? StepFormula::statics(h)
+             : two_steps ? StepFormula::bdf2(h, last_h_)
+                         : StepFormula::backward_euler(h);
+  share_ = static_cast<Real>(share);
   place(state);
   potential_.begin({formula_, state.x, x_before_.data(), reference_.data(), predicted_.data(), state.held,
-                    gravity_, drag_});
+                    gravity_, drag_, share_});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const double steady = potential_of_guess(state, false);
   if (last_h_ > 0 && !(potential_of_guess(state, true) < steady)) guess(state, false);
-  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, formula_.over);
+  const double over = static_ ? 1.0 : formula_.over;
+  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, over);
+}
+
+template <class Real, class Device>
+std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const char* held) const {
+  std::vector<Vec3<Real>> force(vertices_);
+  device_download(device_, force.data(), potential_.gradient(), force.size() * sizeof(Vec3<Real>));
+  std::vector<char> mask(vertices_);
+  device_download(device_, mask.data(), held, mask.size());
+  for (int i = 0; i < vertices_; ++i)
+    if (!mask[i]) force[i].setZero();
+  return force;
 }
 
 template <class Real, class Device>
@@ -79,7 +100,8 @@ double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& s
 // What the formula starts from.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
-  const Real over = static_cast<Real>(formula_.over), lag = static_cast<Real>(formula_.lag);
+  const Real over = static_ ? Real(0) : static_cast<Real>(formula_.over);
+  const Real lag = static_cast<Real>(formula_.lag);
   const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
   Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
   for_each(
@@ -96,8 +118,9 @@ void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool accelerated) {
-  const Real h = static_cast<Real>(formula_.dt), over2 = static_cast<Real>(formula_.over * formula_.over);
-  const Real share = accelerated ? over2 : Real(0);
+  const Real h = static_cast<Real>(formula_.dt);
+  const double way = static_ ? formula_.dt : formula_.over * formula_.over;
+  const Real share = accelerated ? static_cast<Real>(way) : Real(0);
   const Vec3<Real>*x = state.x, *v = state.v, *predicted = predicted_.data(), *a = acceleration_.data();
   const char* held = state.held;
   Vec3<Real>* end = end_.data();
@@ -121,9 +144,9 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
 // gradient.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
-  const Real over = static_cast<Real>(formula_.over);
-  const Real inertia = 1 / (over * over), drag = drag_ / over;
-  const Vec3<Real> g = gravity_;
+  const Real rate = static_cast<Real>(1 / formula_.over);  // 0 in statics
+  const Real inertia = rate * rate, drag = drag_ * rate;
+  const Vec3<Real> g = gravity_, carried = (1 - share_) * gravity_;
   const BendingForceView<Real> bending = bending_.forces();
   const Vec3<Real>*x = state.x, *v = state.v, *end = end_.data(), *reference = reference_.data();
   const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
@@ -134,17 +157,19 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
         const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
-        const Vec3<Real> rest = inertial - air - weight - bend - gradient[i];
+        const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down
+        const Vec3<Real> rest = inertial - air - weight - support - bend - gradient[i];
         VertexLedger& sum = ledger[i];
         sum.bending_work += static_cast<double>(bend.dot(d));
         sum.gravity_work += static_cast<double>(weight.dot(d));
         sum.implicit_work += static_cast<double>(rest.dot(d));
+        sum.handle_work += static_cast<double>(support.dot(d));
         if (held[i]) {
-          sum.handle_work -= static_cast<double>((bend + weight + rest).dot(d));
+          sum.handle_work -= static_cast<double>((bend + weight + support + rest).dot(d));
           return;
         }
         sum.air -= static_cast<double>(air.dot(d));
-        const Vec3<Real> moved = drift[i] + inertia * over * (end[i] - predicted[i]);
+        const Vec3<Real> moved = drift[i] + rate * (end[i] - predicted[i]);
         sum.inertia +=
             static_cast<double>(inertial.dot(d) - mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
       });
@@ -152,20 +177,20 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
-  const Real over = static_cast<Real>(formula_.over), h = static_cast<Real>(formula_.dt);
-  const bool two_step = two_step_;
+  const Real rate = static_cast<Real>(1 / formula_.over), h = static_cast<Real>(formula_.dt);
+  const bool two_step = two_step_, statics = static_;
   Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>*end = end_.data(), *reference = reference_.data();
   Vec3<Real>* acceleration = acceleration_.data();
   const char* held = state.held;
   for_each(
       device_, "implicit end", vertices_, HYST_KERNEL(int i) {
-        const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>((end[i] - reference[i]) / over);
+        const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>(rate * (end[i] - reference[i]));
         if (two_step) {
           x0[i] = x[i];
           v0[i] = v[i];
         }
-        acceleration[i] = (moved - v[i]) / h;
+        acceleration[i] = statics ? Vec3<Real>((end[i] - x[i]) / h) : Vec3<Real>((moved - v[i]) / h);
         x[i] = end[i];
         v[i] = moved;
       });

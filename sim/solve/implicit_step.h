@@ -1,4 +1,4 @@
-// One implicit step: backward Euler, or two-step backward differences (bdf2).
+// One implicit step: backward Euler, two-step backward differences (bdf2), or equilibrium (quasi-static).
 #pragma once
 
 #include <memory>
@@ -25,11 +25,13 @@ class ImplicitStep {
                Bending<Real, Device>& bending, Contact<Real, Device>* contact,
                std::unique_ptr<LinearSolver<Real, Device>> solver);
 
-  // Looks for the positions after h [s]; changes nothing that lasts.
-  NewtonOutcome solve(const VertexState<Real>& state, double h);
+  // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
+  NewtonOutcome solve(const VertexState<Real>& state, double h, double share);
   // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
   // caller's.
   void accept(const VertexState<Real>& state, VertexLedger* ledger);
+  // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
+  std::vector<Vec3<Real>> handle_forces(const char* held) const;
   std::size_t bytes() const;
 
   // The parts; public because nvcc allows no device lambda in a private member function.
@@ -43,9 +45,10 @@ class ImplicitStep {
   double potential_of_guess(const VertexState<Real>& state, bool accelerated);
 
   Device& device_;
-  bool two_step_;
+  bool two_step_, static_;
   Vec3<Real> gravity_;
-  Real drag_;  // over mass [1/s]
+  Real drag_;       // over mass [1/s]
+  Real share_ = 1;  // of the weight
   int vertices_;
   double total_mass_;
   Membrane<Real, Device>& membrane_;
@@ -57,8 +60,9 @@ class ImplicitStep {
   double last_h_ = 0;               // of the step before; 0: none
   Buffer<Vec3<Real>, Device> end_;  // positions looked for
   Buffer<Vec3<Real>, Device> reference_, drift_,
-      predicted_;                                   // r [m], velocity that goes with it [m/s], y [m]
-  Buffer<Vec3<Real>, Device> acceleration_;         // over the step before [m/s^2]
+      predicted_;  // r [m], velocity that goes with it [m/s], y [m]
+  // Over the step before: acceleration [m/s^2]; in statics the velocity of the load [m/s].
+  Buffer<Vec3<Real>, Device> acceleration_;
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
 };
 

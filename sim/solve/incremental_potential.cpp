@@ -47,7 +47,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   add_energies(bending_.energies(), bending_.elements());
   measure_gradient(direction);
   const Totals t = sums_.download()[0];
-  return {t.energy, t.size, std::sqrt(t.residual2), t.slope};
+  return {t.energy, t.size, std::sqrt(t.residual2), std::sqrt(t.reaction2), t.slope};
 }
 
 // Inertia, drag and weight with their energies; the gradients of membrane and bending.
@@ -56,6 +56,7 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const StepStart<Real> s = start_;
   const Real over = static_cast<Real>(s.formula.over);
   const Real inertia = 1 / (over * over), drag = s.drag / over;  // 0 in statics
+  const Vec3<Real> g = s.share * s.gravity;
   const MembraneForceView<Real> membrane = membrane_.forces();
   const BendingForceView<Real> bending = bending_.forces();
   const Real* mass = mass_.data();
@@ -65,11 +66,11 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
       device_, "potential: vertices", vertices_,
       HYST_KERNEL(int i, Sums<2>& sums) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
-        gradient[i] = mass[i] * (inertia * moved + drag * drift - s.gravity) - membrane.at(i) - bending.at(i);
+        gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - membrane.at(i) - bending.at(i);
         if (s.held[i]) return;
         const double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
-        const double weight = static_cast<double>(mass[i] * s.gravity.dot(x[i] - s.now[i]));
+        const double weight = static_cast<double>(mass[i] * g.dot(x[i] - s.now[i]));
         sums.term[0] += kinetic - weight;
         sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
       },
@@ -99,16 +100,16 @@ void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* dire
   const Vec3<Real>* gradient = gradient_.data();
   const char* held = start_.held;
   Totals* totals = sums_.data();
-  for_each_sum<2>(
+  for_each_sum<3>(
       device_, "potential: gradient", vertices_,
-      HYST_KERNEL(int i, Sums<2>& sums) {
-        if (held[i]) return;
-        sums.term[0] += static_cast<double>(gradient[i].squaredNorm());
-        if (direction) sums.term[1] += static_cast<double>(gradient[i].dot(direction[i]));
+      HYST_KERNEL(int i, Sums<3>& sums) {
+        sums.term[held[i] ? 1 : 0] += static_cast<double>(gradient[i].squaredNorm());
+        if (direction && !held[i]) sums.term[2] += static_cast<double>(gradient[i].dot(direction[i]));
       },
-      HYST_KERNEL(const Sums<2>& total) {
+      HYST_KERNEL(const Sums<3>& total) {
         totals->residual2 = total.term[0];
-        totals->slope = total.term[1];
+        totals->reaction2 = total.term[1];
+        totals->slope = total.term[2];
       });
 }
 

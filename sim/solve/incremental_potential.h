@@ -24,12 +24,14 @@ struct StepStart {
   const char* held;
   Vec3<Real> gravity;  // [m/s^2]
   Real drag;           // air drag over mass [1/s]
+  Real share;          // of the weight that acts: the load of statics grows
 };
 
 struct PotentialValue {
   double energy = 0;    // Phi [J]
   double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
+  double reaction = 0;  // the same over the held ones: what the handles carry [N]
   double slope = 0;     // gradient . direction [J]
 };
 
@@ -60,7 +62,7 @@ class IncrementalPotential {
 
  private:
   struct Totals {  // on the device
-    double energy, size, residual2, slope;
+    double energy, size, residual2, reaction2, slope;
   };
 
   Device& device_;

@@ -33,26 +33,29 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
                                              double total_mass, double over) {
   constexpr double kLoosest = 0.1, kTightest = 1e-5;
   NewtonOutcome outcome;
-  outcome.load = potential_.load();
-  const double enough = limits_.residual * outcome.load;
+  const double weight = potential_.load();
   potential_.lag_friction(x);
   PotentialValue value = potential_.evaluate(x, nullptr);
-  double forcing = kLoosest;
+  double forcing = kLoosest, shift = limits_.first_shift;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
-    outcome.converged |= value.residual <= enough;
+    outcome.load = std::hypot(weight, value.reaction);
+    outcome.converged |= value.residual <= limits_.residual * outcome.load;
     if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
-    const LinearSystem<Real, Device> system = potential_.linearise(x, 0);
+    const LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift));
     negate_gradient();
     outcome.linear_iterations +=
         solver_.solve(system, held, rhs_.data(), direction_.data(), std::max(forcing, kTightest)).iterations;
     const Correction correction = measure_correction(mass, held);
     const double before = value.residual;
-    if (!search(x, value, correction.slope)) {
+    const double share = search(x, value, correction.slope);
+    if (share == 0) {
       outcome.converged = -correction.slope <= kRounding<Real> * value.size;  // no more to gain in Real
       break;
     }
-    outcome.converged = std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity;
+    outcome.converged =
+        shift <= limits_.least_shift && std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity;
+    shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
       potential_.lag_friction(x);
       value = potential_.evaluate(x, nullptr);
@@ -62,11 +65,12 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   return outcome;
 }
 
-// Takes the first share of the direction, 1 or less, that lowers the potential enough.  Where the difference
+// Takes the first share of the direction, 1 or less, that lowers the potential enough, and returns it; 0 if
+// there is none.  Where the difference
 // is within rounding, the slope must have become flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-bool Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
-  if (!(slope < 0)) return false;
+double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
+  if (!(slope < 0)) return 0;
   const double rounding = kRounding<Real> * value.size;
   double share = 1;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
@@ -78,13 +82,13 @@ bool Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double s
     if (lower || flatter) {
       take_trial(x);
       value = trial;
-      return true;
+      return share;
     }
     const double curved = 2 * (rise - share * slope);  // minimum of the parabola through what is known
     const double next = curved > 0 ? -slope * share * share / curved : 0;
     share = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * share, 0.5 * share);
   }
-  return false;
+  return 0;
 }
 
 template <class Real, class Device>

@@ -8,9 +8,12 @@ namespace hysteron {
 
 // A step has converged when the unbalanced force is small or the last correction was.
 struct NewtonLimits {
-  double residual = 1e-6;  // norm of the unbalanced force over that of the weight
+  double residual = 1e-6;  // norm of the unbalanced force over that of the weight and what the handles carry
   double velocity = 1e-9;  // root mean square of a correction over the step's time [m/s]
   int iterations = 60;
+  // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift
+  // falls with every full step and rises with every shortened one [1/s^2].
+  double first_shift = 0, least_shift = 0;
 };
 
 struct NewtonOutcome {
@@ -18,7 +21,7 @@ struct NewtonOutcome {
   int iterations = 0;
   long linear_iterations = 0;
   double residual = 0;  // [N]
-  double load = 0;      // [N]
+  double load = 0;      // weight and reactions [N]
 };
 
 template <class Real, class Device>
@@ -43,7 +46,7 @@ class Newton {
   void negate_gradient();
 
  private:
-  bool search(Vec3<Real>* x, PotentialValue& value, double slope);
+  double search(Vec3<Real>* x, PotentialValue& value, double slope);
 
   Device& device_;
   int vertices_;

@@ -50,6 +50,9 @@ class Simulation {
   // simulation must outlive what is returned.
   virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                        std::string& reason) = 0;
+  // Forces of the handles on each vertex at the end of the last step [N], zero on free ones; empty for
+  // integrators that are not implicit in all forces.
+  virtual std::vector<Eigen::Vector3d> handle_forces() = 0;
   virtual Ledger ledger() = 0;
   virtual double largest_stretch() = 0;    // largest principal stretch minus 1
   virtual std::uint64_t state_hash() = 0;  // of positions and velocities, bit for bit

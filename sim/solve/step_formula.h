@@ -1,6 +1,9 @@
 // How an implicit step forms velocities.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 namespace hysteron {
 
 // v = (x - reference)/over with reference = (1 + lag) x_n - lag x_{n-1}.
@@ -10,6 +13,9 @@ struct StepFormula {
   double lag = 0;
 
   static StepFormula backward_euler(double dt) { return {dt, dt, 0}; }
+  // Equilibrium: no inertia, drag or viscosity.
+  static StepFormula statics(double dt) { return {dt, std::numeric_limits<double>::infinity(), 0}; }
+  bool is_static() const { return std::isinf(over); }
   // Two-step backward differences on unequal steps: ratio w = dt/before (Hairer, Norsett & Wanner 1993,
   // III.5).
   static StepFormula bdf2(double dt, double before) {

@@ -42,6 +42,7 @@ class Stepper : public Simulation {
   int dimension() const override { return bending_.dimension(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override;
+  std::vector<Eigen::Vector3d> handle_forces() override;
   Ledger ledger() override;
   double largest_stretch() override { return membrane_.largest_stretch(x_.data()); }
   std::uint64_t state_hash() override;
@@ -68,6 +69,7 @@ class Stepper : public Simulation {
   // An implicit step from start to start + h, in halves if it does not converge.
   void implicit_interval(double start, double h, int halvings);
   void remember_positions();
+  double load_share(double time) const;
   void refuse_divergence();  // Error::run when a position or velocity is no longer finite
 
  private:

@@ -45,18 +45,18 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                                          OrderCase{"prandtl", "bdf2", 2}),
                          [](const auto& c) { return c.param.law + "_" + c.param.integrator; });
 
-// Against symplectic steps of 10 us, for half a second in which the cloth bends and unbends.
+// Against symplectic steps of 10 us, for a time in which the cloth bends and unbends.
 TEST_P(Order, AgreesWithTinyExplicitStepsThroughReversals) {
-  constexpr double kSeconds = 0.128, kTiny = 1e-5;
+  constexpr double kSeconds = 0.064, kTiny = 1e-6;
   const OrderCase& c = GetParam();
   const Positions exact = shape_after(soft_sheet(c.law, "explicit", kTiny), kSeconds);
   const auto error = [&](double step) {
     return test::farthest(shape_after(soft_sheet(c.law, c.integrator, step), kSeconds), exact);
   };
-  const double coarse = error(2e-3), middle = error(1e-3), fine = error(0.5e-3);
-  std::printf("%s %s: %g %g %g, orders %.2f %.2f\n", c.law.c_str(), c.integrator.c_str(), coarse, middle,
-              fine, std::log2(coarse / middle), std::log2(middle / fine));
-  EXPECT_GT(std::log2(middle / fine), c.order - 0.3);
+  const double step = c.order == 1 ? 0.1e-3 : 0.4e-3;
+  const double coarse = error(step), fine = error(step / 2);
+  EXPECT_GT(fine, 0);
+  EXPECT_GT(std::log2(coarse / fine), c.order - 0.25);
 }
 
 }  // namespace
