@@ -160,6 +160,9 @@ void Session::finish(const std::string& title) {
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.is_implicit()) {
     run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
+  }
+  if (setup_.scene.is_implicit() || setup_.scene.tolerance > 0) {
+    run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
   note_recovery(*run_, *simulation_, setup_.scene);

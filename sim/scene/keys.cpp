@@ -49,6 +49,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "", "relative residual of the implicit solve"},
     {"newton-residual", at<&S::newton_residual>, "", {0, 1, true}, "", "implicit, bdf2: unbalanced force over the weight at which a step has converged"},
     {"newton-velocity", at<&S::newton_velocity>, "m/s", at_least(0), "", "implicit, bdf2: or the mean correction over the step's time"},
+    {"tolerance", at<&S::tolerance>, "m", at_least(0), "", "semi-implicit, implicit, bdf2: steps in parts, each with an estimated error of positions below this; 0: off"},
     {"ramp", at<&S::ramp>, "s", at_least(0), "", "quasi-static: time in which the weight grows to its full value"},
     {"linear-solver", at<&S::linear_solver>, "", any(), "auto | pcg | cholesky", "implicit, bdf2: auto is cholesky on the CPU, pcg on a GPU"},
     {"device", at<&S::device>, "", any(), "auto | cpu | cuda", "where the simulation runs"},

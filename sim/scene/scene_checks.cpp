@@ -59,6 +59,17 @@ void check_method(const Scene& scene) {
   }
 }
 
+void check_steps(const Scene& scene) {
+  if (!(scene.tolerance > 0)) return;
+  if (scene.integrator == "explicit" || scene.integrator == "quasi-static")
+    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
+                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " + scene.integrator +
+                         " (" + origin_of(scene, "integrator") + ")");
+  if (scene.integrator == "semi-implicit" && scene.implicit_every == "step")
+    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
+                         " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
+}
+
 void check_motion(const Scene& scene, const std::string& path, const Motion& motion) {
   for (std::size_t i = 0; i < motion.keys.size(); ++i) {
     const std::string key = path + ".keys[" + std::to_string(i) + "]";
@@ -139,6 +150,7 @@ void check_scene(const Scene& scene) {
   check_fabric(scene);
   check_mesh(scene);
   check_method(scene);
+  check_steps(scene);
   check_parameters(scene);
   for (std::size_t i = 0; i < scene.pin.size(); ++i) {
     check_pin(scene, scene.pin[i], "pin[" + std::to_string(i) + "]");

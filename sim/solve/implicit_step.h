@@ -30,6 +30,10 @@ class ImplicitStep {
   // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
   // caller's.
   void accept(const VertexState<Real>& state, VertexLedger* ledger);
+  // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
+  // mean square by mass [m].  It is of the order error_order() in the step.
+  double local_error(const VertexState<Real>& state);
+  double error_order() const { return formula_.lag > 0 ? 3 : 2; }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const char* held) const;
   std::size_t bytes() const;
@@ -57,7 +61,8 @@ class ImplicitStep {
   std::unique_ptr<LinearSolver<Real, Device>> solver_;
   Newton<Real, Device> newton_;
   StepFormula formula_;
-  double last_h_ = 0;               // of the step before; 0: none
+  double last_h_ = 0;  // of the step before; 0: none
+  Buffer<double, Device> size_;
   Buffer<Vec3<Real>, Device> end_;  // positions looked for
   Buffer<Vec3<Real>, Device> reference_, drift_,
       predicted_;  // r [m], velocity that goes with it [m/s], y [m]

@@ -38,13 +38,15 @@ constexpr int kMostIterations = 2000;
 
 template <class Real, class Device>
 void Stepper<Real, Device>::advance(int steps) {
+  const bool adaptive = scene_.tolerance > 0;
   for (int s = 0; s < steps; ++s) {
     obey(time(), time() + scene_.step);
     // Stages of this step that end with an implicit solve or, explicit, with the contact's history.
     const int stages = together_ ? limits_.substeps : 1;
-    for (int k = 0; k < stages && !all_implicit_; ++k)
+    if (adaptive && !all_implicit_) adaptive_stages(time());
+    for (int k = 0; k < stages && !all_implicit_ && !adaptive; ++k)
       stage(time() + scene_.step * k / stages, static_cast<Real>(scene_.step / stages));
-    if (all_implicit_) implicit_interval(time(), scene_.step, 0);
+    if (all_implicit_) adaptive ? adaptive_interval(time()) : implicit_interval(time(), scene_.step, 0);
     ++step_count_;
   }
   refuse_divergence();

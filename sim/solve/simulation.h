@@ -60,7 +60,8 @@ class Simulation {
   virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
   virtual double solver_iterations() const = 0;  // mean per step
   virtual double newton_iterations() const = 0;  // mean per step; 0 where there is no Newton solve
-  virtual long retried_steps() const = 0;        // steps that were taken again in halves
+  virtual long parts_taken() const = 0;          // into which steps were divided, by retries or a tolerance
+  virtual long retried_steps() const = 0;        // that were taken again in smaller parts
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;

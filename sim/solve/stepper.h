@@ -49,6 +49,7 @@ class Stepper : public Simulation {
   std::vector<std::pair<std::string, double>> stage_seconds() override;
   double solver_iterations() const override;
   double newton_iterations() const override;
+  long parts_taken() const override { return substeps_taken_; }
   long retried_steps() const override { return retried_steps_; }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
@@ -68,6 +69,11 @@ class Stepper : public Simulation {
   void accept_implicit(Real h);
   // An implicit step from start to start + h, in halves if it does not converge.
   void implicit_interval(double start, double h, int halvings);
+  void adaptive_interval(double start);  // a step of the scene in parts that keep its tolerance
+  void adaptive_stages(double start);    // the same for `semi-implicit`
+  NewtonOutcome try_step(double start, double h);
+  void take_step();
+  double change_size();
   void remember_positions();
   double load_share(double time) const;
   void refuse_divergence();  // Error::run when a position or velocity is no longer finite
@@ -75,6 +81,7 @@ class Stepper : public Simulation {
  private:
   void choose_substeps(const Cloth& cloth, const CurvatureOperator& op, const StepLimits& limits);
   Ledger measure();
+  VertexState<Real> vertex_state() { return {x_.data(), v_.data(), held_.data(), mass_.data()}; }
 
   std::unique_ptr<Device> device_;
   Scene scene_;
@@ -83,7 +90,8 @@ class Stepper : public Simulation {
   bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;
-  long newton_iterations_ = 0, solver_iterations_ = 0, retried_steps_ = 0;
+  double part_ = 0;  // of adaptive steps: the coming one [s]
+  long substeps_taken_ = 0, newton_iterations_ = 0, solver_iterations_ = 0, retried_steps_ = 0;
   StepLimits limits_;
   StageClock<Device> clock_;
   BlockRows<Real, Device> matrix_;
