@@ -120,8 +120,8 @@ Finding find_out(const Attempt& attempt, const Effort& effort) {
 std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
   std::vector<Cell> cells;
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
-    for (const std::string& integrator : choice.integrators) {
-      for (std::size_t v = 0; v < sweeps[s].variants.size(); ++v) {
+    for (std::size_t v = 0; v < sweeps[s].variants.size(); ++v) {
+      for (const std::string& integrator : choice.integrators) {
         for (std::size_t row = 0; row < sweeps[s].y.ticks.size(); ++row) {
           for (std::size_t column = 0; column < sweeps[s].x.ticks.size(); ++column) {
             Cell cell{static_cast<int>(s),   static_cast<int>(v), static_cast<int>(column),

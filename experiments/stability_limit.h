@@ -7,14 +7,20 @@
 
 namespace hysteron::experiments {
 
+// How the waves are.
+struct LimitCondition {
+  std::string name;  // in the plot
+  std::string law = "linear";
+  double damping = 0;       // fabric.damping [s]
+  double amplitude = 1e-6;  // of the shaking [m]; from 1e-5 on the membrane takes part
+};
+
 // A square of 0.2 m and 128 triangles without gravity, whose vertices are shaken out of its plane.
 struct LimitCase {
   std::string mesh = "random";    // family
   std::string element = "shape";  // shape | hinge
   bool held = false;              // by its left edge
-  std::string law = "linear";
-  double damping = 0;       // fabric.damping [s]
-  double amplitude = 1e-6;  // of the shaking [m]; from 1e-5 on the membrane takes part
+  LimitCondition condition = {};
 };
 
 struct MeasuredLimit {
@@ -33,13 +39,7 @@ bool is_bounded(const LimitCase& of, double step, int substeps);
 inline constexpr double kLeastRatio = 0.5, kMostRatio = 2.5;
 MeasuredLimit measure_limit(const LimitCase& of, int substeps);
 
-// All mesh families, both elements, free and held, under each of limit_conditions(); fewer for `quick`.
-struct LimitCondition {
-  std::string name;
-  std::string law;
-  double damping, amplitude;
-};
-const std::vector<LimitCondition>& limit_conditions();
+// All mesh families, both elements, free and held, condition by condition; fewer for `quick`.
 std::vector<LimitCase> limit_cases(bool quick);
 
 // `threads` at a time; in the order of the cases.

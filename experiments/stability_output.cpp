@@ -126,9 +126,9 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   double least = kMostRatio, most = 0;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    file.stream() << row_of({of.mesh, of.element, of.held ? "held" : "free", of.law, number(of.damping),
-                             number(of.amplitude), number(limit.bound), number(limit.measured),
-                             number(limit.ratio())});
+    file.stream() << row_of({of.mesh, of.element, of.held ? "held" : "free", of.condition.law,
+                             number(of.condition.damping), number(of.condition.amplitude),
+                             number(limit.bound), number(limit.measured), number(limit.ratio())});
     least = std::min(least, limit.ratio()), most = std::max(most, limit.ratio());
   }
   file.commit();
@@ -141,8 +141,8 @@ void print_limits(const std::vector<MeasuredLimit>& limits) {
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     std::printf("%-11s %-5s %-4s %-8s damping %-6g s  amplitude %-6g m  %.3g / %.3g s = %.3f\n",
-                of.mesh.c_str(), of.element.c_str(), of.held ? "held" : "free", of.law.c_str(), of.damping,
-                of.amplitude, limit.measured, limit.bound, limit.ratio());
+                of.mesh.c_str(), of.element.c_str(), of.held ? "held" : "free", of.condition.law.c_str(),
+                of.condition.damping, of.condition.amplitude, limit.measured, limit.bound, limit.ratio());
   }
 }
 

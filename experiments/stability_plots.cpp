@@ -28,9 +28,9 @@ int kind_of(Outcome outcome) {
 std::string text_of(const Finding& finding) {
   if (finding.outcome == Outcome::refused) return "";
   if (finding.outcome == Outcome::diverged) {
-    if (!(finding.energy_growth < 1e3)) return ">10³";
+    if (!(finding.energy_growth < 100)) return "≫";
     char text[20];
-    std::snprintf(text, sizeof text, "×%.2g", finding.energy_growth);
+    std::snprintf(text, sizeof text, finding.energy_growth < 10 ? "×%.1f" : "×%.0f", finding.energy_growth);
     return text;
   }
   return finding.substeps > 1 ? std::to_string(finding.substeps) : "";
@@ -56,7 +56,12 @@ StepLine step_line(const Sweep& sweep, int variant) {
     attempt.scene.integrator = "explicit";
     attempt.scene.device = "cpu";
     attempt.scene.step = 1e-12;  // any step is allowed that is short enough
-    const StepLimits limits = make_simulation(attempt.scene, make_cloth(attempt.scene))->limits();
+    StepLimits limits{NAN, NAN};
+    try {
+      limits = make_simulation(attempt.scene, make_cloth(attempt.scene))->limits();
+    } catch (const Error& error) {
+      if (error.exit_code() == 1) throw;  // else the map shows the refusal
+    }
     line.x.push_back(static_cast<double>(column));
     line.bending.push_back(place_on(sweep.y, limits.bending_step));
     line.membrane.push_back(place_on(sweep.y, limits.membrane_step));
@@ -100,16 +105,56 @@ render::HeatMap map_of(const Sweep& sweep, const std::string& integrator, int va
 }
 
 render::HeatMaps page_of(const Sweep& sweep) {
-  render::HeatMaps page{sweep.title,
-                        "Number: explicit substeps per step; of diverged cells: growth of energy.",
-                        {sweep.x.label, sweep.x.ticks},
-                        {sweep.y.label, sweep.y.ticks},
-                        kKinds,
-                        {}};
+  render::HeatMaps page{
+      sweep.title,
+      "Number: explicit substeps per step; of diverged cells: growth of the energy (≫: more than 100).",
+      {sweep.x.label, sweep.x.ticks},
+      {sweep.y.label, sweep.y.ticks},
+      kKinds,
+      {}};
   if (sweep.step_limits)
     page.subtitle +=
         "  Line: the program's bound on the explicit bending step; dashed: on the fully explicit step.";
-  page.columns = static_cast<int>(sweep.variants.size());
+  page.cell_width = page.x.ticks.size() > 10 ? 32 : 46;
+  page.cell_height = page.y.ticks.size() > 10 ? 24 : 34;
+  return page;
+}
+
+// The word's place in the list, at whose end it is put if it is new.
+std::size_t place_in(std::vector<std::string>& list, const std::string& word) {
+  const auto found = std::find(list.begin(), list.end(), word);
+  if (found == list.end()) return list.push_back(word), list.size() - 1;
+  return found - list.begin();
+}
+
+render::HeatMaps limit_page(const std::vector<MeasuredLimit>& limits) {
+  render::HeatMaps page{"Explicit bending: largest stable step, measured, over the bound in use",
+                        "Square of 128 triangles, shaken.  Number: measured limit / bound.",
+                        {"mesh", {}},
+                        {"element", {}},
+                        {{"bound too large (< 1)", "#D55E00"},
+                         {"1 to 2", "#BFE3D5"},
+                         {"bound more than 2 times too careful", "#F5E27A"}},
+                        {}};
+  std::vector<std::string> conditions;
+  const auto row_of = [](const LimitCase& of) { return of.element + (of.held ? ", held" : ", free"); };
+  for (const MeasuredLimit& limit : limits)
+    place_in(page.x.ticks, limit.of.mesh), place_in(page.y.ticks, row_of(limit.of));
+  for (const MeasuredLimit& limit : limits) {
+    const std::size_t map = place_in(conditions, limit.of.condition.name);
+    page.maps.resize(conditions.size());
+    page.maps[map].title = limit.of.condition.name;
+    page.maps[map].rows.resize(page.y.ticks.size(), std::vector<render::HeatMapCell>(page.x.ticks.size()));
+    char text[20];
+    std::snprintf(text, sizeof text, "%.2f", limit.ratio());
+    page.maps[map].rows[place_in(page.y.ticks, row_of(limit.of))][place_in(page.x.ticks, limit.of.mesh)] = {
+        limit.ratio() < 1    ? 0
+        : limit.ratio() <= 2 ? 1
+                             : 2,
+        text};
+  }
+  page.columns = 2;
+  page.cell_width = 92;
   return page;
 }
 
@@ -132,43 +177,14 @@ void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const std::vector<Cel
       if (sweep.step_limits) page.maps.back().lines = lines_of(lines[variant], cells[i].integrator);
       part.clear();
     }
+    page.columns = static_cast<int>(page.maps.size() / sweep.variants.size());
     run.plot("plot_" + sweep.name,
              [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
   }
 }
 
 void draw_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
-  render::HeatMaps page{"Explicit bending: largest stable step over the bound in use",
-                        "Square of 128 triangles; number: measured limit / bound.",
-                        {"mesh", {}},
-                        {"element", {"hinge, held", "hinge, free", "shape, held", "shape, free"}},
-                        {{"bound exceeded (< 1)", "#D55E00"},
-                         {"1 to 2", "#BFE3D5"},
-                         {"more than 2 times too careful", "#F5E27A"}},
-                        {}};
-  for (const MeasuredLimit& limit : limits)
-    if (!std::count(page.x.ticks.begin(), page.x.ticks.end(), limit.of.mesh))
-      page.x.ticks.push_back(limit.of.mesh);
-  for (const LimitCondition& condition : limit_conditions()) {
-    render::HeatMap map{condition.name, {}};
-    map.rows.assign(page.y.ticks.size(), std::vector<render::HeatMapCell>(page.x.ticks.size()));
-    bool any = false;
-    for (const MeasuredLimit& limit : limits) {
-      const LimitCase& of = limit.of;
-      if (of.law != condition.law || of.damping != condition.damping || of.amplitude != condition.amplitude)
-        continue;
-      const std::string row = of.element + (of.held ? ", held" : ", free");
-      const auto j = std::find(page.y.ticks.begin(), page.y.ticks.end(), row) - page.y.ticks.begin();
-      const auto i = std::find(page.x.ticks.begin(), page.x.ticks.end(), of.mesh) - page.x.ticks.begin();
-      char text[20];
-      std::snprintf(text, sizeof text, "%.2f", limit.ratio());
-      map.rows[j][i] = {limit.ratio() < 1 ? 0 : limit.ratio() <= 2 ? 1 : 2, text};
-      any = true;
-    }
-    if (any) page.maps.push_back(map);
-  }
-  page.columns = 2;
-  page.cell_width = 92;
+  const auto page = limit_page(limits);
   run.plot("plot_explicit-limit",
            [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
 }

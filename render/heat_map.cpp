@@ -14,7 +14,8 @@ constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
 constexpr int kBesideLabel = 40, kBelowLabel = 44;  // where the axes' labels stand
 constexpr int kLetter = 8;                          // width of a tick's letter
 constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
-constexpr double kHalfCell = 0.47;  // in cells: the rest is the grid between them
+constexpr int kLeastMap = 330, kLeastPage = 1000;  // widths: of a map, and of all maps together
+constexpr double kHalfCell = 0.47;                 // in cells: the rest is the grid between them
 
 std::size_t longest(const std::vector<std::string>& words) {
   std::size_t most = 0;
@@ -22,19 +23,28 @@ std::size_t longest(const std::vector<std::string>& words) {
   return most;
 }
 
+// Room for a map's title.
+int map_width(const HeatMaps& page) {
+  return std::max(kLeastMap, page.cell_width * static_cast<int>(page.x.ticks.size()));
+}
+
 bool upright(const HeatMaps& page) {
-  return static_cast<int>(longest(page.x.ticks) + 1) * kLetter > page.cell_width;
+  return (longest(page.x.ticks) + 1) * kLetter * page.x.ticks.size() >
+         static_cast<std::size_t>(map_width(page));
 }
 
 gnuplot::PanelPage layout(const HeatMaps& page) {
   const int count = static_cast<int>(page.maps.size());
   const int below = upright(page) ? static_cast<int>(longest(page.x.ticks)) * kLetter : kLetter * 2;
+  const int columns = std::clamp(page.columns, 1, count);
+  const int left = kBesideLabel + kLetter * static_cast<int>(longest(page.y.ticks) + 1);
+  const int spare = kLeastPage - columns * (map_width(page) + kGapX);
   return {count,
-          std::clamp(page.columns, 1, count),
-          page.cell_width * static_cast<int>(page.x.ticks.size()),
+          columns,
+          map_width(page),
           page.cell_height * static_cast<int>(page.y.ticks.size()),
-          kBesideLabel + kLetter * static_cast<int>(longest(page.y.ticks) + 1),
-          kRight,
+          left,
+          kRight + std::max(0, spare),
           kTop,
           kBelowLabel + below,
           kGapX,
@@ -85,7 +95,7 @@ std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int
   std::string script = at.margins(index) + "set xtics " + (upright(page) ? "rotate by 90 right " : "") +
                        tick_list(page.x.ticks, at.lowest(index)) + "\nset ytics " +
                        tick_list(page.y.ticks, at.first_column(index)) + "\nset title " +
-                       gnuplot::label_text(map.title) + " font ',14' offset 0,-0.6\n";
+                       gnuplot::label_text(map.title) + " font ',13' offset 0,-0.6\n";
   std::string plot = map.lines.empty() ? "plot " : gnuplot::plot_command(map.lines, first_series);
   if (!map.lines.empty()) plot.back() = ' ';
   const std::string cells = "$cells" + i + " using 1:2:(" + gnuplot::number(kHalfCell) + "):(" +
