@@ -12,7 +12,9 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kLooks = 50;  // times that energy and stretch are measured in a run
+// Times that energy and stretch are measured in a run: at most steps, because what blows up may be damped
+// away within a few more.
+constexpr int kLooks = 400;
 
 double mass_of(const Scene& scene, const ClothMesh& mesh) {
   double area = 0;

@@ -19,7 +19,7 @@ struct StabilityFlags {
   std::string device = "cpu";
   std::string integrator = "all", law, sweep = "all";
   Effort effort;
-  double threads = 0, limit_steps = 4000;
+  double threads = 0, limit_steps = 2000;
   Options options;
 };
 
@@ -36,7 +36,7 @@ const KeyRow<F> kRows[] = {
     {"threads", at<&F::threads>, "", between(0, 1024), "", "cells at a time; 0: all cores, or 1 on cuda"},
 };
 // clang-format on
-constexpr double kQuickWork = 300, kQuickLimitSteps = 1000;
+constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
 
 Keys keys_of(F& flags) {
   Keys keys = bind(kRows, flags);

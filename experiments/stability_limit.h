@@ -11,8 +11,10 @@ namespace hysteron::experiments {
 struct LimitCondition {
   std::string name;  // in the plot
   std::string law = "linear";
-  double damping = 0;       // fabric.damping [s]
-  double amplitude = 1e-6;  // of the shaking [m]; from 1e-5 on the membrane takes part
+  double damping = 0;  // fabric.damping [s]
+  // Of the shaking [m].  Waves of 1e-9 m are linear; from 1e-6 m on, undamped ones near the limit feed on
+  // their coupling with the membrane and grow slowly.
+  double amplitude = 1e-9;
 };
 
 // A square of 0.2 m and 128 triangles without gravity, whose vertices are shaken out of its plane.
@@ -36,10 +38,11 @@ bool is_bounded(const LimitCase& of, double step, int substeps);
 
 // Tries steps from kLeastRatio of the bound upwards, then halves between the last bounded one and the next
 // one, to 1 %.  A limit below kLeastRatio is given as 0, one above kMostRatio as that.
-inline constexpr double kLeastRatio = 0.5, kMostRatio = 2.5;
+inline constexpr double kLeastRatio = 0.5, kMostRatio = 3;
 MeasuredLimit measure_limit(const LimitCase& of, int substeps);
 
-// All mesh families, both elements, free and held, condition by condition; fewer for `quick`.
+// All mesh families and both elements, condition by condition, the first two of these also held; only the
+// first, free, for `quick`.
 std::vector<LimitCase> limit_cases(bool quick);
 
 // `threads` at a time; in the order of the cases.

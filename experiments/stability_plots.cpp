@@ -28,6 +28,7 @@ int kind_of(Outcome outcome) {
 std::string text_of(const Finding& finding) {
   if (finding.outcome == Outcome::refused) return "";
   if (finding.outcome == Outcome::diverged) {
+    if (finding.energy_growth <= kLargestGrowth) return "∞";  // broken off between two looks
     if (!(finding.energy_growth < 100)) return "≫";
     char text[20];
     std::snprintf(text, sizeof text, finding.energy_growth < 10 ? "×%.1f" : "×%.0f", finding.energy_growth);
@@ -70,10 +71,13 @@ StepLine step_line(const Sweep& sweep, int variant) {
 }
 
 std::vector<render::Series> lines_of(const StepLine& line, const std::string& integrator) {
-  std::vector<render::Series> lines = {
-      {.label = "", .x = line.x, .y = line.bending, .color = kBendingColor, .line_width = 2.4}};
+  std::vector<render::Series> lines = {{.label = "bound on explicit bending",
+                                        .x = line.x,
+                                        .y = line.bending,
+                                        .color = kBendingColor,
+                                        .line_width = 2.4}};
   if (integrator == "explicit") {
-    lines.push_back({.label = "",
+    lines.push_back({.label = "bound on all forces explicit",
                      .x = line.x,
                      .y = line.membrane,
                      .style = render::Series::Style::dashed,
@@ -105,16 +109,13 @@ render::HeatMap map_of(const Sweep& sweep, const std::string& integrator, int va
 }
 
 render::HeatMaps page_of(const Sweep& sweep) {
-  render::HeatMaps page{
-      sweep.title,
-      "Number: explicit substeps per step; of diverged cells: growth of the energy (≫: more than 100).",
-      {sweep.x.label, sweep.x.ticks},
-      {sweep.y.label, sweep.y.ticks},
-      kKinds,
-      {}};
-  if (sweep.step_limits)
-    page.subtitle +=
-        "  Line: the program's bound on the explicit bending step; dashed: on the fully explicit step.";
+  render::HeatMaps page{sweep.title,
+                        "Number: explicit substeps per step; of diverged cells: growth of the energy (≫: "
+                        "above 100, ∞: not finite).",
+                        {sweep.x.label, sweep.x.ticks},
+                        {sweep.y.label, sweep.y.ticks},
+                        kKinds,
+                        {}};
   page.cell_width = page.x.ticks.size() > 10 ? 32 : 46;
   page.cell_height = page.y.ticks.size() > 10 ? 24 : 34;
   return page;

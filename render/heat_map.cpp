@@ -11,7 +11,7 @@ namespace {
 
 // [pixels]
 constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
-constexpr int kBesideLabel = 40, kBelowLabel = 44;  // where the axes' labels stand
+constexpr int kBesideLabel = 40, kBelowLabel = 54;  // where the axes' labels stand
 constexpr int kLetter = 8;                          // width of a tick's letter
 constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
 constexpr int kLeastMap = 330, kLeastPage = 1000;  // widths: of a map, and of all maps together
@@ -51,16 +51,40 @@ gnuplot::PanelPage layout(const HeatMaps& page) {
           kGapY};
 }
 
-// A swatch and a name for each kind, in a row below the subtitle.
+// The lines that the legend names, each once.
+std::vector<Series> named_lines(const HeatMaps& page) {
+  std::vector<Series> named;
+  for (const HeatMap& map : page.maps) {
+    for (const Series& line : map.lines) {
+      const bool known = std::any_of(named.begin(), named.end(),
+                                     [&](const Series& other) { return other.label == line.label; });
+      if (!known && !line.label.empty()) named.push_back(line);
+    }
+  }
+  return named;
+}
+
+// A swatch and a name for each kind, a stroke and a name for each line, in a row below the subtitle.
 std::string legend(const HeatMaps& page, const gnuplot::PanelPage& at) {
+  constexpr int kStroke = 2 * kSwatch;
   std::string script;
   int x = at.left;
+  const auto name_at = [&](const std::string& name, int width) {
+    script += gnuplot::text_at(name, at.point(x + width + 7, kLegend + kSwatch / 2.0), "left font ',13'");
+    x += width + kLegendGap + kLegendLetter * static_cast<int>(name.size());
+  };
   for (const CellKind& kind : page.kinds) {
-    script +=
-        "set object rectangle from " + at.point(x, kLegend + kSwatch) + " to " +
-        at.point(x + kSwatch, kLegend) + " fillcolor rgb '" + kind.color + "' fillstyle solid noborder\n" +
-        gnuplot::text_at(kind.name, at.point(x + kSwatch + 7, kLegend + kSwatch / 2), "left font ',13'");
-    x += kSwatch + kLegendGap + kLegendLetter * static_cast<int>(kind.name.size());
+    script += "set object rectangle from " + at.point(x, kLegend + kSwatch) + " to " +
+              at.point(x + kSwatch, kLegend) + " fillcolor rgb '" + kind.color +
+              "' fillstyle solid noborder\n";
+    name_at(kind.name, kSwatch);
+  }
+  for (const Series& line : named_lines(page)) {
+    script += "set arrow from " + at.point(x, kLegend + kSwatch / 2.0) + " to " +
+              at.point(x + kStroke, kLegend + kSwatch / 2.0) + " nohead lw " +
+              gnuplot::number(line.line_width) + (line.style == Series::Style::dashed ? " dt 2" : "") +
+              " lc rgb '" + line.color + "'\n";
+    name_at(line.label, kStroke);
   }
   return script;
 }
@@ -105,7 +129,7 @@ std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int
       "$texts" + i + " using 1:2:3 with labels noenhanced font ',10' textcolor rgb '#222222'";
   // Cells first, so that lines are drawn over them.
   plot = "plot " + cells + ", " + (map.lines.empty() ? "" : plot.substr(5) + ", ") + texts + "\n";
-  return script + plot + "unset label\nunset object\n";
+  return script + plot + "unset label\nunset object\nunset arrow\n";
 }
 
 std::string common_commands(const HeatMaps& page) {

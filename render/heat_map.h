@@ -35,7 +35,7 @@ struct CellKind {
 
 struct HeatMaps {
   std::string title;
-  std::string subtitle;  // what texts and lines mean
+  std::string subtitle;  // what the cells' texts mean
   CellAxis x, y;         // of all maps
   std::vector<CellKind> kinds;
   std::vector<HeatMap> maps;
