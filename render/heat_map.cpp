@@ -106,7 +106,7 @@ std::string cell_blocks(const HeatMaps& page, int index) {
       const HeatMapCell& cell = rows[j][i];
       const std::string at = std::to_string(i) + " " + std::to_string(j) + " ";
       if (cell.kind >= 0) cells += at + "0x" + page.kinds[cell.kind].color.substr(1) + "\n";
-      texts += at + "\"" + cell.text + "\"\n";
+      texts += at + gnuplot::data_text(cell.text) + "\n";
     }
   }
   return cells + "END\n" + texts + "END\n";
@@ -125,8 +125,7 @@ std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int
   const std::string cells = "$cells" + i + " using 1:2:(" + gnuplot::number(kHalfCell) + "):(" +
                             gnuplot::number(kHalfCell) +
                             "):3 with boxxyerror fs solid noborder lc rgb variable";
-  const std::string texts =
-      "$texts" + i + " using 1:2:3 with labels noenhanced font ',10' textcolor rgb '#222222'";
+  const std::string texts = "$texts" + i + " using 1:2:3 with labels font ',10' textcolor rgb '#222222'";
   // Cells first, so that lines are drawn over them.
   plot = "plot " + cells + ", " + (map.lines.empty() ? "" : plot.substr(5) + ", ") + texts + "\n";
   return script + plot + "unset label\nunset object\nunset arrow\n";
