@@ -11,10 +11,10 @@ namespace {
 
 // [pixels]
 constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
-constexpr int kBesideLabel = 40, kBelowLabel = 54;  // where the axes' labels stand
+constexpr int kBesideLabel = 52, kBelowLabel = 54;  // where the axes' labels stand
 constexpr int kLetter = 8;                          // width of a tick's letter
 constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
-constexpr int kLeastMap = 330, kLeastPage = 1000;  // widths: of a map, and of all maps together
+constexpr int kLeastMap = 380, kLeastPage = 1000;  // widths: of a map, and of all maps together
 constexpr double kHalfCell = 0.47;                 // in cells: the rest is the grid between them
 
 std::size_t longest(const std::vector<std::string>& words) {
@@ -29,8 +29,7 @@ int map_width(const HeatMaps& page) {
 }
 
 bool upright(const HeatMaps& page) {
-  return (longest(page.x.ticks) + 1) * kLetter * page.x.ticks.size() >
-         static_cast<std::size_t>(map_width(page));
+  return longest(page.x.ticks) * kLetter * page.x.ticks.size() > static_cast<std::size_t>(map_width(page));
 }
 
 gnuplot::PanelPage layout(const HeatMaps& page) {

@@ -57,7 +57,7 @@ TEST_F(HeatMapTest, EveryCellHasTheColourOfItsKindAtItsPlace) {
   EXPECT_EQ(folder_.names(), (std::vector<std::string>{"m.png", "m.svg"}));
   const Image image = read_png(folder_.file("m.png"));
   constexpr int kLegendEnds = 110;                  // [pixels] from the top
-  const int middle = 428, bottom = image.height();  // between the maps, in pixels
+  const int middle = 490, bottom = image.height();  // between the maps, in pixels
   const int green_left = pixels_of(image, 1, 0, middle, kLegendEnds, bottom),
             red_left = pixels_of(image, 0, 0, middle, kLegendEnds, bottom),
             red = pixels_of(image, 0, 0, image.width(), kLegendEnds, bottom);
