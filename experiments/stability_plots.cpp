@@ -116,7 +116,7 @@ render::HeatMaps page_of(const Sweep& sweep) {
                         {sweep.y.label, sweep.y.ticks},
                         kKinds,
                         {}};
-  page.cell_width = page.x.ticks.size() > 10 ? 32 : 46;
+  page.cell_width = page.x.ticks.size() > 10 ? 40 : 46;
   page.cell_height = page.y.ticks.size() > 10 ? 24 : 34;
   return page;
 }
