@@ -58,6 +58,7 @@ int law(const CommandLine& line);
 int fit(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
+int stability(const CommandLine& line);
 
 std::vector<KeyDescription> bench_keys();
 std::vector<KeyDescription> drape_keys();
@@ -65,5 +66,6 @@ std::vector<KeyDescription> fit_keys();
 std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();
 std::vector<KeyDescription> figures_keys();
+std::vector<KeyDescription> stability_keys();
 
 }  // namespace hysteron::experiments

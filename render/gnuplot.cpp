@@ -22,6 +22,16 @@ std::string single_quoted(const std::string& text) {
   return result + "'";
 }
 
+// Without markup; gnuplot reads `escape` as one backslash.
+std::string unmarked(const std::string& text, const char* escape) {
+  std::string plain;
+  for (const char c : text) {
+    if (std::string_view("_^@&~{}\\").find(c) != std::string_view::npos) plain += escape;
+    plain += c;
+  }
+  return plain;
+}
+
 std::string style_words(const Series& series, const std::string& color) {
   const std::string lines = " lw " + number(series.line_width) + " lc rgb '" + color + "'",
                     dots = " pt 7 ps 0.9";
@@ -57,14 +67,9 @@ std::string number(double value) {
   return text;
 }
 
-std::string label_text(const std::string& text) {
-  std::string plain;
-  for (const char c : text) {
-    if (std::string_view("_^@&~{}\\").find(c) != std::string_view::npos) plain += '\\';
-    plain += c;
-  }
-  return single_quoted(plain);
-}
+std::string label_text(const std::string& text) { return single_quoted(unmarked(text, "\\")); }
+
+std::string data_text(const std::string& text) { return "\"" + unmarked(text, "\\\\") + "\""; }
 
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& all) {
   if (all.empty()) throw Error::request("plot " + base.string() + ": there is nothing to draw");

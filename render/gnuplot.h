@@ -12,8 +12,9 @@ namespace hysteron::render::gnuplot {
 // A number that gnuplot reads back exactly; NaN for what is not finite.
 std::string number(double value);
 
-// A text as a gnuplot string in which nothing is markup.
+// A text as a gnuplot string in which nothing is markup; and the same as a column of a data block.
 std::string label_text(const std::string& text);
+std::string data_text(const std::string& text);
 
 // Throws Error::request, naming `base`, if there is no series, or one without as many x as y.
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& series);

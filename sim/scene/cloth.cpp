@@ -61,9 +61,11 @@ std::vector<char> Cloth::held(const Scene& scene, double time) const {
   return result;
 }
 
-Cloth make_cloth(const Scene& scene) {
+Cloth make_cloth(const Scene& scene) { return place_cloth(scene, rest_mesh(scene)); }
+
+Cloth place_cloth(const Scene& scene, ClothMesh mesh) {
   Cloth cloth;
-  cloth.mesh = rest_mesh(scene);
+  cloth.mesh = std::move(mesh);
   const double warp = scene.cloth.warp_angle * kDegree;
   cloth.mesh.warp_axis = {std::cos(warp), std::sin(warp), 0};
   const Eigen::Vector3d angle = scene.cloth.rotation * kDegree;

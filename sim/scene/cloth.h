@@ -25,5 +25,7 @@ bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen
 // Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for
 // pins that hold no vertex.
 Cloth make_cloth(const Scene& scene);
+// The same with a mesh of the caller's in place of the scene's.
+Cloth place_cloth(const Scene& scene, ClothMesh mesh);
 
 }  // namespace hysteron

@@ -4,6 +4,7 @@
 
 #include "sim/bending/law_parameters.h"
 #include "sim/error.h"
+#include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron {
@@ -93,19 +94,51 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_motion(scene, path, pin.motion);
 }
 
+// Half of its thinnest part; none of the ground.
+double half_thickness(const Obstacle& solid) {
+  if (solid.kind == "ground") return kInfinity;
+  if (solid.kind == "box") return solid.size.minCoeff();
+  return solid.kind == "cylinder" ? std::min(solid.radius, solid.height / 2) : solid.radius;
+}
+
+// How far its middle comes in any one step [m].
+double longest_stride(const Scene& scene, const Obstacle& solid) {
+  constexpr int kParts = 64;  // of the time between two keys, whose motion is a cubic in time
+  double longest = 0;
+  const auto& keys = solid.motion.keys;
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    for (int part = 0; part < kParts; ++part) {
+      const double time = keys[i].time + (keys[i + 1].time - keys[i].time) * part / kParts;
+      const auto middle = [&](double t) { return placement(solid.motion, t)(solid.center); };
+      longest = std::max(longest, (middle(time + scene.step) - middle(time)).norm());
+    }
+  }
+  return longest;
+}
+
+// An obstacle that is beyond the cloth after one step pushes it out on the wrong side, or misses it.
+void check_stride(const Scene& scene, const Obstacle& solid, const std::string& path) {
+  const double stride = longest_stride(scene, solid), most = half_thickness(solid);
+  if (stride <= most) return;
+  throw Error::request(path + " moves " + number_text(stride) + " m in a step of " + number_text(scene.step) +
+                       " s (" + origin_of(scene, path) + "), further than half its thickness, " +
+                       number_text(most) + " m: it may pass through the cloth; take a step below " +
+                       number_text(scene.step * most / stride) + " s");
+}
+
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   const bool round = solid.kind == "cylinder" || solid.kind == "capsule";
   if ((round || solid.kind == "ground") && solid.axis.isZero(0)) {
     throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
   }
-  double room = kInfinity;  // half of the thinnest part that the rim rounds
-  if (solid.kind == "cylinder") room = std::min(solid.radius, solid.height / 2);
-  if (solid.kind == "box") room = solid.size.minCoeff();
+  const bool rimmed = solid.kind == "cylinder" || solid.kind == "box";
+  const double room = rimmed ? half_thickness(solid) : kInfinity;
   if (solid.rim > room) {
     throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
                          number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) + ")");
   }
   check_motion(scene, path, solid.motion);
+  check_stride(scene, solid, path);
 }
 
 // One parameter at a time, so that the message can say where it stands; then what they are together.

@@ -120,7 +120,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"RimTooRound",
                  "[[obstacle]]\nkind = \"cylinder\"\nheight = 0.01\nrim = 0.02\n",
                  1,
-                 {"obstacle[0].rim = 0.02 m", "[0, 0.005]"}}),
+                 {"obstacle[0].rim = 0.02 m", "[0, 0.005]"}},
+        BadScene{"FastObstacle",
+                 "step = 0.01\n[[obstacle]]\nkind = \"sphere\"\nradius = 0.02\n"
+                 "keys = [{time = 0}, {time = 0.1, position = [0, 0, 1]}]\n",
+                 2,
+                 {"obstacle[0] moves 0.1", "in a step of 0.01 s", "0.02 m", "step below 0.001"}}),
     [](const testing::TestParamInfo<BadScene>& test) { return std::string(test.param.name); });
 
 TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {

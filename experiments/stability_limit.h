@@ -1,0 +1,51 @@
+// The largest stable substep of explicit bending, measured, beside the bound that the program uses.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hysteron::experiments {
+
+// How the waves are.
+struct LimitCondition {
+  std::string name;  // in the plot
+  std::string law = "linear";
+  double damping = 0;  // fabric.damping [s]
+  // Of the shaking [m].  Waves of 1e-9 m are linear; from 1e-6 m on, undamped ones near the limit feed on
+  // their coupling with the membrane and grow slowly.
+  double amplitude = 1e-9;
+};
+
+// A square of 0.2 m and 128 triangles without gravity, whose vertices are shaken out of its plane.
+struct LimitCase {
+  std::string mesh = "random";    // family
+  std::string element = "shape";  // shape | hinge
+  bool held = false;              // by its left edge
+  LimitCondition condition = {};
+};
+
+struct MeasuredLimit {
+  LimitCase of;
+  double bound = 0;     // that the program keeps [s]
+  double measured = 0;  // largest step up to which the energy of all that were tried stays bounded [s]
+  double ratio() const { return measured / bound; }
+};
+
+// Whether the energy of `substeps` steps of `step` [s] stays below 100 times the initial one and is at most
+// twice as large in their second half as in the first.
+bool is_bounded(const LimitCase& of, double step, int substeps);
+
+// Tries steps from kLeastRatio of the bound upwards, then halves between the last bounded one and the next
+// one, to 1 %.  A limit below kLeastRatio is given as 0, one above kMostRatio as that.
+inline constexpr double kLeastRatio = 0.5, kMostRatio = 3;
+MeasuredLimit measure_limit(const LimitCase& of, int substeps);
+
+// All mesh families and both elements, condition by condition, the first two of these also held; only the
+// first, free, for `quick`.
+std::vector<LimitCase> limit_cases(bool quick);
+
+// `threads` at a time; in the order of the cases.
+std::vector<MeasuredLimit> measure_limits(const std::vector<LimitCase>& cases, int substeps, int threads);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,174 @@
+#include "render/heat_map.h"
+
+#include <algorithm>
+
+#include "render/gnuplot.h"
+#include "render/panel_page.h"
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+// [pixels]
+constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
+constexpr int kBesideLabel = 52, kBelowLabel = 54;  // where the axes' labels stand
+constexpr int kLetter = 8;                          // width of a tick's letter
+constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
+constexpr int kLeastMap = 380, kLeastPage = 1000;  // widths: of a map, and of all maps together
+constexpr double kHalfCell = 0.47;                 // in cells: the rest is the grid between them
+
+std::size_t longest(const std::vector<std::string>& words) {
+  std::size_t most = 0;
+  for (const std::string& word : words) most = std::max(most, word.size());
+  return most;
+}
+
+// Room for a map's title.
+int map_width(const HeatMaps& page) {
+  return std::max(kLeastMap, page.cell_width * static_cast<int>(page.x.ticks.size()));
+}
+
+bool upright(const HeatMaps& page) {
+  return longest(page.x.ticks) * kLetter * page.x.ticks.size() > static_cast<std::size_t>(map_width(page));
+}
+
+gnuplot::PanelPage layout(const HeatMaps& page) {
+  const int count = static_cast<int>(page.maps.size());
+  const int below = upright(page) ? static_cast<int>(longest(page.x.ticks)) * kLetter : kLetter * 2;
+  const int columns = std::clamp(page.columns, 1, count);
+  const int left = kBesideLabel + kLetter * static_cast<int>(longest(page.y.ticks) + 1);
+  const int spare = kLeastPage - columns * (map_width(page) + kGapX);
+  return {count,
+          columns,
+          map_width(page),
+          page.cell_height * static_cast<int>(page.y.ticks.size()),
+          left,
+          kRight + std::max(0, spare),
+          kTop,
+          kBelowLabel + below,
+          kGapX,
+          kGapY};
+}
+
+// The lines that the legend names, each once.
+std::vector<Series> named_lines(const HeatMaps& page) {
+  std::vector<Series> named;
+  for (const HeatMap& map : page.maps) {
+    for (const Series& line : map.lines) {
+      const bool known = std::any_of(named.begin(), named.end(),
+                                     [&](const Series& other) { return other.label == line.label; });
+      if (!known && !line.label.empty()) named.push_back(line);
+    }
+  }
+  return named;
+}
+
+// A swatch and a name for each kind, a stroke and a name for each line, in a row below the subtitle.
+std::string legend(const HeatMaps& page, const gnuplot::PanelPage& at) {
+  constexpr int kStroke = 2 * kSwatch;
+  std::string script;
+  int x = at.left;
+  const auto name_at = [&](const std::string& name, int width) {
+    script += gnuplot::text_at(name, at.point(x + width + 7, kLegend + kSwatch / 2.0), "left font ',13'");
+    x += width + kLegendGap + kLegendLetter * static_cast<int>(name.size());
+  };
+  for (const CellKind& kind : page.kinds) {
+    script += "set object rectangle from " + at.point(x, kLegend + kSwatch) + " to " +
+              at.point(x + kSwatch, kLegend) + " fillcolor rgb '" + kind.color +
+              "' fillstyle solid noborder\n";
+    name_at(kind.name, kSwatch);
+  }
+  for (const Series& line : named_lines(page)) {
+    script += "set arrow from " + at.point(x, kLegend + kSwatch / 2.0) + " to " +
+              at.point(x + kStroke, kLegend + kSwatch / 2.0) + " nohead lw " +
+              gnuplot::number(line.line_width) + (line.style == Series::Style::dashed ? " dt 2" : "") +
+              " lc rgb '" + line.color + "'\n";
+    name_at(line.label, kStroke);
+  }
+  return script;
+}
+
+std::string tick_list(const std::vector<std::string>& ticks, bool shown) {
+  std::string list;
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+    list += std::string(i ? ", " : "") + gnuplot::label_text(shown ? ticks[i] : "") + " " + std::to_string(i);
+  return "(" + list + ")";
+}
+
+// `$cellsI` with middle and colour, `$textsI` with middle and text.
+std::string cell_blocks(const HeatMaps& page, int index) {
+  std::string cells = "$cells" + std::to_string(index) + " << END\n",
+              texts = "$texts" + std::to_string(index) + " << END\n";
+  const auto& rows = page.maps[index].rows;
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    for (std::size_t i = 0; i < rows[j].size(); ++i) {
+      const HeatMapCell& cell = rows[j][i];
+      const std::string at = std::to_string(i) + " " + std::to_string(j) + " ";
+      if (cell.kind >= 0) cells += at + "0x" + page.kinds[cell.kind].color.substr(1) + "\n";
+      texts += at + gnuplot::data_text(cell.text) + "\n";
+    }
+  }
+  return cells + "END\n" + texts + "END\n";
+}
+
+std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int index,
+                         std::size_t first_series) {
+  const HeatMap& map = page.maps[index];
+  const std::string i = std::to_string(index);
+  std::string script = at.margins(index) + "set xtics " + (upright(page) ? "rotate by 90 right " : "") +
+                       tick_list(page.x.ticks, at.lowest(index)) + "\nset ytics " +
+                       tick_list(page.y.ticks, at.first_column(index)) + "\nset title " +
+                       gnuplot::label_text(map.title) + " font ',13' offset 0,-0.6\n";
+  std::string plot = map.lines.empty() ? "plot " : gnuplot::plot_command(map.lines, first_series);
+  if (!map.lines.empty()) plot.back() = ' ';
+  const std::string cells = "$cells" + i + " using 1:2:(" + gnuplot::number(kHalfCell) + "):(" +
+                            gnuplot::number(kHalfCell) +
+                            "):3 with boxxyerror fs solid noborder lc rgb variable";
+  const std::string texts = "$texts" + i + " using 1:2:3 with labels font ',10' textcolor rgb '#222222'";
+  // Cells first, so that lines are drawn over them.
+  plot = "plot " + cells + ", " + (map.lines.empty() ? "" : plot.substr(5) + ", ") + texts + "\n";
+  return script + plot + "unset label\nunset object\nunset arrow\n";
+}
+
+std::string common_commands(const HeatMaps& page) {
+  const auto range = [](const char* axis, std::size_t cells) {
+    return std::string("set ") + axis + "range [-0.5:" + gnuplot::number(cells - 0.5) + "]\n";
+  };
+  return "set border 15 lw 1 lc rgb '#AAAAAA'\nset tics nomirror out scale 0 font ',12' textcolor rgb "
+         "'#444444'\nunset key\nset datafile missing 'NaN'\n" +
+         range("x", page.x.ticks.size()) + range("y", page.y.ticks.size());
+}
+
+void require_fitting(const std::filesystem::path& base, const HeatMaps& page) {
+  if (page.maps.empty()) throw Error::request("plot " + base.string() + ": there is nothing to draw");
+  for (const HeatMap& map : page.maps) {
+    const bool fits = map.rows.size() == page.y.ticks.size() &&
+                      std::all_of(map.rows.begin(), map.rows.end(),
+                                  [&](const auto& row) { return row.size() == page.x.ticks.size(); });
+    if (fits) continue;
+    throw Error::request("plot " + base.string() + ": map \"" + map.title + "\" must have " +
+                         std::to_string(page.y.ticks.size()) + " rows of " +
+                         std::to_string(page.x.ticks.size()) + " cells");
+  }
+}
+
+}  // namespace
+
+void write_heat_maps(const std::filesystem::path& base, const HeatMaps& page) {
+  require_fitting(base, page);
+  const gnuplot::PanelPage at = layout(page);
+  std::string data, drawing = "set multiplot\n" +
+                              gnuplot::page_texts(at, page.title, page.subtitle, page.x.label, page.y.label) +
+                              legend(page, at);
+  std::size_t series = 0;
+  for (int i = 0; i < at.count; ++i) {
+    const std::vector<Series>& lines = page.maps[i].lines;
+    data += cell_blocks(page, i) + gnuplot::data_blocks(lines, series);
+    drawing += map_commands(page, at, i, series);
+    series += lines.size();
+  }
+  gnuplot::write_both(base, at.width(), at.height(), data + common_commands(page),
+                      drawing + "unset multiplot\n");
+}
+
+}  // namespace hysteron::render

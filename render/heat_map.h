@@ -1,0 +1,50 @@
+// Maps of outcomes: grids of cells, coloured by kind, one panel beside the other, drawn by gnuplot as PNG and
+// SVG.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/plot.h"
+
+namespace hysteron::render {
+
+struct HeatMapCell {
+  int kind = -1;     // index of HeatMaps::kinds; -1: empty
+  std::string text;  // a few letters
+};
+
+struct HeatMap {
+  std::string title;
+  std::vector<std::vector<HeatMapCell>> rows;  // from below; each as long as the x axis has ticks
+  std::vector<Series> lines =
+      {};  // over the cells, whose middles are at x, y = 0, 1, 2 ...; may leave the map
+};
+
+// An axis of cells, a tick at each.
+struct CellAxis {
+  std::string label;
+  std::vector<std::string> ticks;
+};
+
+struct CellKind {
+  std::string name;   // in the legend over the maps
+  std::string color;  // "#RRGGBB"
+};
+
+struct HeatMaps {
+  std::string title;
+  std::string subtitle;  // what the cells' texts mean
+  CellAxis x, y;         // of all maps
+  std::vector<CellKind> kinds;
+  std::vector<HeatMap> maps;
+  int columns = 3;
+  int cell_width = 46, cell_height = 34;  // [pixels]
+};
+
+// Writes BASE.png and BASE.svg, each whole or not at all.  Error::request if there is no map, or one whose
+// rows do not fit its axes; else as write_plot().
+void write_heat_maps(const std::filesystem::path& base, const HeatMaps& page);
+
+}  // namespace hysteron::render
