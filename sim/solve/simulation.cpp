@@ -35,10 +35,11 @@ double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const Curvatur
   return lambda;
 }
 
-// Symplectic Euler with stiffness-proportional damping: dt (omega^2 dt + 2 beta omega^2) <= 4.
-double stable_step(double lambda, double damping) {
-  if (lambda <= 0) return 1e30;
-  return kStabilityMargin * (std::sqrt(damping * damping + 4 / lambda) - damping);
+// Symplectic Euler with viscosity: lambda dt^2 + 2 nu dt <= 4, lambda the largest eigenvalue of M^-1 K [1/s^2]
+// and nu that of the viscous matrix [1/s].
+double stable_step(double lambda, double nu) {
+  if (lambda <= 0 && nu <= 0) return 1e30;
+  return kStabilityMargin * 4 / (nu + std::sqrt(nu * nu + 4 * lambda));
 }
 
 std::string number(double value) {
@@ -51,20 +52,23 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   const std::vector<char> held = cloth.held(scene, scene.seconds);
   std::vector<double> mass;
   for (double area : cloth.mesh.vertex_area) mass.push_back(scene.fabric.density * area);
-  const double b1 = law_largest_stiffness(scene, op);
-  const double bending = bending_eigenvalue(scene, cloth, op, mass, held, b1);
+  const double unit = bending_eigenvalue(scene, cloth, op, mass, held, 1);
+  const double bending = law_largest_stiffness(scene, op) * unit;
+  // The viscosity is damping * b1, whatever the law's stiffness (sim/solve/stepper.cpp).
+  const double viscous = scene.fabric.damping * scene.fabric.b1 * unit;
   StepLimits limits;
   if (scene.is_implicit()) {
-    limits.bending_step = stable_step(bending, scene.fabric.damping);
+    limits.bending_step = stable_step(bending, viscous);
     limits.substep = scene.step;
     return limits;
   }
-  limits.bending_step = stable_step(bending, scene.fabric.damping);
+  limits.bending_step = stable_step(bending, viscous);
   double largest = limits.bending_step;
   if (scene.integrator == "explicit") {
     double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);
+    const double viscous_membrane = scene.fabric.damping * stiff;
     if (!scene.obstacle.empty()) stiff += contact_stiffness_per_area(scene) / scene.fabric.density;
-    limits.membrane_step = stable_step(stiff + bending, scene.fabric.damping);
+    limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);
     largest = limits.membrane_step;
   }
   const double least = std::ceil(scene.step / largest);
