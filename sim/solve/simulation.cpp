@@ -35,8 +35,8 @@ double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const Curvatur
   return lambda;
 }
 
-// Symplectic Euler with viscosity: lambda dt^2 + 2 nu dt <= 4, lambda the largest eigenvalue of M^-1 K [1/s^2]
-// and nu that of the viscous matrix [1/s].
+// Symplectic Euler with viscosity: lambda dt^2 + 2 nu dt <= 4, lambda the largest eigenvalue of M^-1 K
+// [1/s^2] and nu that of the viscous matrix [1/s].
 double stable_step(double lambda, double nu) {
   if (lambda <= 0 && nu <= 0) return 1e30;
   return kStabilityMargin * 4 / (nu + std::sqrt(nu * nu + 4 * lambda));
