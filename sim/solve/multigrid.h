@@ -27,8 +27,8 @@ class Multigrid : public Preconditioner<Real, Device> {
 
   // Follows a new linearisation, in the matrix's units:
   //   matrix            mass, membrane and contact; read now only
-  //   bending_diagonal  diagonal blocks of the bending stiffness; null without bending
-  //   bending           rigidity in the matrix's units: step^2 b1 for mass + step^2 stiffness
+  //   bending_diagonal  diagonal blocks of the bending stiffness, those of the hinges at least; null without
+  //   bending           rigidity in the matrix's units: b1 for mass/step^2 + stiffness
   //   held              rows that apply() leaves zero; read by apply() too
   void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
                const char* held);
