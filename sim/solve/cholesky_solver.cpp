@@ -78,20 +78,7 @@ PcgOutcome CholeskySolver<Real>::solve(const LinearSystem<Real, Cpu>& system, co
   return {outcome.iterations + again.iterations, again.converged};
 }
 
-template <class Real>
-std::unique_ptr<LinearSolver<Real, Cpu>> make_linear_solver(Cpu& cpu, const Scene& scene,
-                                                            const ClothMesh& mesh,
-                                                            const CurvatureOperator& op) {
-  if (scene.linear_solver == "pcg")
-    return std::make_unique<BlockJacobiSolver<Real, Cpu>>(cpu, mesh.vertices());
-  return std::make_unique<CholeskySolver<Real>>(cpu, mesh, op);
-}
-
 template class CholeskySolver<double>;
 template class CholeskySolver<float>;
-template std::unique_ptr<LinearSolver<double, Cpu>> make_linear_solver(Cpu&, const Scene&, const ClothMesh&,
-                                                                       const CurvatureOperator&);
-template std::unique_ptr<LinearSolver<float, Cpu>> make_linear_solver(Cpu&, const Scene&, const ClothMesh&,
-                                                                      const CurvatureOperator&);
 
 }  // namespace hysteron

@@ -35,17 +35,4 @@ class CholeskySolver : public LinearSolver<Real, Cpu> {
   int factorisations_ = 0;
 };
 
-// The scene's linear solver for a device: `cholesky` on the CPU, `pcg` on both.  Error::request for a choice
-// that the device does not have.
-template <class Real>
-std::unique_ptr<LinearSolver<Real, Cpu>> make_linear_solver(Cpu& cpu, const Scene& scene,
-                                                            const ClothMesh& mesh,
-                                                            const CurvatureOperator& op);
-template <class Real, class Device>
-std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(Device& device, const Scene& /*scene*/,
-                                                               const ClothMesh& mesh,
-                                                               const CurvatureOperator& /*op*/) {
-  return std::make_unique<BlockJacobiSolver<Real, Device>>(device, mesh.vertices());
-}
-
 }  // namespace hysteron
