@@ -44,6 +44,8 @@ constexpr int kBatches = 7;  // the median of their times is reported
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
+  scene.integrator = "semi-implicit";
+  scene.step = 1e-3;
   scene.cloth.length = 0.5;
   scene.mesh = "aligned";
   scene.triangles = 4608;

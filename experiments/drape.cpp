@@ -37,6 +37,8 @@ constexpr int kShadowPixels = 1500;
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
+  scene.integrator = "semi-implicit";
+  scene.step = 1e-3;
   scene.cloth.shape = "disc";
   scene.cloth.radius = 0.15;
   scene.triangles = 6000;

@@ -98,7 +98,7 @@ void write_counts(Run& run, const std::vector<Cell>& cells) {
     run.metric(prefix + "cells", all);
     for (Outcome outcome : kOutcomes) run.metric(prefix + name_of(outcome), counts[outcome]);
   }
-  run.metric("diverged_default", count(cells, Scene{}.integrator)[Outcome::diverged]);
+  run.metric("diverged_default", count(cells, default_scene().integrator)[Outcome::diverged]);
 }
 
 void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {

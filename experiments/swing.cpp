@@ -13,6 +13,7 @@ constexpr double kClamp = 0.01;  // clamped length [m]
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
+  scene.integrator = "semi-implicit";
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.09;
   scene.cloth.width = 0.03;

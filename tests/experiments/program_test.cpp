@@ -67,6 +67,17 @@ TEST(Program, SaysItsVersionAndCommit) {
   EXPECT_NE(outcome.out.find("(commit "), std::string::npos) << outcome.out;
 }
 
+TEST(Program, ComparesIntegratorsByErrorAndTime) {
+  const Folder folder;
+  const Outcome outcome =
+      program("accuracy --quick --triangles 60 --no-images --quiet --out " + (folder.path() / "a").string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string table = text_of(folder.path() / "a" / "table.csv");
+  for (const char* method : {"chapter", "semi-implicit", "implicit", "bdf2"})
+    EXPECT_NE(table.find(method), std::string::npos) << method;
+  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+}
+
 TEST(Program, DrivesALawThroughAFileOfCurvatures) {
   const Folder folder;
   const std::string in = folder.path() / "k.csv", out = folder.path() / "m.csv";

@@ -26,7 +26,10 @@ Scene busy_scene(const std::string& law, const std::string& element, const std::
   sphere.kind = "sphere";
   sphere.radius = 0.04;
   sphere.center = {0.1, 0.05, -0.042};
-  if (integrator == "semi-implicit") scene.obstacle = {sphere};
+  if (integrator != "explicit") scene.obstacle = {sphere};
+  if (scene.is_implicit()) scene.step = 5e-3;
+  scene.newton_residual = 1e-10;
+  scene.newton_velocity = 0;
   return scene;
 }
 
@@ -43,6 +46,8 @@ std::vector<test::Method> methods() {
   all.push_back({"prandtl", "hinge", "semi-implicit"});
   all.push_back({"gong", "hinge", "semi-implicit"});
   all.push_back({"prandtl", "shape", "explicit"});
+  for (const char* law : {"linear", "prandtl", "kim"}) all.push_back({law, "shape", "implicit"});
+  all.push_back({"prandtl", "hinge", "bdf2"});
   return all;
 }
 

@@ -57,8 +57,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"HugeSeed", "seed = 4294967296\n", 1, {"seed = 4294967296 must be at most 4294967295"}},
         BadScene{"ZeroSize", "[cloth]\nlength = 0.0\n", 2, {"cloth.length = 0 m must be > 0"}},
         BadScene{"UnknownLaw", "law = \"prandl\"\n", 1, {"law = prandl must be", "did you mean prandtl?"}},
-        BadScene{
-            "IntegratorNotBuilt", "integrator = \"bdf2\"\n", 1, {"bdf2 is not built yet", "semi-implicit"}},
+        BadScene{"IntegratorUnknown", "integrator = \"implict\"\n", 1, {"implict", "implicit"}},
+        BadScene{"ToleranceWithoutAnEstimate",
+                 "tolerance = 1e-5\nintegrator = \"explicit\"\n",
+                 1,
+                 {"tolerance = 1e-05 m", "needs integrator", "not explicit"}},
         BadScene{
             "UnknownMesh", "mesh = \"randem\"\n", 1, {"mesh = randem", "FILE.obj", "did you mean random?"}},
         BadScene{"FileWithoutName", "[cloth]\nshape = \"file\"\n", 2, {"cloth.file"}},

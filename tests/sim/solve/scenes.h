@@ -35,7 +35,9 @@ struct Method {
   std::string name() const {
     std::string name = law + "_" + element;
     std::replace(name.begin(), name.end(), '-', '_');
-    return name + (integrator == "explicit" ? "_explicit" : "_semi_implicit");
+    std::string ending = "_" + integrator;
+    std::replace(ending.begin(), ending.end(), '-', '_');
+    return name + ending;
   }
 };
 
