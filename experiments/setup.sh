@@ -16,7 +16,6 @@ program_packages=(
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"
-  "libopenblas0-pthread|fast dense kernels of its factorisations"
   "libtinyobjloader-dev|reads OBJ meshes"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"

@@ -51,7 +51,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"newton-velocity", at<&S::newton_velocity>, "m/s", at_least(0), "", "implicit, bdf2: or the mean correction over the step's time"},
     {"tolerance", at<&S::tolerance>, "m", at_least(0), "", "semi-implicit, implicit, bdf2: steps in parts, each with an estimated error of positions below this; 0: off"},
     {"ramp", at<&S::ramp>, "s", at_least(0), "", "quasi-static: time in which the weight grows to its full value"},
-    {"linear-solver", at<&S::linear_solver>, "", any(), "auto | cholesky | multigrid | block-jacobi", "implicit, bdf2, quasi-static: auto is cholesky on the CPU, multigrid on a GPU"},
+    {"linear-solver", at<&S::linear_solver>, "", any(), "multigrid | block-jacobi", "implicit, bdf2, quasi-static: preconditioner of conjugate gradients"},
     {"device", at<&S::device>, "", any(), "auto | cpu | cuda", "where the simulation runs"},
     {"precision", at<&S::precision>, "", any(), "double | float", "of the simulation"},
     {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: all cores"},

@@ -128,20 +128,20 @@ struct Scene {
   double solver_tolerance = 1e-4;          // solver-tolerance  relative residual of the implicit solve
   double newton_residual = 1e-6;           // newton-residual   unbalanced force over the weight
   double newton_velocity = 1e-9;           // newton-velocity   or: correction over the step's time [m/s]
-  double tolerance = 0;                  // tolerance  of positions, per part of a step [m]; 0: steps as given
-  std::string linear_solver = "auto";    // linear-solver     auto | pcg | cholesky
-  double ramp = 0;                       // ramp      quasi-static: time in which the weight grows [s]
-  std::string device = "auto";           // device     auto | cpu | cuda
-  std::string precision = "double";      // precision  double | float
-  int threads = 0;                       // threads    0 = all cores
-  double seconds = 1;                    // seconds    simulated time [s]
-  Eigen::Vector3d gravity{0, 0, -9.81};  // gravity    [m/s^2]
-  double air_drag = 0;                   // air-drag   linear drag per area [kg/(m^2 s)]
-  double contact_stiffness = 0;          // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
-  unsigned seed = 1;                     // seed
-  std::vector<Pin> pin;                  // [[pin]]
-  std::vector<Obstacle> obstacle;        // [[obstacle]]
-  std::vector<Command> command;          // [[command]]
+  double tolerance = 0;  // tolerance  of positions, per part of a step [m]; 0: steps as given
+  std::string linear_solver = "multigrid";  // linear-solver     multigrid | block-jacobi
+  double ramp = 0;                          // ramp      quasi-static: time in which the weight grows [s]
+  std::string device = "auto";              // device     auto | cpu | cuda
+  std::string precision = "double";         // precision  double | float
+  int threads = 0;                          // threads    0 = all cores
+  double seconds = 1;                       // seconds    simulated time [s]
+  Eigen::Vector3d gravity{0, 0, -9.81};     // gravity    [m/s^2]
+  double air_drag = 0;                      // air-drag   linear drag per area [kg/(m^2 s)]
+  double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
+  unsigned seed = 1;               // seed
+  std::vector<Pin> pin;            // [[pin]]
+  std::vector<Obstacle> obstacle;  // [[obstacle]]
+  std::vector<Command> command;    // [[command]]
   // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;

@@ -4,22 +4,16 @@
 #include <memory>
 
 #include "sim/scene/cloth.h"
-#include "sim/solve/cholesky_solver.h"
 #include "sim/solve/multigrid_solver.h"
 
 namespace hysteron {
 
-// rigidity: the largest slope of the bending law [N m].  simulation.cpp has refused what the device lacks.
+// rigidity: the largest slope of the bending law [N m].
 template <class Real, class Device>
 std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(Device& device, const Scene& scene,
-                                                               const Cloth& cloth,
-                                                               const CurvatureOperator& op, double rigidity) {
+                                                               const Cloth& cloth, double rigidity) {
   if (scene.linear_solver == "block-jacobi")
     return std::make_unique<BlockJacobiSolver<Real, Device>>(device, cloth.mesh.vertices());
-  if constexpr (!Device::kGpu) {
-    if (scene.linear_solver != "multigrid")
-      return std::make_unique<CholeskySolver<Real>>(device, cloth.mesh, op);
-  }
   return std::make_unique<MultigridSolver<Real, Device>>(
       device, cloth.mesh, make_rest_hierarchy(cloth.mesh, cloth.held(scene, 0)), rigidity);
 }

@@ -109,8 +109,6 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.force == "chapter" && scene.is_implicit())
     throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
                          scene.integrator);
-  if (scene.linear_solver == "cholesky" && wants_gpu(scene))
-    throw Error::request("linear-solver = cholesky runs on the CPU: use multigrid or --device cpu");
   const StepLimits limits = choose_substeps(scene, cloth, op);
   return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)
                           : make_cpu_simulation(scene, cloth, op, limits);

@@ -83,7 +83,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
   if (all_implicit_)
     implicit_ = std::make_unique<ImplicitStep<Real, Device>>(
         *device_, scene, mass_, matrix_, membrane_, bending_, contact_ ? &*contact_ : nullptr,
-        make_linear_solver<Real>(*device_, scene, cloth, op, bending_.law().largest_stiffness()));
+        make_linear_solver<Real>(*device_, scene, cloth, bending_.law().largest_stiffness()));
   bending_.commit(x_.data(), v_.data(), 0);
   initial_ = measure();
   initial_.initial =

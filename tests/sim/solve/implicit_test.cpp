@@ -217,9 +217,7 @@ TEST(LinearSolvers, GiveTheSameCloth) {
     scene.linear_solver = solver;
     return Trial(scene).after(10)->positions();
   };
-  const Positions exact = shape("cholesky");
-  EXPECT_LT(test::farthest(shape("multigrid"), exact), 1e-8);  // [m]
-  EXPECT_LT(test::farthest(shape("block-jacobi"), exact), 1e-8);
+  EXPECT_LT(test::farthest(shape("multigrid"), shape("block-jacobi")), 1e-8);  // [m]
 }
 
 TEST(Implicit, RefusesWhatHasNoPotentialOrNoErrorEstimate) {
