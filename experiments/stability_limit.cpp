@@ -34,6 +34,7 @@ constexpr int kHeldConditions = 2;  // the first ones, in which cloth is also he
 
 Scene scene_of(const LimitCase& of) {
   Scene scene = default_scene();
+  scene.integrator = "semi-implicit";
   scene.cloth.length = kLength;
   scene.triangles = 128;
   scene.mesh = of.mesh;

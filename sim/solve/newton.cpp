@@ -12,6 +12,9 @@ constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow
 // What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
+// Corrections that rounding of positions cannot tell from none, relative to the positions.
+template <class Real>
+constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
 }  // namespace
 
 template <class Real, class Device>
@@ -46,15 +49,16 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     negate_gradient();
     outcome.linear_iterations +=
         solver_.solve(system, held, rhs_.data(), direction_.data(), std::max(forcing, kTightest)).iterations;
-    const Correction correction = measure_correction(mass, held);
+    const Correction correction = measure_correction(x, mass, held);
+    const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double share = search(x, value, correction.slope);
     if (share == 0) {
-      outcome.converged = -correction.slope <= kRounding<Real> * value.size;  // no more to gain in Real
+      outcome.converged = unmoved || -correction.slope <= kRounding<Real> * value.size;  // no more to gain
       break;
     }
-    outcome.converged =
-        shift <= limits_.least_shift && std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity;
+    outcome.converged = shift <= limits_.least_shift &&
+                        (unmoved || std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity);
     shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
       potential_.lag_friction(x);
@@ -66,8 +70,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
 }
 
 // Takes the first share of the direction, 1 or less, that lowers the potential enough, and returns it; 0 if
-// there is none.  Where the difference
-// is within rounding, the slope must have become flatter instead (Hager & Zhang 2005).
+// there is none.  Where the difference is within rounding, the slope must have become flatter instead (Hager
+// & Zhang 2005).
 template <class Real, class Device>
 double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
   if (!(slope < 0)) return 0;
@@ -92,20 +96,21 @@ double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double
 }
 
 template <class Real, class Device>
-typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(const Real* mass,
+typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(const Vec3<Real>* x,
+                                                                                   const Real* mass,
                                                                                    const char* held) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
   Correction* result = sums_.data();
-  for_each_sum<2>(
+  for_each_sum<3>(
       device_, "newton: correction", vertices_,
-      HYST_KERNEL(int i, Sums<2>& sums) {
+      HYST_KERNEL(int i, Sums<3>& sums) {
         if (held[i]) return;
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
+        sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
       },
-      HYST_KERNEL(const Sums<2>& total) {
-        result->size2 = total.term[0];
-        result->slope = total.term[1];
+      HYST_KERNEL(const Sums<3>& total) {
+        *result = {total.term[0], total.term[1], total.term[2]};
       });
   return sums_.download()[0];
 }

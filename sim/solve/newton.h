@@ -37,10 +37,11 @@ class Newton {
 
   // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
   struct Correction {
-    double size2;  // sum of m |d|^2 [kg m^2]
-    double slope;  // gradient . d [J]
+    double size2;    // sum of m |d|^2 [kg m^2]
+    double slope;    // gradient . d [J]
+    double extent2;  // sum of m |x|^2 [kg m^2]
   };
-  Correction measure_correction(const Real* mass, const char* held);
+  Correction measure_correction(const Vec3<Real>* x, const Real* mass, const char* held);
   void try_share(const Vec3<Real>* x, Real share);
   void take_trial(Vec3<Real>* x);
   void negate_gradient();
