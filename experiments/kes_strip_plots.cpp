@@ -55,7 +55,7 @@ render::Plot differences(const std::vector<const StripResult*>& strips) {
                     .x = {"curvature [1/m]"},
                     .y = {"difference [%]"}};
   plot.width = kPlotWidth, plot.height = kDifferenceHeight;
-  plot.axes_at_zero = true;
+  plot.axes_at_zero = plot.key_inside = true;
   double moment = 0;
   for (double m : strips[0]->test.law_moment) moment = std::max(moment, std::abs(m));
   for (std::size_t i = 0; i < strips.size(); ++i) {
