@@ -52,7 +52,7 @@ const KeyRow<KesFlags> kStripRows[] = {
     {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
 };
 // clang-format on
-constexpr int kQuickSteps = 1000, kQuickStripSteps = 20;
+constexpr int kQuickSteps = 1000, kQuickStripSteps = 18;
 
 Keys keys_of(KesFlags& flags) {
   Keys keys = bind(kRows, flags);

@@ -131,7 +131,7 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
       run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
       run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);
-      write_strip_metrics(run, p, r, amplitude_of(result), result.strips);
+      write_strip_metrics(run, p, amplitude_of(result), result.strips);
     }
   }
 }
@@ -160,7 +160,7 @@ void print_table(const std::vector<KesFabric>& fabrics) {
       print_row(result.law, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
                              formatted("%.4g", r.residual), formatted("%.4g", r.residual_by_formula),
                              formatted("%.4g", r.loop_area), cases});
-      print_strips(r, amplitude_of(result), result.strips);
+      print_strips(amplitude_of(result), result.strips);
     }
     std::printf("\n");
   }

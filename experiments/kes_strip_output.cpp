@@ -62,24 +62,24 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
 
 }  // namespace
 
-StripDifference difference(const KesReading& law, const StripTest& strip, double amplitude) {
+StripDifference difference(const StripTest& strip, double amplitude) {
   const double moment = largest(strip.law_moment);
   const auto percent = [](double a, double b, double scale) {
     return std::abs(b) > kNothing * scale ? 100 * (a / b - 1) : NAN;
   };
-  const KesReading& own = strip.reading;
+  const KesReading &own = strip.reading, &law = strip.law_reading;
   return {percent(own.rigidity, law.rigidity, moment / amplitude),
           percent(own.loop_width, law.loop_width, 2 * moment), percent(own.residual, law.residual, amplitude),
           percent(own.loop_area, law.loop_area, 4 * moment * amplitude)};
 }
 
-void write_strip_metrics(Run& run, const std::string& prefix, const KesReading& law, double amplitude,
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
                          const std::vector<StripResult>& strips) {
   for (const StripResult& strip : strips) {
     const std::string p = prefix + strip.prefix;
     if (!strip.renderer.empty()) run.note("renderer", strip.renderer);
     if (strip.failure.empty())
-      write_metrics_of(run, p, strip, difference(law, strip.test, amplitude));
+      write_metrics_of(run, p, strip, difference(strip.test, amplitude));
     else
       run.metric(p + "strip_failure", strip.failure);
   }
@@ -100,7 +100,7 @@ void write_strip_table(Run& run, const std::string& ending, const std::vector<St
   if (!table.columns.empty()) write_csv(run.path("strip" + ending + ".csv"), table);
 }
 
-void print_strips(const KesReading& law, double amplitude, const std::vector<StripResult>& strips) {
+void print_strips(double amplitude, const std::vector<StripResult>& strips) {
   for (const StripResult& strip : strips) {
     if (!strip.failure.empty()) {
       std::printf("  %s: %s\n", strip.mesh.c_str(), strip.failure.c_str());
@@ -109,7 +109,7 @@ void print_strips(const KesReading& law, double amplitude, const std::vector<Str
     const KesReading& r = strip.test.reading;
     print_row("  strip " + strip.mesh, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
                                         formatted("%.4g", r.residual), "", formatted("%.4g", r.loop_area)});
-    const StripDifference d = difference(law, strip.test, amplitude);
+    const StripDifference d = difference(strip.test, amplitude);
     print_row("    against the law",
               {formatted("%+.2f %%", d.rigidity), formatted("%+.2f %%", d.loop_width),
                formatted("%+.2f %%", d.residual), "", formatted("%+.2f %%", d.loop_area)});

@@ -34,20 +34,20 @@ struct StripTitle {
   std::string fabric, law;
 };
 
-// A reading of a strip over that of the law alone, minus 1 [percent].  NaN where the law reads nothing (the
-// width of an elastic law's loop).
+// A reading of a strip over that of the law alone through the same curvatures, minus 1 [percent].  NaN where
+// the law reads nothing (the width of an elastic law's loop).
 struct StripDifference {
   double rigidity, loop_width, residual, loop_area;
 };
-StripDifference difference(const KesReading& law, const StripTest& strip, double amplitude);
+StripDifference difference(const StripTest& strip, double amplitude);
 
-// PREFIX strip_B_N_m, strip_2HB_N ... and their differences from `law`; `amplitude` as in the protocol.
-void write_strip_metrics(Run& run, const std::string& prefix, const KesReading& law, double amplitude,
+// PREFIX strip_B_N_m, strip_2HB_N ... and their differences; `amplitude` as in the protocol.
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
                          const std::vector<StripResult>& strips);
 // strip ENDING.csv: the law and every mesh, an equilibrium per row.
 void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips);
 // A line per mesh, in the columns of the law's table, and its differences.
-void print_strips(const KesReading& law, double amplitude, const std::vector<StripResult>& strips);
+void print_strips(double amplitude, const std::vector<StripResult>& strips);
 // plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strips.
 void write_strip_figures(Run& run, const std::string& ending, const StripTitle& title,
                          const std::vector<StripResult>& strips);

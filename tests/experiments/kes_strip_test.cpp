@@ -47,8 +47,7 @@ TEST_P(AnyMesh, GivesTheLawsRigidityWidthAndArea) {
   const LawRequest law = cotton("prandtl");
   const KesProtocol p = protocol();
   const StripTest strip = tested(small(GetParam()), law, p);
-  const KesWalk walk = strip_walk(p, small(GetParam()).steps);
-  const KesReading alone = read_loop(p, walk, run_law(law, walk.rows).moment);  // sampled alike
+  const KesReading& alone = strip.law_reading;
   EXPECT_NEAR(strip.reading.rigidity, alone.rigidity, kAgreement * alone.rigidity);
   EXPECT_NEAR(strip.reading.loop_width, alone.loop_width, kAgreement * alone.loop_width);
   EXPECT_NEAR(strip.reading.loop_area, alone.loop_area, kAgreement * alone.loop_area);
