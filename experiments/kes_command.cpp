@@ -126,6 +126,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
   const ClampedStrip strip = clamped_strip(shape, law, fabric, flags.protocol);
   StripResult result;
   result.mesh = mesh;
+  result.element = shape.element;
   result.prefix = several_meshes ? mesh + "." : "";
   result.triangles = strip.cloth.mesh.faces();
   result.spacing = strip.spacing;

@@ -18,7 +18,7 @@ struct StripPicture {
 };
 
 struct StripResult {
-  std::string mesh;
+  std::string mesh, element;
   std::string prefix;  // of its metrics: "" | mesh. where there are several
   int triangles = 0;
   double spacing = 0;  // of columns [m]

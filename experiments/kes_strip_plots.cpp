@@ -31,7 +31,8 @@ render::Series series(const StripResult& strip, const std::vector<double>& value
 }
 
 render::Plot loops(const StripTitle& title, const std::vector<const StripResult*>& strips) {
-  render::Plot plot{.title = "KES-FB2 on a strip: " + title.fabric + ", law " + title.law,
+  render::Plot plot{.title = "KES-FB2 on a strip: " + title.fabric + ", law " + title.law + ", element " +
+                             strips[0]->element,
                     .x = {"curvature [1/m]"},
                     .y = {"moment per width [mN]"}};
   plot.width = kPlotWidth, plot.height = kLoopHeight;
