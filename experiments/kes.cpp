@@ -69,24 +69,6 @@ double area_of_cycle(int cycle, const KesWalk& walk, const std::vector<double>& 
   return std::abs(area) > rounding ? area : 0;
 }
 
-KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vector<double>& moment) {
-  const Leg up = leg(walk, moment, 0), down = leg(walk, moment, 1), back = leg(walk, moment, 2);
-  const auto slope = [&](const Leg& loading, double side) {
-    return side * (loading.moment_at(side * p.slope_to) - loading.moment_at(side * p.slope_from)) /
-           (p.slope_to - p.slope_from);
-  };
-  KesReading reading;
-  reading.rigidity = (slope(up, 1) + slope(down, -1)) / 2;
-  reading.loop_width = (up.moment_at(p.width_at) - down.moment_at(p.width_at) + back.moment_at(-p.width_at) -
-                        down.moment_at(-p.width_at)) /
-                       2;
-  reading.residual = down.root();
-  reading.loop_area = area_of_cycle(p.cycles - 1, walk, moment);
-  const double before = p.cycles > 1 ? area_of_cycle(p.cycles - 2, walk, moment) : kNaN;
-  reading.area_change = before == 0 ? 0 : reading.loop_area / before - 1;
-  return reading;
-}
-
 // `moment` where a leg ends is that before the command.
 void count_cases(const VirginCurve& curve, const KesWalk& walk, const std::vector<double>& moment,
                  std::array<int, 3>& cases) {
@@ -153,6 +135,24 @@ KesWalk walk_to(const std::vector<double>& turns, const KesProtocol& p) {
     from = turn;
   }
   return walk;
+}
+
+KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vector<double>& moment) {
+  const Leg up = leg(walk, moment, 0), down = leg(walk, moment, 1), back = leg(walk, moment, 2);
+  const auto slope = [&](const Leg& loading, double side) {
+    return side * (loading.moment_at(side * p.slope_to) - loading.moment_at(side * p.slope_from)) /
+           (p.slope_to - p.slope_from);
+  };
+  KesReading reading;
+  reading.rigidity = (slope(up, 1) + slope(down, -1)) / 2;
+  reading.loop_width = (up.moment_at(p.width_at) - down.moment_at(p.width_at) + back.moment_at(-p.width_at) -
+                        down.moment_at(-p.width_at)) /
+                       2;
+  reading.residual = down.root();
+  reading.loop_area = area_of_cycle(p.cycles - 1, walk, moment);
+  const double before = p.cycles > 1 ? area_of_cycle(p.cycles - 2, walk, moment) : kNaN;
+  reading.area_change = before == 0 ? 0 : reading.loop_area / before - 1;
+  return reading;
 }
 
 KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol) {

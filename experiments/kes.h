@@ -43,6 +43,9 @@ struct KesReading {
   double area_change = 0;          // of the area, by the last cycle; NaN if there was only one
 };
 
+// `moment` has one value per row of the walk: to the amplitude and then `cycles` cycles.
+KesReading read_loop(const KesProtocol& protocol, const KesWalk& walk, const std::vector<double>& moment);
+
 // A smaller cycle, closed if the law closes it.
 struct MinorLoop {
   enum class Family { amplitude = 1, partial_reversal = 2 } family;

@@ -15,6 +15,11 @@ constexpr int kShownSteps = 100;  // rows of a table from zero to the amplitude
 
 std::string prefix(const KesResult& result) { return result.name.empty() ? "" : result.name + "."; }
 
+double amplitude_of(const KesResult& result) { return result.test.walk.rows.back().curvature; }
+
+// Of the names of a result's own files.
+std::string ending(const std::string& name) { return name.empty() ? "" : "_" + name; }
+
 std::string moment_column(const KesResult& result) {
   return (result.name.empty() ? result.law : result.name) + " moment [N]";
 }
@@ -126,6 +131,7 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
       run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
       run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);
+      write_strip_metrics(run, p, amplitude_of(result), result.strips);
     }
   }
 }
@@ -134,6 +140,8 @@ void write_tables(Run& run, const std::vector<KesFabric>& fabrics, const KesProt
   write_loops(run, fabrics, protocol);
   if (protocol.minor_loops) write_minor_loops(run, fabrics, protocol);
   write_readings(run, fabrics);
+  for (const KesFabric& fabric : fabrics)
+    for (const KesResult& result : fabric.results) write_strip_table(run, ending(result.name), result.strips);
 }
 
 void print_table(const std::vector<KesFabric>& fabrics) {
@@ -152,6 +160,7 @@ void print_table(const std::vector<KesFabric>& fabrics) {
       print_row(result.law, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
                              formatted("%.4g", r.residual), formatted("%.4g", r.residual_by_formula),
                              formatted("%.4g", r.loop_area), cases});
+      print_strips(amplitude_of(result), result.strips);
     }
     std::printf("\n");
   }

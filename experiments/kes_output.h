@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/kes.h"
+#include "experiments/kes_strip_output.h"
 #include "experiments/run.h"
 #include "sim/scene/scene.h"
 
@@ -14,6 +15,7 @@ struct KesResult {
   std::string law;
   std::string name;  // in tables and metrics: "" | law | fabric.law, as much as tells results apart
   KesTest test;
+  std::vector<StripResult> strips = {};  // of cloth under this law (--on strip)
 };
 
 // One fabric under all chosen laws; `reference` is `prandtl`, drawn in grey behind every law.
@@ -23,7 +25,8 @@ struct KesFabric {
   std::vector<KesResult> results;
 };
 
-// B_N_m, 2HB_N, residual_curvature_per_m, loop_area_J_per_m2 and others of every result.
+// B_N_m, 2HB_N, residual_curvature_per_m, loop_area_J_per_m2 and others of every result; strip_* of its
+// strips.
 void write_metrics(Run& run, const std::vector<KesFabric>& fabrics);
 
 // loops.csv and minor_loops.csv, a column per result and a hundredth of the amplitude per row; table.csv.

@@ -119,6 +119,9 @@ void write_plots(Run& run, const std::vector<KesFabric>& fabrics, const KesProto
     run.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, grid); });
   };
   for (const KesFabric& fabric : fabrics) {
+    for (const KesResult& result : fabric.results)
+      write_strip_figures(run, result.name.empty() ? "" : "_" + result.name, {fabric.fabric.name, result.law},
+                          result.strips);
     const std::string ending = fabrics.size() > 1 ? "_" + fabric.fabric.name : "";
     write("plot_loops" + ending, loops(fabric, p));
     if (!p.minor_loops) continue;
