@@ -55,16 +55,16 @@ class IncrementalPotential {
   bool has_friction() const { return contact_ != nullptr; }
   std::size_t bytes() const { return gradient_.bytes() + bending_diagonal_.bytes() + sums_.bytes(); }
 
+  struct Totals {  // on the device
+    double energy, size, residual2, reaction2, slope;
+  };
+
   // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
   void compute_gradient(const Vec3<Real>* x);
   void add_energies(const double* energies, int count);
   void measure_gradient(const Vec3<Real>* direction);
 
  private:
-  struct Totals {  // on the device
-    double energy, size, residual2, reaction2, slope;
-  };
-
   Device& device_;
   BlockRows<Real, Device>& matrix_;
   Membrane<Real, Device>& membrane_;
