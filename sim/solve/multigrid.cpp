@@ -38,7 +38,8 @@ HYST_HD inline Mat3<Real> safe_inverse(const Mat3<Real>& block) {
   if (!(trace > 0)) return Mat3<Real>::Zero();
   Mat3<Real> scaled = block / trace;
   for (int k = 0; k < 3; ++k) scaled(k, k) += 2 * std::numeric_limits<Real>::epsilon();
-  return scaled.inverse() / trace;
+  const Mat3<Real> inverse = scaled.inverse();  // by itself: within an expression Eigen inverts on the host
+  return inverse / trace;
 }
 
 // L v with L L^T = block, lower triangular; zero rows stay zero.
