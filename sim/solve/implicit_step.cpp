@@ -5,6 +5,7 @@
 // forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
 #include "sim/solve/implicit_step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -22,7 +23,9 @@ template <class Real>
 NewtonLimits newton_limits(const Scene& scene) {
   NewtonLimits limits;
   limits.residual = scene.newton_residual;
-  limits.velocity = scene.newton_velocity;
+  // Single precision resolves positions of a metre to 6e-8 m.
+  constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
+  limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
   if (scene.integrator == "quasi-static") {
     limits.iterations = 400;
     limits.first_shift = 1e4;  // as in a step of 10 ms

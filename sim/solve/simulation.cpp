@@ -99,6 +99,9 @@ bool wants_gpu(const Scene& scene) {
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
+  if (scene.integrator != "semi-implicit" && scene.integrator != "explicit" && !scene.is_implicit())
+    throw Error::request("integrator = " + scene.integrator +
+                         " must be semi-implicit | implicit | bdf2 | quasi-static | explicit");
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");
