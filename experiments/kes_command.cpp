@@ -2,8 +2,8 @@
 // assets.
 #include <algorithm>
 #include <iostream>
-#include <sstream>
 
+#include "experiments/comma_list.h"
 #include "experiments/experiments.h"
 #include "experiments/kes.h"
 #include "experiments/kes_output.h"
@@ -60,13 +60,6 @@ Keys keys_of(KesFlags& flags) {
   const Keys output = bind_output_options(flags.options);
   keys.insert(keys.end(), output.begin(), output.end());
   return keys;
-}
-
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
 }
 
 // All that can be tested: a strip gets no orders on its way.

@@ -1,9 +1,9 @@
 // `hysteron stability`: maps of what stays stable, and the explicit limit against the bound in use.
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 #include <thread>
 
+#include "experiments/comma_list.h"
 #include "experiments/experiments.h"
 #include "experiments/report.h"
 #include "experiments/run.h"
@@ -43,13 +43,6 @@ Keys keys_of(F& flags) {
   const Keys output = bind_output_options(flags.options);
   keys.insert(keys.end(), output.begin(), output.end());
   return keys;
-}
-
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream stream(list);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  return words;
 }
 
 int threads_of(const F& flags) {

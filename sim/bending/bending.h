@@ -23,13 +23,6 @@ struct BendingForceView {
   }
 };
 
-// What an assembled stiffness is made of, at the last linearise().
-template <class Real>
-struct StiffnessView {
-  const Real* gradient;      // 8 per hinge: d angle/d p0, d angle/d p1, t0, t1
-  const Real* tangent_area;  // D (D + 1)/2 per element, rows of the lower triangle [N m^3]
-};
-
 enum class ForceConvention { energy, chapter };
 
 template <class Real, class Device>
@@ -55,7 +48,6 @@ class Bending {
   // Adds the diagonal blocks of K, less what several hinges of one element have in common.
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void accept(const Vec3<Real>* position);
-  StiffnessView<Real> stiffness() const;
 
   // Irons or edits the elements with chosen[i] != 0 at the last accepted state.
   void command(CommandKind kind, const std::vector<char>& chosen);

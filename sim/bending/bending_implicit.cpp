@@ -58,11 +58,6 @@ void Bending<Real, Device>::linearise() {
 }
 
 template <class Real, class Device>
-StiffnessView<Real> Bending<Real, Device>::stiffness() const {
-  return {gradient_.data(), tangent_.data()};
-}
-
-template <class Real, class Device>
 void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   compute_rates(p);
   const OperatorView<Real> op = view();

@@ -161,13 +161,7 @@ void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
         z[i] = inverse[i] * r[i];
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
       },
-      HYST_KERNEL(const Sums<1>& total) {
-        if (s->done) return;
-        s->beta = total.term[0] / s->residual;
-        s->residual = total.term[0];
-        s->iterations += 1;
-        s->done = !(s->residual > s->target);
-      });
+      HYST_KERNEL(const Sums<1>& total) { s->advance(total.term[0]); });
 }
 
 template <class Real, class Device>
@@ -185,13 +179,7 @@ void Pcg<Real, Device>::advance_preconditioned(const System& system, const char*
   for_each_sum<1>(
       device_, "solve: weigh", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(r[i].dot(z[i])); },
-      HYST_KERNEL(const Sums<1>& total) {
-        if (s->done) return;
-        s->beta = total.term[0] / s->residual;
-        s->residual = total.term[0];
-        s->iterations += 1;
-        s->done = !(s->residual > s->target);
-      });
+      HYST_KERNEL(const Sums<1>& total) { s->advance(total.term[0]); });
 }
 
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve

@@ -41,6 +41,14 @@ class Pcg {
   struct Scalars {  // on the device, so that iterations need no word from the host
     double residual, target, alpha, beta;
     int iterations, done;
+
+    HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
+      if (done) return;
+      beta = new_residual / residual;
+      residual = new_residual;
+      iterations += 1;
+      done = !(residual > target);
+    }
   };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
   BendingForceView<Real> bend(const System& system, const Vec3<Real>* p);
