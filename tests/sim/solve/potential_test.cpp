@@ -100,7 +100,7 @@ struct Step {
   void begin() {
     potential.begin({StepFormula::backward_euler(kStep), reference.data(), nullptr, reference.data(),
                      predicted.data(), held.data(), trial.scene.gravity,
-                     trial.scene.air_drag / trial.scene.fabric.density});
+                     trial.scene.air_drag / trial.scene.fabric.density, 1});
   }
   PotentialValue at(const Positions& x, const Positions& direction) {
     return potential.evaluate(x.data(), direction.data());
