@@ -71,30 +71,29 @@ struct Wong {
 
   HYST_HD static Real travelled(const Memory& m, Real k) { return m[kDirection] * (k - m[kTurnCurvature]); }
   HYST_HD Real gap(const Memory& m) const { return m0 - m[kDirection] * m[kTurnFriction]; }  // |s M0 - F_r|
-  // 1 - u, zero where the branch has run out.
-  HYST_HD Real remaining(const Memory& m, Real k) const {
-    const Real span = 2 * gap(m), left = span - g * travelled(m, k);
-    return left > 0 && span > 0 ? left / span : Real(0);
-  }
+  HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }  // S [1/m]
 
+  // As differences from the reversal: nothing cancels where k0 is large and the friction that is left with it.
   HYST_HD Real friction(const Memory& m, Real k) const {
     const Real s = m[kDirection], x = travelled(m, k);
     if (m[kBranch] == kReturning) return m[kTurnFriction] + s * x * (g - returning_bend() * x);
-    const Real v = remaining(m, k);
-    return s * (m0 - gap(m) * v * v);
+    const Real end = span(m);
+    return x < end ? m[kTurnFriction] + s * g * x * (1 - x / (2 * end)) : s * m0;
   }
   HYST_HD Real slope(const Memory& m, Real k) const {
     if (m[kDirection] == 0) return g;
-    if (m[kBranch] == kReturning) return g - 2 * returning_bend() * travelled(m, k);
-    return g * remaining(m, k);
+    const Real x = travelled(m, k);
+    if (m[kBranch] == kReturning) return g - 2 * returning_bend() * x;
+    const Real end = span(m);
+    return x < end ? g * (1 - x / end) : Real(0);
   }
   // int F dK from the reversal to k, over a direct way.
   HYST_HD Real work(const Memory& m, Real k) const {
-    const Real x = travelled(m, k);
-    if (m[kBranch] == kReturning)
-      return m[kDirection] * m[kTurnFriction] * x + x * x * (g / 2 - returning_bend() * x / 3);
-    const Real v = remaining(m, k), span = g > 0 ? 2 * gap(m) / g : Real(0);
-    return m0 * x - gap(m) * span / 3 * (1 - v * v * v);
+    const Real x = travelled(m, k), reversal = m[kDirection] * m[kTurnFriction];
+    if (m[kBranch] == kReturning) return reversal * x + x * x * (g / 2 - returning_bend() * x / 3);
+    const Real end = span(m);
+    if (x < end) return reversal * x + g * x * x * (Real(0.5) - x / (6 * end));
+    return reversal * end + g * end * end / 3 + m0 * (x - end);
   }
   HYST_HD Real returning_bend() const { return k0 > 0 ? g / (2 * k0) : Real(0); }  // |c1| [N m^2]
 
@@ -126,10 +125,10 @@ struct Wong {
   // Curvature at which b2 K + F = 0 ahead on this branch: a v^2 + b v - c = 0 for v = 1 - u, else -s M0/b2.
   HYST_HD Real root(const Memory& m) const {
     using std::sqrt;
-    const Real s = m[kDirection], a = gap(m), span = g > 0 ? 2 * a / g : Real(0), b = b2 * span;
+    const Real s = m[kDirection], a = gap(m), end = span(m), b = b2 * end;
     const Real c = s * b2 * m[kTurnCurvature] + b + m0;
     if (!(c > 0)) return b2 > 0 ? -s * m0 / b2 : m[kCurvature];
-    return m[kTurnCurvature] + s * span * (1 - 2 * c / (b + sqrt(b * b + 4 * a * c)));
+    return m[kTurnCurvature] + s * end * (1 - 2 * c / (b + sqrt(b * b + 4 * a * c)));
   }
 };
 
