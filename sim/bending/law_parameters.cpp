@@ -134,10 +134,14 @@ void check(const LawChoice& choice, LawUse use) {
   if ((choice.name == "kim" || choice.name == "narain") && choice.yield == 0)
     refuse("yield must be given and > 0 1/m where k0 is 0");
   if (choice.name == "spring") {
-    const double half_angle = choice.curve.k0 * choice.height / 2;
-    if (!(half_angle > 0 && half_angle < std::numbers::pi)) {
-      refuse("height = " + shown(choice.height) + " m and k0 = " + shown(choice.curve.k0) +
-             " 1/m must give a hinge angle k0 * height in (0, 2 pi), where the springs are matched");
+    // Folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000 times.
+    constexpr double kLeast = 0.01;
+    const double angle = choice.curve.k0 * choice.height;
+    if (!(angle >= kLeast && angle < 2 * std::numbers::pi)) {
+      refuse(
+          "height = " + shown(choice.height) + " m and k0 = " + shown(choice.curve.k0) +
+          " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; folded "
+          "further, springs matched at a smaller one are so stiff that they crush the triangles");
     }
   }
 }

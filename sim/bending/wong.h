@@ -71,9 +71,10 @@ struct Wong {
 
   HYST_HD static Real travelled(const Memory& m, Real k) { return m[kDirection] * (k - m[kTurnCurvature]); }
   HYST_HD Real gap(const Memory& m) const { return m0 - m[kDirection] * m[kTurnFriction]; }  // |s M0 - F_r|
-  HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }  // S [1/m]
+  HYST_HD Real span(const Memory& m) const { return g > 0 ? 2 * gap(m) / g : Real(0); }      // S [1/m]
 
-  // As differences from the reversal: nothing cancels where k0 is large and the friction that is left with it.
+  // As differences from the reversal: nothing cancels where k0 is large and the friction that is left with
+  // it.
   HYST_HD Real friction(const Memory& m, Real k) const {
     const Real s = m[kDirection], x = travelled(m, k);
     if (m[kBranch] == kReturning) return m[kTurnFriction] + s * x * (g - returning_bend() * x);

@@ -87,6 +87,14 @@ HYST_HD inline MembraneStress<Real> tensile_part(const MembraneStress<Real>& s) 
   return {scale * (radius + half), scale * (radius - half), scale * s.s12};
 }
 
+// What a stress adds to block (i, j) of the stiffness: this times the identity.
+template <class Real>
+HYST_HD inline Real geometric_stiffness(const MembraneRest<Real>& rest, const MembraneStress<Real>& s, int i,
+                                        int j) {
+  const Real i1 = rest.b1[i], i2 = rest.b2[i], j1 = rest.b1[j], j2 = rest.b2[j];
+  return rest.area * (s.s11 * i1 * j1 + s.s22 * i2 * j2 + s.s12 * (i1 * j2 + i2 * j1));
+}
+
 // Block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric part of
 // `tension`.
 template <class Real>
@@ -99,8 +107,7 @@ HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const M
              k22 = a * (c.weft * i2 * j2 + c.shear * i1 * j1);
   const Real k12 = a * (c.coupling * i1 * j2 + c.shear * i2 * j1);
   const Real k21 = a * (c.coupling * i2 * j1 + c.shear * i1 * j2);
-  const Real geometric =
-      rest.area * (tension.s11 * i1 * j1 + tension.s22 * i2 * j2 + tension.s12 * (i1 * j2 + i2 * j1));
+  const Real geometric = geometric_stiffness(rest, tension, i, j);
   const Vec3<Real> r1 = k11 * f.f1 + k12 * f.f2, r2 = k21 * f.f1 + k22 * f.f2;
   Mat3<Real> block;
   for (int col = 0; col < 3; ++col)

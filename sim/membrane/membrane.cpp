@@ -82,7 +82,8 @@ MembraneForceView<Real> Membrane<Real, Device>::forces() const {
 }
 
 template <class Real, class Device>
-void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix) {
+void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix,
+                                      ScalarRowsView<Real> softening) {
   const MembraneStiffness<Real> c = stiffness_;
   const int *start = vertex_start_.data(), *item = vertex_item_.data(), *slot = slot_.data();
   const MembraneRest<Real>* rest = rest_.data();
@@ -102,6 +103,28 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
                 membrane_block(rest[f], c, factor, deformed[f], t, i, (i + k) % 3);
         }
         matrix.diagonal[v] = diagonal;
+      });
+  if (softening.off) assemble_softening(matrix, softening);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble_softening(BlockRowsView<Real> matrix, ScalarRowsView<Real> softening) {
+  const int *start = vertex_start_.data(), *item = vertex_item_.data(), *slot = slot_.data();
+  const MembraneRest<Real>* rest = rest_.data();
+  const MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  for_each(
+      device_, "membrane softening", vertices_, HYST_KERNEL(int v) {
+        for (int j = matrix.start[v]; j < matrix.start[v + 1]; ++j) softening.off[j] = 0;
+        Real diagonal = 0;
+        for (int j = start[v]; j < start[v + 1]; ++j) {
+          const int f = item[j] / 3, i = item[j] % 3;
+          const MembraneStress<Real> s = stress[f], t = tension[f];
+          const MembraneStress<Real> compression{s.s11 - t.s11, s.s22 - t.s22, s.s12 - t.s12};
+          diagonal += geometric_stiffness(rest[f], compression, i, i);
+          for (int k = 1; k < 3; ++k)
+            softening.off[slot[2 * j + k - 1]] += geometric_stiffness(rest[f], compression, i, (i + k) % 3);
+        }
+        softening.diagonal[v] = diagonal;
       });
 }
 

@@ -42,8 +42,11 @@ class Membrane {
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   MembraneForceView<Real> forces() const;
   // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
-  // which callers add mass and contact.
-  void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix);
+  // which callers add mass and contact.  What compression adds is negative semidefinite and apart in
+  // `softening`, unless that is null.
+  void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix, ScalarRowsView<Real> softening = {});
+  // Part of assemble(); public because nvcc allows no device lambda in a private member function.
+  void assemble_softening(BlockRowsView<Real> matrix, ScalarRowsView<Real> softening);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + lag) E(now) - lag E(before)

@@ -9,6 +9,13 @@
 
 namespace hysteron {
 
+// A number for every block of a BlockRowsView: that multiple of the identity.
+template <class Real>
+struct ScalarRowsView {
+  Real* off = nullptr;
+  Real* diagonal = nullptr;
+};
+
 template <class Real>
 struct BlockRowsView {
   int rows;
@@ -20,6 +27,15 @@ struct BlockRowsView {
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v) const {
     Vec3<Real> sum = diagonal[i] * v[i];
     for (int j = start[i]; j < start[i + 1]; ++j) sum += off[j] * v[column[j]];
+    return sum;
+  }
+  // The same with `added` on top.
+  HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v, const ScalarRowsView<Real>& added) const {
+    Vec3<Real> sum = diagonal[i] * v[i] + added.diagonal[i] * v[i];
+    for (int j = start[i]; j < start[i + 1]; ++j) {
+      const Vec3<Real> other = v[column[j]];
+      sum += off[j] * other + added.off[j] * other;
+    }
     return sum;
   }
 };

@@ -181,20 +181,22 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
   const char* held = state.held;
   const Real* mass = state.mass;
+  const Vec3<Real>* handle_way = state.handle_way;
   for_each(
       device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
+        const Vec3<Real> way = held[i] && handle_way ? handle_way[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
         const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down
         const Vec3<Real> rest = inertial - air - weight - support - bend - gradient[i];
         VertexLedger& sum = ledger[i];
-        sum.bending_work += static_cast<double>(bend.dot(d));
+        sum.bending_work += static_cast<double>(bend.dot(way));
         sum.gravity_work += static_cast<double>(weight.dot(d));
-        sum.implicit_work += static_cast<double>(rest.dot(d));
+        sum.implicit_work += static_cast<double>(rest.dot(way));
         sum.handle_work += static_cast<double>(support.dot(d));
         if (held[i]) {
-          sum.handle_work -= static_cast<double>((bend + weight + support + rest).dot(d));
+          sum.handle_work -= static_cast<double>((weight + support).dot(d) + (bend + rest).dot(way));
           return;
         }
         sum.air -= static_cast<double>(air.dot(d));

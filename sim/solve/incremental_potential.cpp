@@ -19,6 +19,8 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
       bending_diagonal_(device, vertices_),
+      softening_off_(device, matrix.column().size()),
+      softening_diagonal_(device, vertices_),
       sums_(device, 1) {}
 
 template <class Real, class Device>
@@ -47,7 +49,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   add_energies(bending_.energies(), bending_.elements());
   measure_gradient(direction);
   const Totals t = sums_.download()[0];
-  return {t.energy, t.size, std::sqrt(t.residual2), std::sqrt(t.reaction2), t.slope};
+  return {t.energy, t.size, std::sqrt(t.residual2), std::sqrt(t.reaction2), std::sqrt(t.internal2), t.slope};
 }
 
 // Inertia, drag and weight with their energies; the gradients of membrane and bending.
@@ -62,11 +64,13 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const Real* mass = mass_.data();
   Vec3<Real>* gradient = gradient_.data();
   Totals* totals = sums_.data();
-  for_each_sum<2>(
+  for_each_sum<3>(
       device_, "potential: vertices", vertices_,
-      HYST_KERNEL(int i, Sums<2>& sums) {
+      HYST_KERNEL(int i, Sums<3>& sums) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
-        gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - membrane.at(i) - bending.at(i);
+        const Vec3<Real> stretch = membrane.at(i), bend = bending.at(i);
+        gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - stretch - bend;
+        sums.term[2] += static_cast<double>(stretch.squaredNorm() + bend.squaredNorm());
         if (s.held[i]) return;
         const double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
@@ -74,9 +78,10 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         sums.term[0] += kinetic - weight;
         sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
       },
-      HYST_KERNEL(const Sums<2>& total) {
+      HYST_KERNEL(const Sums<3>& total) {
         totals->energy = total.term[0];
         totals->size = total.term[1];
+        totals->internal2 = total.term[2];
       });
 }
 
@@ -116,7 +121,8 @@ void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* dire
 template <class Real, class Device>
 LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const Vec3<Real>* x, Real shift) {
   const BlockRowsView<Real> matrix = matrix_.view();
-  membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix);
+  const ScalarRowsView<Real> softening{softening_off_.data(), softening_diagonal_.data()};
+  membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix, softening);
   bending_.linearise();
   const Real over = static_cast<Real>(start_.formula.over);
   const Real inertia = 1 / (over * over) + start_.drag / over + shift;
@@ -129,7 +135,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
       });
   if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal);
   bending_.add_stiffness_diagonal(bending);
-  return {matrix, &bending_, bending, nullptr};
+  return {matrix, &bending_, bending, nullptr, softening};
 }
 
 template <class Real, class Device>

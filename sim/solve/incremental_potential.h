@@ -32,6 +32,7 @@ struct PotentialValue {
   double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
   double reaction = 0;  // the same over the held ones: what the handles carry [N]
+  double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double slope = 0;     // gradient . direction [J]
 };
 
@@ -47,16 +48,20 @@ class IncrementalPotential {
   void lag_friction(const Vec3<Real>* x);
   // Phi and its gradient; the direction may be null.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
-  // The positive semidefinite Hessian where evaluate() was called last, with `shift` times the masses added
-  // [1/s^2].
+  // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  Without its
+  // softening it is positive semidefinite; bending's is Gauss-Newton's, without the second derivatives of
+  // angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift);
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   double load();  // norm of the weight of all free vertices [N]
   bool has_friction() const { return contact_ != nullptr; }
-  std::size_t bytes() const { return gradient_.bytes() + bending_diagonal_.bytes() + sums_.bytes(); }
+  std::size_t bytes() const {
+    return gradient_.bytes() + bending_diagonal_.bytes() + softening_off_.bytes() +
+           softening_diagonal_.bytes() + sums_.bytes();
+  }
 
   struct Totals {  // on the device
-    double energy, size, residual2, reaction2, slope;
+    double energy, size, internal2, residual2, reaction2, slope;
   };
 
   // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
@@ -75,6 +80,7 @@ class IncrementalPotential {
   StepStart<Real> start_{};
   Buffer<Vec3<Real>, Device> gradient_;
   Buffer<Mat3<Real>, Device> bending_diagonal_;
+  Buffer<Real, Device> softening_off_, softening_diagonal_;
   Buffer<Totals, Device> sums_;
 };
 

@@ -15,6 +15,10 @@ constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
 // Corrections that rounding of positions cannot tell from none, relative to the positions.
 template <class Real>
 constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
+// A correction too small to matter ends a step only where the unbalanced force, over the forces at work, has
+// become small, too: a stiffness far above the true one makes any correction small.
+template <class Real>
+constexpr double kBalanced = sizeof(Real) == 8 ? 1e-3 : 1;
 }  // namespace
 
 template <class Real, class Device>
@@ -34,7 +38,7 @@ Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<
 template <class Real, class Device>
 NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
                                              double total_mass, double over) {
-  constexpr double kLoosest = 0.1, kTightest = 1e-5;
+  constexpr double kLoosest = 0.02, kTightest = 1e-5;
   NewtonOutcome outcome;
   const double weight = potential_.load();
   potential_.lag_friction(x);
@@ -45,19 +49,19 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     outcome.load = std::hypot(weight, value.reaction);
     outcome.converged |= value.residual <= limits_.residual * outcome.load;
     if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
-    const LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift));
-    negate_gradient();
-    outcome.linear_iterations +=
-        solver_.solve(system, held, rhs_.data(), direction_.data(), std::max(forcing, kTightest)).iterations;
+    outcome.linear_iterations += find_direction(x, held, shift, std::max(forcing, kTightest));
     const Correction correction = measure_correction(x, mass, held);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double share = search(x, value, correction.slope);
+    const bool balanced =
+        value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (share == 0) {
-      outcome.converged = unmoved || -correction.slope <= kRounding<Real> * value.size;  // no more to gain
+      outcome.converged =
+          balanced && (unmoved || -correction.slope <= kRounding<Real> * value.size);  // no more to gain
       break;
     }
-    outcome.converged = shift <= limits_.least_shift &&
+    outcome.converged = balanced && shift <= limits_.least_shift &&
                         (unmoved || std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity);
     shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
@@ -67,6 +71,19 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     forcing = std::min(kLoosest, 0.9 * std::pow(value.residual / before, 2));
   }
   return outcome;
+}
+
+// Newton's direction with the full stiffness of the membrane; where that is indefinite, with its positive
+// part (Longva et al. 2023 compare the two).  Returns the linear solver's iterations.
+template <class Real, class Device>
+long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held, double shift,
+                                          double tolerance) {
+  LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift));
+  negate_gradient();
+  const PcgOutcome full = solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance);
+  if (!full.indefinite) return full.iterations;
+  system.softening = {};
+  return full.iterations + solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
 }
 
 // Takes the first share of the direction, 1 or less, that lowers the potential enough, and returns it; 0 if

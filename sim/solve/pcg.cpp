@@ -124,16 +124,21 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
   Scalars* s = scalars_.data();
   const BendingForceView<Real> bending = bend(system, p);
+  const ScalarRowsView<Real> softening = system.softening;
   for_each_sum<1>(
       device_, "solve: product", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (s->done || held[i]) return;
-        q[i] = matrix.times(i, p);
+        q[i] = softening.off ? matrix.times(i, p, softening) : matrix.times(i, p);
         if (bending.start) q[i] -= bending.at(i);
         sums.term[0] += static_cast<double>(p[i].dot(q[i]));
       },
       HYST_KERNEL(const Sums<1>& total) {
-        if (!s->done) s->alpha = s->residual / total.term[0];
+        if (s->done) return;
+        if (total.term[0] > 0)
+          s->alpha = s->residual / total.term[0];
+        else
+          s->done = kIndefinite;
       });
   if (system.preconditioner)
     advance_preconditioned(system, held, x);
@@ -201,7 +206,7 @@ PcgOutcome Pcg<Real, Device>::solve(const System& system, const char* held, cons
     sent += batch;
   }
   last_iterations_ = scalars.iterations;
-  return {scalars.iterations, scalars.done != 0};
+  return {scalars.iterations, scalars.done == kConverged, scalars.done == kIndefinite};
 }
 
 template class Pcg<double, ThisDevice>;

@@ -11,15 +11,18 @@ namespace hysteron {
 struct PcgOutcome {
   int iterations = 0;
   bool converged = false;
+  bool indefinite = false;  // a direction was met along which the system is not positive; x is from before it
 };
 
-// matrix * p, plus bending's stiffness at its last linearise() where there is one.
+// matrix * p, plus bending's stiffness at its last linearise() where there is one, plus the membrane's
+// softening, which no preconditioner knows.
 template <class Real, class Device>
 struct LinearSystem {
   BlockRowsView<Real> matrix;
   Bending<Real, Device>* bending = nullptr;
   const Mat3<Real>* bending_diagonal = nullptr;  // added to the matrix's blocks before they are inverted
   Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
+  ScalarRowsView<Real> softening = {};                     // null: none
 };
 
 template <class Real, class Device>
@@ -33,11 +36,12 @@ class Pcg {
   // Starts from the multiple of `guess` that is best in the matrix's norm, from x = 0 if guess is null;
   // `guess` may be x itself. Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the
   // preconditioner: where known impulses balance those of the implicit forces, these set the scale.
-  // known may be null.
+  // known may be null.  Ends, too, at a direction p with p' matrix p <= 0.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
   std::size_t bytes() const;
 
+  enum Done { kNotYet, kConverged, kIndefinite };
   struct Scalars {  // on the device, so that iterations need no word from the host
     double residual, target, alpha, beta;
     int iterations, done;

@@ -121,19 +121,26 @@ void Stepper<Real, Device>::hold(double start, Real h) {
   if (!moving_pins_) return;
   PinPlacements<Real> placements;
   for (std::size_t p = 0; p < scene_.pin.size(); ++p) {
-    const Placement at = placement(scene_.pin[p].motion, start + static_cast<double>(h));
+    const Motion& motion = scene_.pin[p].motion;
+    const Placement from = placement(motion, start), at = placement(motion, start + static_cast<double>(h));
+    const Eigen::AngleAxisd turn(at.rotation * from.rotation.transpose());
     placements.rotation[p] = at.rotation.template cast<Real>();
     placements.translation[p] = at.translation.template cast<Real>();
+    placements.turn[p] = (turn.angle() * turn.axis()).template cast<Real>();
+    placements.pivot[p] = at(motion.center).template cast<Real>();
+    placements.shift[p] = (at(motion.center) - from(motion.center)).template cast<Real>();
   }
   const int* pin = pin_.data();
   const char* held = held_.data();
   const Vec3<Real>*origin = start_.data(), *x = x_.data();
-  Vec3<Real>* v = v_.data();
+  Vec3<Real>*v = v_.data(), *way = handle_way_.data();
   for_each(
       *device_, "handles", vertices_, HYST_KERNEL(int i) {
         if (!held[i]) return;
         const int p = pin[i];
-        v[i] = (placements.rotation[p] * origin[i] + placements.translation[p] - x[i]) / h;
+        const Vec3<Real> end = placements.rotation[p] * origin[i] + placements.translation[p];
+        v[i] = (end - x[i]) / h;
+        if (way) way[i] = placements.turn[p].cross(end - placements.pivot[p]) + placements.shift[p];
       });
 }
 

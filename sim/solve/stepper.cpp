@@ -73,6 +73,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
   if (moving_pins_) {
     start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
     pin_ = Buffer<int, Device>(*device_, cloth.pin);
+    if (all_implicit_) handle_way_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {
@@ -228,7 +229,8 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   add("commands", !scene_.command.empty(), 0, "bending command", "no command");
   add("viscous damping", scene_.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene_.air_drag > 0, 0, "substep", "air-drag = 0");
-  add("moving handles", moving_pins_, start_.bytes() + pin_.bytes(), "handles", "no pin moves");
+  add("moving handles", moving_pins_, start_.bytes() + pin_.bytes() + handle_way_.bytes(), "handles",
+      "no pin moves");
   add("obstacles", contact_.has_value(), contact_ ? contact_->bytes() + before_.bytes() : 0,
       "contact, contact history", "no obstacles");
   add("energy ledger", true, ledger_.bytes(), "substep, implicit ledger", "");

@@ -20,6 +20,8 @@ template <class Real>
 struct PinPlacements {
   Mat3<Real> rotation[kMostMovingPins];
   Vec3<Real> translation[kMostMovingPins];
+  // The way of a step as one screw: the pin turns by `turn` about a pivot that moves by `shift`.
+  Vec3<Real> turn[kMostMovingPins], pivot[kMostMovingPins], shift[kMostMovingPins];  // [rad], at the end [m]
 };
 
 template <class Real, class Device>
@@ -81,7 +83,9 @@ class Stepper : public Simulation {
  private:
   void choose_substeps(const Cloth& cloth, const CurvatureOperator& op, const StepLimits& limits);
   Ledger measure();
-  VertexState<Real> vertex_state() { return {x_.data(), v_.data(), held_.data(), mass_.data()}; }
+  VertexState<Real> vertex_state() {
+    return {x_.data(), v_.data(), held_.data(), mass_.data(), handle_way_.data()};
+  }
 
   std::unique_ptr<Device> device_;
   Scene scene_;
@@ -104,7 +108,8 @@ class Stepper : public Simulation {
   std::vector<int> pin_host_;
   std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
-  Buffer<Vec3<Real>, Device> impulse_;  // of the explicit forces over a stage [N s]
+  Buffer<Vec3<Real>, Device> handle_way_;  // of implicit steps with moving pins
+  Buffer<Vec3<Real>, Device> impulse_;     // of the explicit forces over a stage [N s]
   Buffer<Vec3<Real>, Device> change_,
       correction_;  // dv of the implicit stage, and of its last Newton step [m/s]
   Buffer<Real, Device> mass_;
