@@ -119,9 +119,11 @@ void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* dire
 }
 
 template <class Real, class Device>
-LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const Vec3<Real>* x, Real shift) {
+LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const Vec3<Real>* x, Real shift,
+                                                                         bool full) {
   const BlockRowsView<Real> matrix = matrix_.view();
-  const ScalarRowsView<Real> softening{softening_off_.data(), softening_diagonal_.data()};
+  ScalarRowsView<Real> softening;
+  if (full) softening = {softening_off_.data(), softening_diagonal_.data()};
   membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix, softening);
   bending_.linearise();
   const Real over = static_cast<Real>(start_.formula.over);

@@ -48,10 +48,10 @@ class IncrementalPotential {
   void lag_friction(const Vec3<Real>* x);
   // Phi and its gradient; the direction may be null.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
-  // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  Without its
-  // softening it is positive semidefinite; bending's is Gauss-Newton's, without the second derivatives of
-  // angles.
-  LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift);
+  // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  It is
+  // positive semidefinite unless it is `full`: then with what compression takes away.  Bending's part is
+  // Gauss-Newton's, without the second derivatives of angles.
+  LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   double load();  // norm of the weight of all free vertices [N]
   bool has_friction() const { return contact_ != nullptr; }

@@ -38,18 +38,21 @@ Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<
 template <class Real, class Device>
 NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
                                              double total_mass, double over) {
-  constexpr double kLoosest = 0.02, kTightest = 1e-5;
+  constexpr double kLoosest = 0.1, kTightest = 1e-5;
+  constexpr double kNear = 0.1;  // share of the first unbalanced force below which the full stiffness is used
   NewtonOutcome outcome;
   const double weight = potential_.load();
   potential_.lag_friction(x);
   PotentialValue value = potential_.evaluate(x, nullptr);
+  const double first = value.residual;
   double forcing = kLoosest, shift = limits_.first_shift;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
     outcome.load = std::hypot(weight, value.reaction);
     outcome.converged |= value.residual <= limits_.residual * outcome.load;
     if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
-    outcome.linear_iterations += find_direction(x, held, shift, std::max(forcing, kTightest));
+    outcome.linear_iterations +=
+        find_direction(x, held, shift, value.residual < kNear * first, std::max(forcing, kTightest));
     const Correction correction = measure_correction(x, mass, held);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
@@ -73,17 +76,15 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   return outcome;
 }
 
-// Newton's direction with the full stiffness of the membrane; where that is indefinite, with its positive
-// part (Longva et al. 2023 compare the two).  Returns the linear solver's iterations.
+// Newton's direction.  With `full` the membrane's softening under compression counts, and where the stiffness
+// is indefinite the direction leads down along its negative curvature, away from the saddle; without, the
+// stiffness is positive.  Longva et al. 2023 compare such choices.  Returns the linear solver's iterations.
 template <class Real, class Device>
-long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held, double shift,
+long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held, double shift, bool full,
                                           double tolerance) {
-  LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift));
+  const LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift), full);
   negate_gradient();
-  const PcgOutcome full = solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance);
-  if (!full.indefinite) return full.iterations;
-  system.softening = {};
-  return full.iterations + solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
+  return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
 }
 
 // Takes the first share of the direction, 1 or less, that lowers the potential enough, and returns it; 0 if

@@ -47,7 +47,7 @@ class Newton {
   void negate_gradient();
 
  private:
-  long find_direction(const Vec3<Real>* x, const char* held, double shift, double tolerance);
+  long find_direction(const Vec3<Real>* x, const char* held, double shift, bool full, double tolerance);
   double search(Vec3<Real>* x, PotentialValue& value, double slope);
 
   Device& device_;

@@ -135,10 +135,8 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
       },
       HYST_KERNEL(const Sums<1>& total) {
         if (s->done) return;
-        if (total.term[0] > 0)
-          s->alpha = s->residual / total.term[0];
-        else
-          s->done = kIndefinite;
+        s->indefinite = !(total.term[0] > 0);
+        s->alpha = s->residual / (s->indefinite ? -total.term[0] : total.term[0]);
       });
   if (system.preconditioner)
     advance_preconditioned(system, held, x);
@@ -206,7 +204,7 @@ PcgOutcome Pcg<Real, Device>::solve(const System& system, const char* held, cons
     sent += batch;
   }
   last_iterations_ = scalars.iterations;
-  return {scalars.iterations, scalars.done == kConverged, scalars.done == kIndefinite};
+  return {scalars.iterations, scalars.done == kConverged};
 }
 
 template class Pcg<double, ThisDevice>;

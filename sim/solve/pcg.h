@@ -11,7 +11,6 @@ namespace hysteron {
 struct PcgOutcome {
   int iterations = 0;
   bool converged = false;
-  bool indefinite = false;  // a direction was met along which the system is not positive; x is from before it
 };
 
 // matrix * p, plus bending's stiffness at its last linearise() where there is one, plus the membrane's
@@ -36,7 +35,8 @@ class Pcg {
   // Starts from the multiple of `guess` that is best in the matrix's norm, from x = 0 if guess is null;
   // `guess` may be x itself. Ends when sqrt(r' P r) <= tolerance * sqrt(s' P s), s = rhs - known, P the
   // preconditioner: where known impulses balance those of the implicit forces, these set the scale.
-  // known may be null.  Ends, too, at a direction p with p' matrix p <= 0.
+  // known may be null.  Ends, too, after a step along a direction p with p' matrix p <= 0, taken
+  // downwards and as long as if that were its magnitude; then it has not converged.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
   std::size_t bytes() const;
@@ -44,14 +44,14 @@ class Pcg {
   enum Done { kNotYet, kConverged, kIndefinite };
   struct Scalars {  // on the device, so that iterations need no word from the host
     double residual, target, alpha, beta;
-    int iterations, done;
+    int iterations, done, indefinite;
 
     HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
       if (done) return;
       beta = new_residual / residual;
       residual = new_residual;
       iterations += 1;
-      done = !(residual > target);
+      done = indefinite ? int(kIndefinite) : !(residual > target);
     }
   };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
