@@ -48,6 +48,7 @@ TEST(LawRun, RefusesWhatIsUnknownOrOutOfRangeInOneLine) {
   EXPECT_NE(refusal({"kim", c, {{"tau", "0"}}}).find("tau = 0 must be > 0 s"), std::string::npos);
   EXPECT_NE(refusal({"narain", {1e-5, 1e-5, 0}, {}}).find("yield must be given"), std::string::npos);
   EXPECT_NE(refusal({"spring", c, {{"height", "0.2"}}}).find("height = 0.2 m"), std::string::npos);
+  EXPECT_NE(refusal({"spring", c, {{"height", "1e-5"}}}).find("crush the triangles"), std::string::npos);
   EXPECT_NE(
       refusal({"wong", c, {{"fatigue.m-inf", "1"}}}).find("fatigue.m-inf = 1 N must be in [0, 0.000608]"),
       std::string::npos);
