@@ -51,6 +51,7 @@ Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags
 
 int drape(const CommandLine& line);
 int swing(const CommandLine& line);
+int cantilever(const CommandLine& line);
 int accuracy(const CommandLine& line);
 int bench(const CommandLine& line);
 int kes(const CommandLine& line);
@@ -61,6 +62,7 @@ int list(const CommandLine& line);
 int report(const CommandLine& line);
 int stability(const CommandLine& line);
 
+std::vector<KeyDescription> cantilever_keys();
 std::vector<KeyDescription> accuracy_keys();
 std::vector<KeyDescription> bench_keys();
 std::vector<KeyDescription> drape_keys();
