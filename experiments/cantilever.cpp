@@ -153,9 +153,10 @@ int cantilever(const CommandLine& line) {
   Session session(line, setup);
   if (session.only_explain()) return 0;
 
+  const auto load_at = [&](double time) { return std::min(1.0, time / scene.ramp); };
   std::vector<double> loads;
   for (int k = 1; k <= std::lround(scene.seconds * setup.options.fps); ++k)
-    loads.push_back(std::min(1.0, k / (setup.options.fps * scene.ramp)));
+    loads.push_back(load_at(k / setup.options.fps));
   const std::vector<SaggingStrip> reference = sagging_strips(strip, loads);
   const auto elastica_drop = [&](double load) {
     for (const SaggingStrip& s : reference)
@@ -168,15 +169,14 @@ int cantilever(const CommandLine& line) {
   question.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
   question.columns = {"load [1]", "drop [1]", "elastica [1]"};
   question.measure = [&](const Moment& m) -> std::vector<double> {
-    const double load = std::min(1.0, m.time / scene.ramp);
+    const double load = load_at(m.time);
     drop = free_end(session.cloth(), scene, length, m.x).y() / length;
     return {load, drop, elastica_drop(load)};
   };
   question.progress = [&](const Moment& m) {
     char text[100];
-    std::snprintf(text, sizeof text, "load %.2f  drop %.4f of the length, elastica %.4f",
-                  std::min(1.0, m.time / scene.ramp), drop,
-                  elastica_drop(std::min(1.0, m.time / scene.ramp)));
+    std::snprintf(text, sizeof text, "load %.2f  drop %.4f of the length, elastica %.4f", load_at(m.time),
+                  drop, elastica_drop(load_at(m.time)));
     return std::string(text);
   };
   session.simulate(question);

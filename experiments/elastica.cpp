@@ -62,7 +62,7 @@ class Points {
 
 // The curve and the moments of its weight for load 1, with their derivatives by the curvatures.
 struct Curve {
-  VectorXd middle_angle, node_angle;
+  VectorXd node_angle;
   std::vector<Eigen::Vector2d> node;
   VectorXd moment;
   MatrixXd by_curvature;
@@ -70,16 +70,16 @@ struct Curve {
 
 Curve curve_of(const VectorXd& h, const VectorXd& curvature, double weight) {
   const int n = static_cast<int>(h.size());
-  Curve c{VectorXd(n), VectorXd::Zero(n + 1), {{0, 0}}, VectorXd(n), MatrixXd(n, n)};
+  Curve c{VectorXd::Zero(n + 1), {{0, 0}}, VectorXd(n), MatrixXd(n, n)};
   MatrixXd turn = MatrixXd::Zero(n, n), middle_moves(n, n);  // of angles and places at the middles
-  VectorXd middle(n);
+  VectorXd middle(n), middle_angle(n);
   Eigen::RowVectorXd node_moves = Eigen::RowVectorXd::Zero(n);
   for (int i = 0; i < n; ++i) {
-    c.middle_angle[i] = c.node_angle[i] + h[i] / 2 * curvature[i];
+    middle_angle[i] = c.node_angle[i] + h[i] / 2 * curvature[i];
     c.node_angle[i + 1] = c.node_angle[i] + h[i] * curvature[i];
     turn.row(i).head(i) = h.head(i).transpose();
     turn(i, i) = h[i] / 2;
-    const double cosine = std::cos(c.middle_angle[i]), sine = std::sin(c.middle_angle[i]);
+    const double cosine = std::cos(middle_angle[i]), sine = std::sin(middle_angle[i]);
     middle[i] = c.node[i].x() + h[i] / 2 * cosine;
     middle_moves.row(i) = node_moves - h[i] / 2 * sine * turn.row(i);
     node_moves -= h[i] * sine * turn.row(i);
@@ -90,9 +90,9 @@ Curve curve_of(const VectorXd& h, const VectorXd& curvature, double weight) {
   Eigen::RowVectorXd first_moves = Eigen::RowVectorXd::Zero(n);
   for (int i = n - 1; i >= 0; --i) {
     const double own = h[i] * h[i] / 8;  // of the outer half of the segment itself, about its middle
-    c.moment[i] = weight * (first - length * middle[i] + own * std::cos(c.middle_angle[i]));
-    c.by_curvature.row(i) = weight * (first_moves - length * middle_moves.row(i) -
-                                      own * std::sin(c.middle_angle[i]) * turn.row(i));
+    c.moment[i] = weight * (first - length * middle[i] + own * std::cos(middle_angle[i]));
+    c.by_curvature.row(i) =
+        weight * (first_moves - length * middle_moves.row(i) - own * std::sin(middle_angle[i]) * turn.row(i));
     length += h[i];
     first += h[i] * middle[i];
     first_moves += h[i] * middle_moves.row(i);
