@@ -130,4 +130,22 @@ void write_csv(const std::filesystem::path& file, const Table& table) {
   target.commit();
 }
 
+namespace {
+
+// As a field of a CSV file (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string row_of(const std::vector<std::string>& fields) {
+  std::string row;
+  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + field(fields[i]);
+  return row + "\n";
+}
+
 }  // namespace hysteron::experiments

@@ -31,4 +31,7 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
 // becomes `file` once it is complete.  Throws Error::machine and leaves nothing if that fails.
 void write_csv(const std::filesystem::path& file, const Table& table);
 
+// A line of a table of words and numbers, its end included; fields are quoted where they need it.
+std::string row_of(const std::vector<std::string>& fields);
+
 }  // namespace hysteron::experiments

@@ -15,7 +15,7 @@ struct HeavyStrip {
   LawRequest law;
   double weight = 1;   // per area, of load 1 [N/m^2]
   double length = 1;   // [m]
-  int segments = 400;  // shorter towards the clamp
+  int segments = 200;  // shorter towards the clamp
 };
 
 // In equilibrium under `load` times the weight.

@@ -52,6 +52,7 @@ Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags
 int drape(const CommandLine& line);
 int swing(const CommandLine& line);
 int cantilever(const CommandLine& line);
+int buckle(const CommandLine& line);
 int accuracy(const CommandLine& line);
 int bench(const CommandLine& line);
 int kes(const CommandLine& line);
@@ -61,8 +62,10 @@ int fit(const CommandLine& line);
 int list(const CommandLine& line);
 int report(const CommandLine& line);
 int stability(const CommandLine& line);
+int validate(const CommandLine& line);
 
 std::vector<KeyDescription> cantilever_keys();
+std::vector<KeyDescription> buckle_keys();
 std::vector<KeyDescription> accuracy_keys();
 std::vector<KeyDescription> bench_keys();
 std::vector<KeyDescription> drape_keys();
@@ -71,5 +74,6 @@ std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();
 std::vector<KeyDescription> figures_keys();
 std::vector<KeyDescription> stability_keys();
+std::vector<KeyDescription> validate_keys();
 
 }  // namespace hysteron::experiments

@@ -70,6 +70,7 @@ StripTest test_strip(const ClampedStrip& strip, const LawRequest& law, const Kes
   test.law_reading = read_loop(protocol, strip.walk, run_law(law, rows).moment);
   test.newton_iterations = simulation->newton_iterations();
   test.retried_steps = simulation->retried_steps();
+  test.bytes = simulation->device_bytes();
   return test;
 }
 

@@ -17,14 +17,15 @@ inline constexpr double kGauge = 0.01;  // of the tester: cloth between the clam
 struct StripShape {
   std::string mesh = "aligned";  // one of strip_meshes()
   std::string element = "shape";
-  double width = 4e-3;  // [m]
-  int triangles = 340;  // about as many, clamped ones included
+  double width = 4e-3;    // [m]
+  double warp_angle = 0;  // of the fabric against the strip [degree]
+  int triangles = 340;    // about as many, clamped ones included
   // Equilibria from zero to the amplitude.  5 j - 2 of them put the ends of the usual window, 0.2 and 0.6 of
   // the amplitude, on rows, so that a kink there is read exactly.
   int steps = 63;
 };
 
-// The families of the builders, and `aligned-45`: squares at 45 degrees, cut along the strip.
+// The families of the builders.
 const std::vector<std::string>& strip_meshes();
 
 // Curvatures and times of the strip's equilibria.  None but the first is at K = 0, where an elastic strip
@@ -62,6 +63,7 @@ struct StripTest {
   double newton_iterations = 0;  // mean per row
   double seconds = 0;            // wall clock, of the equilibria alone
   long retried_steps = 0;
+  std::size_t bytes = 0;  // that the simulation holds
 };
 
 // Called after each row, with the state at hand.

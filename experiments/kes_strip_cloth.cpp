@@ -3,50 +3,15 @@
 #include <cmath>
 #include <sstream>
 
+#include "experiments/clamped_mesh.h"
 #include "experiments/kes_strip.h"
 #include "sim/error.h"
-#include "sim/mesh/builders.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kOnTheLine = 1e-9;  // [m] of an end's vertices
-
-// Rows of triangles of base 1 are the squares at 45 degrees when they are half as high.
-double row_height(const std::string& mesh) {
-  if (mesh == "aligned-45") return 0.5;
-  return mesh == "equilateral" ? std::sqrt(0.75) : 1;
-}
-
-MeshFamily family_of(const std::string& mesh) {
-  return mesh == "aligned-45" ? MeshFamily::equilateral : mesh_family(mesh);
-}
-
-// Gives the mesh of the cloth between the clamps' edges a column of cells at either end.
-ClothMesh with_clamped_columns(const ClothMesh& between, double length, double spacing) {
-  std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector3d& p : between.rest) points.emplace_back(p.x() + spacing, p.y());
-  std::vector<Eigen::Vector3i> triangles = between.face;
-  for (const bool far : {false, true}) {
-    std::vector<int> line;
-    for (int i = 0; i < between.vertices(); ++i)
-      if (std::abs(between.rest[i].x() - (far ? length : 0)) < kOnTheLine) line.push_back(i);
-    std::sort(line.begin(), line.end(), [&](int a, int b) { return points[a].y() < points[b].y(); });
-    const int first = static_cast<int>(points.size());
-    for (int i : line) points.emplace_back(far ? length + 2 * spacing : 0, points[i].y());
-    for (std::size_t j = 0; j + 1 < line.size(); ++j) {
-      const int outer = first + static_cast<int>(j), inner = line[j], inner_next = line[j + 1];
-      if (far)
-        triangles.insert(triangles.end(), {{inner, outer, outer + 1}, {inner, outer + 1, inner_next}});
-      else
-        triangles.insert(triangles.end(), {{outer, inner, inner_next}, {outer, inner_next, outer + 1}});
-    }
-  }
-  return flat_mesh(points, std::move(triangles), "strip");
-}
-
 // Where a chain of chords as long as the columns' spacing ends that bends uniformly through K L: its chords'
 // middles lie on a circle of radius d/(2 tan(K d/2)), a little less than 1/K.
 Keyframe bent(double curvature, double spacing, double time) {
@@ -137,32 +102,21 @@ ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const
                            const KesProtocol& protocol) {
   check_strip(shape, law, protocol);
   ClampedStrip strip{{}, {}, strip_walk(protocol, shape.steps), 0};
-  const double height = row_height(shape.mesh);
-  const double area = kGauge * shape.width / shape.triangles;
-  const int columns = std::max(3, static_cast<int>(std::lround(kGauge / std::sqrt(2 * area / height))));
-  const double d = strip.spacing = kGauge / columns;
-  const int rows = std::max(1, static_cast<int>(std::lround(shape.width / (d * height))));
-
+  ClampedMesh clamped = clamped_mesh(shape.mesh, kGauge, shape.width, shape.triangles, 2, 1);
+  const double d = strip.spacing = clamped.spacing;
   Scene& scene = strip.scene = scene_of(shape, law, fabric, strip.walk);
   scene.cloth.shape = "strip";
-  scene.cloth.length = kGauge + d;
+  scene.cloth.length = clamped.length;
   scene.cloth.width = shape.width;
-  ClothMesh& mesh = strip.cloth.mesh;
-  mesh = make_grid(kGauge - d, shape.width, columns - 1, rows, family_of(shape.mesh), scene.seed);
-  mesh = with_clamped_columns(mesh, kGauge - d, d);
-  scene.triangles = mesh.faces();
-
-  scene.pin = {clamp_between(-1, d), clamp_between(kGauge, 1)};
+  scene.cloth.warp_angle = shape.warp_angle;
+  scene.triangles = clamped.mesh.faces();
+  scene.pin = {clamp_between(-1, clamped.near()), clamp_between(clamped.far(), 1)};
   Motion& motion = scene.pin[1].motion;
   motion.axis = {0, -1, 0};  // warp turns towards +z
   motion.center = {kGauge + d / 2, shape.width / 2, 0};
   for (std::size_t i = 0; i < strip.walk.rows.size(); ++i)
     motion.keys.push_back(bent(strip.walk.rows[i].curvature, d, static_cast<double>(i) * scene.step));
-  strip.cloth.start = mesh.rest;
-  for (const Eigen::Vector3d& x : mesh.rest)
-    strip.cloth.pin.push_back(is_in_box(x, scene.pin[0].low, scene.pin[0].high)   ? 0
-                              : is_in_box(x, scene.pin[1].low, scene.pin[1].high) ? 1
-                                                                                  : -1);
+  strip.cloth = place_cloth(scene, std::move(clamped.mesh));
   return strip;
 }
 

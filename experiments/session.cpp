@@ -6,6 +6,7 @@
 
 #include "experiments/record.h"
 #include "experiments/report.h"
+#include "sim/bending/curvature_operator.h"
 #include "sim/bending/recovery.h"
 
 namespace hysteron::experiments {
@@ -75,8 +76,11 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
             << " per triangle" << std::endl;
 }
 
-Session::Session(const CommandLine& line, const Setup& setup)
-    : setup_(setup), cloth_(make_cloth(setup.scene)), simulation_(make_simulation(setup.scene, cloth_)) {
+Session::Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth)
+    : setup_(setup),
+      cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
+      simulation_(make_simulation(setup.scene, cloth_)),
+      rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
     return;
@@ -86,6 +90,29 @@ Session::Session(const CommandLine& line, const Setup& setup)
   run_->note("triangles", cloth_.mesh.faces());
   run_->note("hinges", cloth_.mesh.interior_edges);
   run_->note("substeps", simulation_->limits().substeps);
+}
+
+// An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
+constexpr double kSharp = 0.5;
+
+void Session::watch_folds(const std::vector<Eigen::Vector3d>& x) {
+  const std::vector<double> angle = hinge_angles(cloth_.mesh, x);
+  long sharp = 0;
+  for (std::size_t e = 0; e < angle.size(); ++e) sharp += std::abs(angle[e] - rest_angle_[e]) > kSharp;
+  folded_ = std::max(folded_, static_cast<double>(sharp) / std::max<std::size_t>(1, angle.size()));
+}
+
+void Session::note_folds() {
+  constexpr double kMany = 0.01;
+  run_->metric("sharp_edges_percent", 100 * folded_);
+  if (folded_ < kMany) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "warning: up to %.1f %% of the edges were folded by more than %.1f rad, where bending is more "
+      "than 2.5 %% too soft: take more triangles",
+      100 * folded_, kSharp);
+  run_->progress(text);
 }
 
 bool Session::only_explain() const { return setup_.options.explain; }
@@ -129,6 +156,7 @@ bool Session::simulate(const Question& question) {
     for (const auto& [name, joules] : ledger.rows()) row.push_back(joules);
     record.row(row);
     if (pictures_) pictures_->frame(*run_);
+    watch_folds(x);
     export_mesh(frame, x);
     run_->progress(question.progress(moment));
     settled = frame > 0 && question.settled && question.settled(moment);
@@ -165,6 +193,7 @@ void Session::finish(const std::string& title) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
+  note_folds();
   note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");
   run_->finish();

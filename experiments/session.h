@@ -36,8 +36,8 @@ void explain(const Cloth& cloth, const Simulation& simulation);
 
 class Session {
  public:
-  // Builds the cloth and the simulation; makes the run's folder.
-  Session(const CommandLine& line, const Setup& setup);
+  // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
+  Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
 
   bool only_explain() const;  // --explain: it is printed already
   Run& run() { return *run_; }
@@ -55,6 +55,8 @@ class Session {
   void finish(const std::string& title);
 
  private:
+  void watch_folds(const std::vector<Eigen::Vector3d>& x);
+  void note_folds();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 
   Setup setup_;
@@ -62,6 +64,8 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
+  std::vector<double> rest_angle_;
+  double folded_ = 0;  // largest share of sharply folded edges
 };
 
 }  // namespace hysteron::experiments

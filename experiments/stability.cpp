@@ -28,7 +28,7 @@ double diagonal(const ClothMesh& mesh) {
   return (high - low).norm();
 }
 
-long planned_steps(const Simulation& simulation, const Scene& scene, const Effort& effort) {
+long planned_steps(const Simulation& simulation, const Scene& scene, const CellEffort& effort) {
   const bool solved = scene.integrator == "implicit" || scene.integrator == "bdf2";
   const double work = solved ? kWorkOfSolvedStep : simulation.limits().substeps;
   return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
@@ -69,7 +69,7 @@ class Watch {
   Finding& finding_;
 };
 
-void simulate(const Scene& scene, const Cloth& cloth, const Effort& effort, Finding& finding) {
+void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, Finding& finding) {
   const auto simulation = make_simulation(scene, cloth);
   finding.substeps = simulation->limits().substeps;
   const long steps = planned_steps(*simulation, scene, effort);
@@ -102,7 +102,7 @@ const char* name_of(Outcome outcome) {
   }
 }
 
-Finding find_out(const Attempt& attempt, const Effort& effort) {
+Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   Finding finding;
   const auto start = std::chrono::steady_clock::now();
   Scene scene = attempt.scene;
@@ -140,7 +140,7 @@ std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& 
   return cells;
 }
 
-void try_all(std::vector<Cell>& cells, const Effort& effort, int threads,
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t)>& done) {
   std::size_t finished = 0;
   std::mutex reporting;

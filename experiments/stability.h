@@ -30,7 +30,7 @@ struct Attempt {
 
 // How long: `seconds` of simulated time, but no more steps than the work allows, and at least one.  An
 // explicit substep is 1 of work, a step that solves for all forces at once kWorkOfSolvedStep.
-struct Effort {
+struct CellEffort {
   double seconds = 1;
   double work = 4000;
 };
@@ -57,7 +57,7 @@ struct Finding {
 inline constexpr double kLargestGrowth = 1.1;
 
 // Tries it.  What the program refuses or breaks off is a finding; Error::machine is thrown.
-Finding find_out(const Attempt& attempt, const Effort& effort);
+Finding find_out(const Attempt& attempt, const CellEffort& effort);
 
 // An axis of a map.
 struct SweepAxis {
@@ -105,7 +105,7 @@ struct Cell {
 // The cells of all sweeps under all integrators, not yet tried.
 std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
 // Tries them, `threads` at a time; `done` is called after each with how many are done.
-void try_all(std::vector<Cell>& cells, const Effort& effort, int threads,
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t done)>& done);
 
 }  // namespace hysteron::experiments

@@ -18,7 +18,7 @@ constexpr const char* kLimitSweep = "explicit-limit";
 struct StabilityFlags {
   std::string device = "cpu";
   std::string integrator = "all", law, sweep = "all";
-  Effort effort;
+  CellEffort effort;
   double threads = 0, limit_steps = 2000;
   Options options;
 };
@@ -30,8 +30,8 @@ const KeyRow<F> kRows[] = {
     {"integrator", at<&F::integrator>, "", any(), "", "NAME, several apart by commas, or all"},
     {"law", at<&F::law>, "", any(), "", "of all sweeps; default: linear, prandtl and wong in maps, all in scenes"},
     {"sweep", at<&F::sweep>, "", any(), "", "NAME, several apart by commas, or all"},
-    {"seconds", at<&F::effort, &Effort::seconds>, "s", positive(), "", "simulated time of a cell"},
-    {"work", at<&F::effort, &Effort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
+    {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
+    {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
     {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
     {"threads", at<&F::threads>, "", between(0, 1024), "", "cells at a time; 0: all cores, or 1 on cuda"},
 };

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "experiments/csv.h"
 #include "sim/atomic_file.h"
 #include "sim/scene/scene_reader.h"
 
@@ -15,20 +16,6 @@ std::string formatted(const char* format, double value) {
   char text[40];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-// As a field of a CSV file (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string row_of(const std::vector<std::string>& fields) {
-  std::string row;
-  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + field(fields[i]);
-  return row + "\n";
 }
 
 std::string number(double value) { return std::isfinite(value) ? formatted("%.6g", value) : ""; }
@@ -122,18 +109,24 @@ void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cel
 
 void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   AtomicFile file(run.path("limit.csv").string());
-  file.stream() << "mesh,element,edge,law,damping [s],amplitude [m],bound [s],measured [s],measured/bound\n";
-  double least = kMostRatio, most = 0;
+  file.stream()
+      << "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound\n";
+  double least = kMostRatio, most = 0, least_resonant = kMostRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     file.stream() << row_of({of.mesh, of.element, of.held ? "held" : "free", of.condition.law,
-                             number(of.condition.damping), number(of.condition.amplitude),
+                             number(of.condition.damping), number(of.condition.amplitudes.back()),
                              number(limit.bound), number(limit.measured), number(limit.ratio())});
+    if (of.condition.resonates() && of.condition.damping == 0) {
+      least_resonant = std::min(least_resonant, limit.ratio());
+      continue;
+    }
     least = std::min(least, limit.ratio()), most = std::max(most, limit.ratio());
   }
   file.commit();
   run.metric("limit_smallest_ratio", least);
   run.metric("limit_largest_ratio", most);
+  if (least_resonant < kMostRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
 }
 
 void print_limits(const std::vector<MeasuredLimit>& limits) {
@@ -142,7 +135,8 @@ void print_limits(const std::vector<MeasuredLimit>& limits) {
     const LimitCase& of = limit.of;
     std::printf("%-11s %-5s %-4s %-8s damping %-6g s  amplitude %-6g m  %.3g / %.3g s = %.3f\n",
                 of.mesh.c_str(), of.element.c_str(), of.held ? "held" : "free", of.condition.law.c_str(),
-                of.condition.damping, of.condition.amplitude, limit.measured, limit.bound, limit.ratio());
+                of.condition.damping, of.condition.amplitudes.back(), limit.measured, limit.bound,
+                limit.ratio());
   }
 }
 

@@ -13,14 +13,14 @@ constexpr double kClamp = 0.01;  // clamped length [m]
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "semi-implicit";
+  scene.integrator = "bdf2";
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.09;
   scene.cloth.width = 0.03;
   scene.mesh = "unionjack";
   scene.triangles = 1000;
   scene.seconds = 2;
-  scene.step = 5e-4;
+  scene.step = 1.0 / 240;
   scene.fabric.damping = 1e-5;
   setup.options.fps = 60;
   setup.options.camera_direction = {0.25, -1.0, 0.25};

@@ -62,6 +62,7 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
       convention_(convention),
       viscosity_(static_cast<Real>(viscosity)),
       law_(std::move(law)),
+      metric_(op.metric),
       area_(device, cast<Real>(op.area)),
       coefficient_(device, cast<Real>(op.coefficient)),
       transposed_(device, cast<Real>(op.transposed)),
@@ -208,6 +209,13 @@ double Bending<Real, Device>::viscous_loss() {
 }
 
 template <class Real, class Device>
+std::vector<double> Bending<Real, Device>::geometric(const std::vector<Real>& curvature) const {
+  std::vector<double> result(curvature.begin(), curvature.end());
+  for (std::size_t i = 0; i < metric_.size(); ++i) result[i] = metric_[i] > 0 ? result[i] / metric_[i] : 0;
+  return result;
+}
+
+template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::curvature() {
   Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
   const OperatorView<Real> op = view();
@@ -224,15 +232,17 @@ std::vector<double> Bending<Real, Device>::curvature() {
           for (int c = 0; c < 3; ++c) k[3 * i + c] = s[c];
         });
   }
-  const std::vector<Real> values = result.download();
-  return {values.begin(), values.end()};
+  return geometric(result.download());
 }
 
 template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::moment() {
   std::vector<Real> values = moment_area_.download();
   const std::vector<Real> area = area_.download();
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] /= area[i / dimension_];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] /= area[i / dimension_];
+    if (!metric_.empty()) values[i] *= static_cast<Real>(metric_[i]);
+  }
   return {values.begin(), values.end()};
 }
 
@@ -240,8 +250,7 @@ template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::residual_curvature() {
   Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
   law_->residual(device_, elements_, result.data());
-  const std::vector<Real> values = result.download();
-  return {values.begin(), values.end()};
+  return geometric(result.download());
 }
 
 template <class Real, class Device>

@@ -76,12 +76,14 @@ class Bending {
 
  private:
   OperatorView<Real> view() const;
+  std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
 
   Device& device_;
   int dimension_, elements_, hinges_;
   ForceConvention convention_;
   Real viscosity_;  // moment over curvature rate [N m s]
   std::unique_ptr<LawLoop<Real, Device>> law_;
+  std::vector<double> metric_;  // D per element; empty: 1 (CurvatureOperator::metric)
   Buffer<Real, Device> area_, coefficient_, transposed_, rest_angle_;
   Buffer<int, Device> row_start_, row_hinge_, column_start_, column_element_;
   Buffer<Eigen::Vector4i, Device> corner_;  // p0, p1, p2, p3 of each hinge

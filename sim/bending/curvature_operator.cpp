@@ -1,5 +1,8 @@
 #include "sim/bending/curvature_operator.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/bending/angle.h"
 #include "sim/error.h"
 
@@ -46,6 +49,35 @@ CurvatureOperator make_hinge_operator(const ClothMesh& mesh) {
   }
   transpose_rows(op, mesh.interior_edges);
   return op;
+}
+
+namespace {
+
+// Factors of the D components of element i, with Q as the header has it.
+Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, int i,
+                          const Eigen::Vector3d& q) {
+  if (op.dimension == 3) return q.cwiseSqrt();
+  const Edge& e = mesh.edge[i];
+  const auto axes = mesh.face_axes(e.face0);
+  const Eigen::Vector3d along = (mesh.rest[e.p3] - mesh.rest[e.p2]).normalized();
+  const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
+  const Eigen::Vector3d nu(x * x, y * y, std::sqrt(2.0) * x * y);
+  return {std::sqrt(nu.dot(q.cwiseProduct(nu))), 0, 0};
+}
+
+}  // namespace
+
+void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias) {
+  const Eigen::Vector3d q(1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2));
+  const int d = op.dimension;
+  op.metric.clear();
+  for (int i = 0; i < op.elements(); ++i) {
+    const Eigen::Vector3d factor = metric_of(op, mesh, i, q);
+    op.metric.insert(op.metric.end(), factor.data(), factor.data() + d);
+    for (int j = op.hinge.start[i]; j < op.hinge.start[i + 1]; ++j)
+      for (int k = 0; k < d; ++k) op.coefficient[j * d + k] *= factor[k];
+  }
+  transpose_rows(op, mesh.interior_edges);
 }
 
 CurvatureOperator make_curvature_operator(const std::string& element, const ClothMesh& mesh,

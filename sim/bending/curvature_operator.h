@@ -20,6 +20,9 @@ struct CurvatureOperator {
   // The same map by columns, so that torques are gathered in a fixed order: rows: hinges; items: elements.
   Adjacency element;
   std::vector<double> transposed;  // D numbers for each item of `element`
+  // Curvatures are multiples of the geometric ones where a fabric bends differently along warp, weft and
+  // bias: D factors per element; empty: 1.
+  std::vector<double> metric;
 
   int elements() const { return static_cast<int>(area.size()); }
 };
@@ -35,6 +38,13 @@ CurvatureOperator make_shape_operator(const ClothMesh& mesh, const std::vector<c
 // Dispatches on "hinge" | "shape"; Error::request otherwise.
 CurvatureOperator make_curvature_operator(const std::string& element, const ClothMesh& mesh,
                                           const std::vector<char>& held);
+
+// Gives the rigidities along weft and bias over that along warp to every law: K' = Q^1/2 K before the law, M
+// = Q^1/2 M' after, with the diagonal Q = (1, weft, 2 bias - (1 + weft)/2) of (S_xx, S_yy, sqrt2 S_xy): a
+// cylinder whose curved direction n is (n_x, n_y) in the warp-weft frame has rigidity b2 nu(n)^T Q nu(n).
+// Along a direction of rigidity q the moments at which friction slides are sqrt(q) times, the curvatures
+// 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
+void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
 // Angles of all hinges of the mesh in the given configuration, within (-pi, pi].
 std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);

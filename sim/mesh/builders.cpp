@@ -11,16 +11,19 @@
 namespace hysteron {
 namespace {
 
-constexpr std::pair<MeshFamily, const char*> kFamilies[] = {{MeshFamily::aligned, "aligned"},
-                                                            {MeshFamily::flipped, "flipped"},
-                                                            {MeshFamily::unionjack, "unionjack"},
-                                                            {MeshFamily::equilateral, "equilateral"},
-                                                            {MeshFamily::random, "random"}};
+constexpr std::pair<MeshFamily, const char*> kFamilies[] = {
+    {MeshFamily::aligned, "aligned"},         {MeshFamily::aligned45, "aligned-45"},
+    {MeshFamily::flipped, "flipped"},         {MeshFamily::unionjack, "unionjack"},
+    {MeshFamily::equilateral, "equilateral"}, {MeshFamily::random, "random"}};
 
 struct Flat {
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector3i> triangles;
 };
+
+bool in_rows(MeshFamily family) {
+  return family == MeshFamily::equilateral || family == MeshFamily::aligned45;
+}
 
 // Cells of size 1 x 1, vertices row by row.
 Flat square_cells(int nx, int ny, MeshFamily family) {
@@ -126,6 +129,11 @@ MeshFamily mesh_family(const std::string& name) {
   throw Error::request("mesh family \"" + name + "\" is unknown; allowed: " + allowed);
 }
 
+double row_height(MeshFamily family) {
+  if (family == MeshFamily::aligned45) return 0.5;
+  return family == MeshFamily::equilateral ? std::sqrt(0.75) : 1;
+}
+
 std::string to_string(MeshFamily family) {
   for (const auto& [known, text] : kFamilies)
     if (known == family) return text;
@@ -172,9 +180,9 @@ ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily fami
   if (nx < 1 || ny < 1 || nx > kMostTriangles / ny)
     throw Error::request("rectangle mesh: " + std::to_string(nx) + " x " + std::to_string(ny) +
                          " cells must be at least 1 x 1 and at most " + std::to_string(kMostTriangles));
-  Flat flat = family == MeshFamily::equilateral ? triangle_rows(nx, ny)
-              : family == MeshFamily::random    ? random_cells(nx, ny, seed)
-                                                : square_cells(nx, ny, family);
+  Flat flat = in_rows(family)                ? triangle_rows(nx, ny)
+              : family == MeshFamily::random ? random_cells(nx, ny, seed)
+                                             : square_cells(nx, ny, family);
   for (auto& p : flat.points) p = {length * (p.x() / nx), width * (p.y() / ny)};
   return flat_mesh(flat.points, std::move(flat.triangles), "rectangle mesh");
 }
@@ -182,7 +190,7 @@ ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily fami
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed) {
   check_size(length, width);
   check_triangles("rectangle", triangles);
-  const CellShape shape = family == MeshFamily::equilateral ? CellShape{std::sqrt(0.75), 1} : CellShape{1, 0};
+  const CellShape shape{row_height(family), in_rows(family) ? 1 : 0};
   const auto [nx, ny] = cell_counts(length, width, triangles, shape);
   return make_grid(length, width, nx, ny, family, seed);
 }

@@ -17,6 +17,9 @@ void check_length(const std::string& what, const std::string& name, double value
 // Error::request unless 2 <= triangles <= kMostTriangles.
 void check_triangles(const std::string& what, int triangles);
 
+// Of a row of cells over their width, where they are regular.
+double row_height(MeshFamily family);
+
 // Whether the square cell (i, j) of a structured family is cut from its lower left to its upper right corner.
 bool rising_diagonal(MeshFamily family, int i, int j);
 

@@ -65,9 +65,10 @@ struct ClothMesh {
 void build_topology(ClothMesh& mesh, const std::string& what);
 
 // Mesh families of the builders (the accuracy of a bending element depends on them).
-//   aligned: squares cut by parallel diagonals; flipped: the other diagonal; unionjack: alternating
-//   diagonals; equilateral: rows of equilateral triangles; random: jittered points, Delaunay triangulated.
-enum class MeshFamily { aligned, flipped, unionjack, equilateral, random };
+//   aligned: squares cut by parallel diagonals; aligned-45: the same with the diagonals along x; flipped: the
+//   other diagonal; unionjack: alternating diagonals; equilateral: rows of equilateral triangles; random:
+//   jittered points, Delaunay triangulated.
+enum class MeshFamily { aligned, aligned45, flipped, unionjack, equilateral, random };
 MeshFamily mesh_family(const std::string& name);  // Error::request for an unknown name
 std::string to_string(MeshFamily family);
 
@@ -77,8 +78,8 @@ std::string to_string(MeshFamily family);
 // evenly spaced, angles mostly above 20 degrees.  Throws Error::request for lengths that are not positive and
 // triangles outside 2 ... 10 million.
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed);
-// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral has
-// ny (2 nx + 1) triangles, random 2 nx ny.
+// Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral
+// and aligned-45 have ny (2 nx + 1) triangles, random 2 nx ny.
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed);
 // Disc around the origin in z = 0; its outline is the polygon of the boundary vertices, all at `radius` and
 // evenly spaced.  Inside, the structured families are their lattice, axes along x and y, as far as 0.8 of its

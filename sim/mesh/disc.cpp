@@ -1,4 +1,5 @@
 // Discs: an evenly spaced ring of vertices on the circle around a lattice or random points.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -109,14 +110,16 @@ void set_diagonals(std::vector<Eigen::Vector3i>& triangles, const std::vector<Si
 }
 
 ClothMesh lattice_disc(double radius, int triangles, MeshFamily family) {
-  const bool hexagonal = family == MeshFamily::equilateral;
+  const bool hexagonal = family == MeshFamily::equilateral, turned = family == MeshFamily::aligned45;
+  const Eigen::Rotation2Dd turn(turned ? kPi / 4 : 0);
+  if (turned) family = MeshFamily::flipped;  // whose diagonals the turn lays along x
   const auto [sites, ring] = fitting_lattice(triangles, hexagonal);
   std::vector<Eigen::Vector2d> points;
   for (const Site& site : sites) points.push_back(site.at);
   append_ring(points, ring);
   std::vector<Eigen::Vector3i> faces = delaunay(points);
   if (!hexagonal) set_diagonals(faces, sites, family);
-  for (auto& p : points) p *= radius;
+  for (auto& p : points) p = radius * (turned ? turn * p : p);
   return flat_mesh(points, std::move(faces), "disc mesh");
 }
 

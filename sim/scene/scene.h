@@ -35,6 +35,8 @@ struct Fabric {
   double b1 = 3.589e-5;  // fabric.b1         initial bending rigidity [N m], >= b2
   double b2 = 1.157e-5;  // fabric.b2         bending rigidity B, slope of the straight KES-FB2 branch [N m]
   double k0 = 50;        // fabric.k0         curvature at which bending friction saturates [1/m]
+  double weft_bending = 1;      // fabric.weft-bending  bending rigidity along weft over that along warp
+  double bias_bending = 1;      // fabric.bias-bending  the same at 45 degrees; 4 bias >= 1 + weft
   double density = 0.1238;      // fabric.density    mass per area [kg/m^2]
   double thickness = 0.497e-3;  // fabric.thickness  [m]
   double warp = 1000;           // fabric.warp       membrane stiffness along warp [N/m]
@@ -47,7 +49,8 @@ struct Fabric {
   std::map<std::string, Provenance> provenance;      // of each parameter above, by its name
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
-  VirginCurve virgin_curve() const { return {b1, b2, k0}; }
+  VirginCurve virgin_curve() const { return {b1, b2, k0}; }  // along warp
+  bool bends_alike() const { return weft_bending == 1 && bias_bending == 1; }
 };
 
 struct ClothShape {
@@ -131,6 +134,7 @@ struct Scene {
   double tolerance = 0;  // tolerance  of positions, per part of a step [m]; 0: steps as given
   std::string linear_solver = "multigrid";  // linear-solver     multigrid | block-jacobi
   double ramp = 0;                          // ramp      quasi-static: time in which the weight grows [s]
+  double unload = 0;                        // unload    after it, time in which the weight falls to none [s]
   std::string device = "auto";              // device     auto | cpu | cuda
   std::string precision = "double";         // precision  double | float
   int threads = 0;                          // threads    0 = all cores

@@ -10,7 +10,8 @@
 namespace hysteron {
 namespace {
 
-const std::vector<std::string> kMeshFamilies = {"aligned", "flipped", "unionjack", "equilateral", "random"};
+const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "flipped",
+                                                "unionjack", "equilateral", "random"};
 
 // Where a key was set; the fabric's program defaults and the experiment's have no place.
 std::string origin_of(const Scene& scene, const std::string& key) {
@@ -32,6 +33,10 @@ void check_fabric(const Scene& scene) {
   }
   if (f.k0 == 0 && f.b1 > f.b2) {
     throw Error::request(shown(scene, "fabric.k0", f.k0, "1/m") + " must be > 0 while fabric.b1 > fabric.b2");
+  }
+  if (4 * f.bias_bending < 1 + f.weft_bending) {
+    throw Error::request(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
+                         number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4");
   }
   if (f.coupling * f.coupling >= f.warp * f.weft) {
     throw Error::request(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +

@@ -23,11 +23,13 @@ std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
   return result;
 }
 
-// Statics let the weight grow over the scene's `ramp`: the cloth passes through states of equilibrium.
+// Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
+// states of equilibrium.
 template <class Real, class Device>
 double Stepper<Real, Device>::load_share(double time) const {
-  if (scene_.integrator != "quasi-static" || !(scene_.ramp > time)) return 1;
-  return time / scene_.ramp;
+  if (scene_.integrator != "quasi-static") return 1;
+  if (scene_.ramp > time) return time / scene_.ramp;
+  return scene_.unload > 0 ? std::max(0.0, 1 - (time - scene_.ramp) / scene_.unload) : 1;
 }
 
 template <class Real, class Device>

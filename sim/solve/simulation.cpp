@@ -105,8 +105,9 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");
-  const CurvatureOperator op =
-      make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, scene.seconds));
+  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, scene.seconds));
+  if (!scene.fabric.bends_alike())
+    stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   if (scene.force == "chapter" && op.dimension != 1)
     throw Error::request("force = chapter needs element = hinge");
   if (scene.force == "chapter" && scene.is_implicit())

@@ -41,6 +41,39 @@ StripTest tested(const StripShape& shape, const LawRequest& law, const KesProtoc
 
 LawRequest cotton(const std::string& law) { return {law, Fabric{}.virgin_curve(), {}}; }
 
+// Strips cut along warp, bias and weft of a fabric measured so; friction scales with the root of the
+// rigidity.
+TEST(StripOfAFabric, HasTheRigidityOfItsDirection) {
+  constexpr double kWeft = 0.6, kBias = 0.7;
+  Fabric fabric;
+  fabric.weft_bending = kWeft, fabric.bias_bending = kBias;
+  const LawRequest law = cotton("prandtl");
+  const KesProtocol p = protocol();
+  StripShape shape = small("random");
+  for (const auto& [angle, ratio] : {std::pair{0.0, 1.0}, {45.0, kBias}, {90.0, kWeft}}) {
+    shape.warp_angle = angle;
+    const StripTest strip = test_strip(clamped_strip(shape, law, fabric, p), law, p);
+    EXPECT_NEAR(strip.reading.rigidity, ratio * fabric.b2, kAgreement * fabric.b2) << angle;
+    const double width = (fabric.b1 - fabric.b2) * fabric.k0;  // 2HB
+    EXPECT_NEAR(strip.reading.loop_width, std::sqrt(ratio) * width, 2 * kAgreement * width) << angle;
+  }
+}
+
+// Laws of scalar form run along four directions of the fabric: 0.4 % along and across them, 6 % in the worst
+// case.
+TEST(StripOfAFabric, FollowsALawOfFourDirectionsWithinSixPercentWhateverItsWarp) {
+  const KesProtocol p = protocol();
+  const LawRequest law = cotton("wong");
+  Fabric fabric;
+  StripShape shape = small("aligned");
+  for (const double angle : {0.0, 11.25, 22.5, 45.0}) {
+    shape.warp_angle = angle;
+    const StripTest strip = test_strip(clamped_strip(shape, law, fabric, p), law, p);
+    EXPECT_NEAR(strip.reading.rigidity / strip.law_reading.rigidity, 1, 0.06) << angle;
+    EXPECT_NEAR(strip.reading.loop_area / strip.law_reading.loop_area, 1, 0.06) << angle;
+  }
+}
+
 class AnyMesh : public testing::TestWithParam<std::string> {};
 
 TEST_P(AnyMesh, GivesTheLawsRigidityWidthAndArea) {

@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-const Effort kShort{0.05, 200};
+const CellEffort kShort{0.05, 200};
 
 // A small square that hangs by an edge.
 Attempt hanging() {

@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-constexpr MeshFamily kFamilies[] = {MeshFamily::aligned, MeshFamily::flipped, MeshFamily::unionjack,
-                                    MeshFamily::equilateral, MeshFamily::random};
+constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
+                                    MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
 // Second differences of z over edges of 1/20 of the cloth amplify rounding some thousandfold, and the fit of
 // H by the inverse of its smallest singular value.
 constexpr double kReproduced = 1e-10;
@@ -105,8 +105,11 @@ double reproduction_error(const ClothMesh& mesh) {
 }
 
 class Family : public testing::TestWithParam<MeshFamily> {};
-INSTANTIATE_TEST_SUITE_P(Meshes, Family, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return to_string(family.param); });
+INSTANTIATE_TEST_SUITE_P(Meshes, Family, testing::ValuesIn(kFamilies), [](const auto& family) {
+  std::string name = to_string(family.param);
+  std::erase(name, '-');
+  return name;
+});
 
 TEST_P(Family, ShapeReproducesUniformCurvatureOnInteriorFacesOfARectangle) {
   EXPECT_LT(reproduction_error(make_rectangle(1, 0.8, 300, GetParam(), 4)), kReproduced);
@@ -151,6 +154,45 @@ TEST_P(Family, ShapeGivesACylinderThePlatesEnergyInEveryDirection) {
       plate += mesh.face_area[f] / 2;
     }
     EXPECT_NEAR(energy / plate, 1, 2 * kReproduced) << d;
+  }
+}
+
+// Bias, weft and warp are met, and in between nu^T Q nu (CurvatureOperator).
+TEST_P(Family, StiffenedShapeGivesEachDirectionItsRigidity) {
+  constexpr double kWeft = 0.6, kBias = 0.7;
+  const ClothMesh mesh = make_rectangle(1, 0.8, 300, GetParam(), 4);
+  CurvatureOperator op = make_shape_operator(mesh, none_held(mesh));
+  stiffen(op, mesh, kWeft, kBias);
+  const MatrixXd c = dense(op, mesh.interior_edges), rate = angle_rates(mesh);
+  const auto rigidity = [&](double direction) {
+    const VectorXd s = c * (rate * uniformly_bent(mesh, cylinder(direction)));
+    double energy = 0, plate = 0;
+    for (int f = 0; f < mesh.faces(); ++f) {
+      if (has_free_edge(mesh, f)) continue;
+      energy += mesh.face_area[f] * s.segment<3>(3 * f).squaredNorm();
+      plate += mesh.face_area[f];
+    }
+    return energy / plate;
+  };
+  EXPECT_NEAR(rigidity(0), 1, 2 * kReproduced);
+  EXPECT_NEAR(rigidity(pi / 2), kWeft, 2 * kReproduced);
+  for (const double bias : {pi / 4, 3 * pi / 4}) EXPECT_NEAR(rigidity(bias), kBias, 2 * kReproduced);
+  const Vector3d q(1, kWeft, 2 * kBias - (1 + kWeft) / 2), between = cylinder(0.4);
+  EXPECT_NEAR(rigidity(0.4), between.dot(q.cwiseProduct(between)), 2 * kReproduced);
+}
+
+TEST(StiffenedHinge, HasTheRigidityAcrossItsEdge) {
+  const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 0);  // edges along warp, weft and bias
+  const CurvatureOperator plain = make_hinge_operator(mesh);
+  CurvatureOperator op = plain;
+  stiffen(op, mesh, 0.6, 0.7);
+  for (int e = 0; e < mesh.interior_edges; ++e) {
+    const Vector3d along = mesh.rest[mesh.edge[e].p3] - mesh.rest[mesh.edge[e].p2];
+    const double expected = std::abs(along.y()) < 1e-9 ? 0.6 : std::abs(along.x()) < 1e-9 ? 1 : 0.7;
+    const double factor = op.coefficient[e] / plain.coefficient[e];
+    EXPECT_NEAR(factor * factor, expected, kReproduced) << along.transpose();
+    EXPECT_EQ(op.metric[e], factor);
+    EXPECT_EQ(op.transposed[op.element.start[e]], op.coefficient[e]);
   }
 }
 

@@ -19,7 +19,7 @@ double stated_share(int triangles) { return std::sqrt(2.0 / triangles); }
 
 class Rectangle : public testing::TestWithParam<MeshFamily> {};
 INSTANTIATE_TEST_SUITE_P(Families, Rectangle, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return to_string(family.param); });
+                         [](const auto& family) { return test::name_of(family.param); });
 
 TEST_P(Rectangle, HasEulerCharacteristicOfADisc) {
   for (const int n : kSizes)
@@ -85,7 +85,8 @@ TEST(Grid, HasExactlyTheCellsAskedFor) {
     EXPECT_EQ(mesh.faces(), 2 * 7 * 4);
   }
   EXPECT_EQ(make_grid(kLength, kWidth, 7, 4, MeshFamily::random, 0).faces(), 2 * 7 * 4);
-  EXPECT_EQ(make_grid(kLength, kWidth, 7, 4, MeshFamily::equilateral, 0).faces(), 4 * (2 * 7 + 1));
+  for (const MeshFamily family : {MeshFamily::equilateral, MeshFamily::aligned45})
+    EXPECT_EQ(make_grid(kLength, kWidth, 7, 4, family, 0).faces(), 4 * (2 * 7 + 1));
 }
 
 // Number of diagonals that rise (dx dy > 0) among the edges that are neither level nor upright.
@@ -128,9 +129,9 @@ TEST(MeshFamilyName, IsReadBackFromItsText) {
 TEST(MeshFamilyName, UnknownOneListsTheKnown) {
   const Error error = test::error_of([] { mesh_family("hexagonal"); });
   EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_STREQ(
-      error.what(),
-      "mesh family \"hexagonal\" is unknown; allowed: aligned, flipped, unionjack, equilateral, random");
+  EXPECT_STREQ(error.what(),
+               "mesh family \"hexagonal\" is unknown; allowed: aligned, aligned-45, flipped, unionjack, "
+               "equilateral, random");
 }
 
 TEST(RectangleRequest, ImpossibleOnesAreRefusedByName) {

@@ -25,7 +25,7 @@ class Disc : public testing::TestWithParam<MeshFamily> {
   static ClothMesh disc(int triangles) { return make_disc(kRadius, triangles, GetParam(), 1); }
 };
 INSTANTIATE_TEST_SUITE_P(Families, Disc, testing::ValuesIn(kFamilies),
-                         [](const auto& family) { return to_string(family.param); });
+                         [](const auto& family) { return test::name_of(family.param); });
 
 TEST_P(Disc, HasEulerCharacteristicOfADisc) {
   for (const int n : kSizes) EXPECT_EQ(test::euler_characteristic(disc(n)), 1) << n;

@@ -13,6 +13,12 @@
 
 namespace hysteron::test {
 
+std::string name_of(MeshFamily family) {
+  std::string name = to_string(family);
+  std::erase(name, '-');
+  return name;
+}
+
 double total_area(const ClothMesh& mesh) {
   double sum = 0;
   for (const double area : mesh.face_area) sum += area;

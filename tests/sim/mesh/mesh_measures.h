@@ -12,8 +12,11 @@
 
 namespace hysteron::test {
 
-inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned, MeshFamily::flipped, MeshFamily::unionjack,
+inline constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,     MeshFamily::aligned45,
+                                           MeshFamily::flipped,     MeshFamily::unionjack,
                                            MeshFamily::equilateral, MeshFamily::random};
+
+std::string name_of(MeshFamily family);  // as gtest takes it: "aligned45"
 
 double total_area(const ClothMesh& mesh);         // [m^2]
 double least_angle(const ClothMesh& mesh);        // [degrees]

@@ -1,0 +1,26 @@
+// Meshes of strips whose clamps hold whole columns of cells, for every mesh family.
+#pragma once
+
+#include <string>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron::experiments {
+
+// A strip along x from 0 with a clamp at its near end, or one at either end.  A clamp holds two columns of
+// vertices, the inner one on a straight line where the mesh of the family begins; cloth bends from the middle
+// between them on, because the curvature at the inner one stands for half a cell on either side.
+struct ClampedMesh {
+  ClothMesh mesh;
+  double spacing = 0;                              // of a clamp's columns [m]
+  double length = 0;                               // of the whole strip [m]
+  double near() const { return spacing; }          // the near clamp holds x up to here [m]
+  double far() const { return length - spacing; }  // the far clamp, if there is one, x from here on [m]
+};
+
+// `free_length` is that of the cloth that bends: between the clamps' middles, or from the clamp's middle to
+// the free end [m].  About `triangles` triangles on it.  Error::request for impossible meshes.
+ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
+                         int clamps, unsigned seed);
+
+}  // namespace hysteron::experiments
