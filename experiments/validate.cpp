@@ -1,6 +1,6 @@
-// `hysteron validate`: where the model stands against measurements.  Cusick's drape of the fabrics that publish
-// both a KES pair and a drape coefficient, with and without hysteresis, let down by a plate and dropped, on
-// finer meshes and shorter steps as well; and their bending length.
+// `hysteron validate`: where the model stands against measurements.  Cusick's drape of the fabrics that
+// publish both a KES pair and a drape coefficient, with and without hysteresis, let down by a plate and
+// dropped, on finer meshes and shorter steps as well; and their bending length.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -56,7 +56,9 @@ struct Drape {
   std::string name() const {
     return fabric + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
   }
-  double number(const std::string& key) const { return metrics.contains(key) ? metrics[key].get<double>() : NAN; }
+  double number(const std::string& key) const {
+    return metrics.contains(key) ? metrics[key].get<double>() : NAN;
+  }
 };
 
 std::string text_of(double value) {
@@ -111,14 +113,16 @@ void run_drape(Drape& drape, const F& flags, Run& run) {
   char text[160];
   std::snprintf(text, sizeof text, "%s: drape coefficient %.1f %% (published %.1f), %.0f nodes, %.1f s",
                 drape.name().c_str(), drape.number("drape_coefficient_percent"),
-                drape.number("published_drape_coefficient_percent"), drape.number("node_count"), drape.seconds);
+                drape.number("published_drape_coefficient_percent"), drape.number("node_count"),
+                drape.seconds);
   run.progress(text);
 }
 
 void write_drapes(Run& run, const std::vector<Drape>& drapes) {
   AtomicFile file(run.path("drape.csv").string());
-  file.stream() << "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
-                   "coefficient [%],published nodes,sharp edges [%],computing [s]\n";
+  file.stream()
+      << "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
+         "coefficient [%],published nodes,sharp edges [%],computing [s]\n";
   for (const Drape& d : drapes)
     file.stream() << row_of({d.fabric, d.law, d.release, std::to_string(d.triangles), text_of(d.step),
                              text_of(d.number("drape_coefficient_percent")), text_of(d.number("node_count")),
@@ -161,9 +165,8 @@ void measure_bending_lengths(const F& flags, Run& run) {
   for (const std::string& fabric : split(flags.fabrics))
     for (const std::string& law : split(flags.laws)) {
       const std::string name = "cantilever-" + fabric + "-" + law;
-      const Json metrics =
-          result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}}, flags, run, name,
-                    cantilever)["metrics"];
+      const Json metrics = result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}},
+                                     flags, run, name, cantilever)["metrics"];
       const double cloth = metrics["bending_length_m"], curve = metrics["elastica_bending_length_m"];
       file.stream() << row_of({fabric, law, text_of(cloth), text_of(curve),
                                text_of(metrics["residual_drop_over_length"].get<double>())});
