@@ -41,21 +41,35 @@ StripTest tested(const StripShape& shape, const LawRequest& law, const KesProtoc
 
 LawRequest cotton(const std::string& law) { return {law, Fabric{}.virgin_curve(), {}}; }
 
-// Strips cut along warp, bias and weft of a fabric measured so; friction scales with the root of the
-// rigidity.
-TEST(StripOfAFabric, HasTheRigidityOfItsDirection) {
+TEST(Strip, ShowsAWrongRigidity) {
+  const KesProtocol p = protocol();
+  const LawRequest law = cotton("prandtl");
+  for (const double wrong : {0.95, 1.05}) {
+    Fabric fabric;
+    fabric.b1 *= wrong, fabric.b2 *= wrong;
+    const StripTest test = test_strip(clamped_strip(small("aligned"), law, fabric, p), law, p);
+    EXPECT_GT(std::abs(test.reading.rigidity / test.law_reading.rigidity - 1), 2 * kAgreement);
+    EXPECT_GT(std::abs(test.reading.loop_width / test.law_reading.loop_width - 1), 2 * kAgreement);
+    EXPECT_GT(std::abs(test.reading.loop_area / test.law_reading.loop_area - 1), 2 * kAgreement);
+  }
+}
+
+// Strips cut along warp, bias and weft of a fabric measured so: along a direction of rigidity q the law has q
+// times its rigidities and bends 1/sqrt(q) times as far before friction slides.
+TEST(StripOfAFabric, FollowsTheLawOfItsDirection) {
   constexpr double kWeft = 0.6, kBias = 0.7;
   Fabric fabric;
   fabric.weft_bending = kWeft, fabric.bias_bending = kBias;
-  const LawRequest law = cotton("prandtl");
   const KesProtocol p = protocol();
   StripShape shape = small("random");
-  for (const auto& [angle, ratio] : {std::pair{0.0, 1.0}, {45.0, kBias}, {90.0, kWeft}}) {
+  for (const auto& [angle, q] : {std::pair{0.0, 1.0}, {45.0, kBias}, {90.0, kWeft}}) {
     shape.warp_angle = angle;
-    const StripTest strip = test_strip(clamped_strip(shape, law, fabric, p), law, p);
-    EXPECT_NEAR(strip.reading.rigidity, ratio * fabric.b2, kAgreement * fabric.b2) << angle;
-    const double width = (fabric.b1 - fabric.b2) * fabric.k0;  // 2HB
-    EXPECT_NEAR(strip.reading.loop_width, std::sqrt(ratio) * width, 2 * kAgreement * width) << angle;
+    const LawRequest along{"prandtl", {q * fabric.b1, q * fabric.b2, fabric.k0 / std::sqrt(q)}, {}};
+    const ClampedStrip strip = clamped_strip(shape, cotton("prandtl"), fabric, p);
+    const StripTest test = test_strip(strip, along, p);
+    EXPECT_NEAR(test.reading.rigidity / test.law_reading.rigidity, 1, kAgreement) << angle;
+    EXPECT_NEAR(test.reading.loop_width / test.law_reading.loop_width, 1, kAgreement) << angle;
+    EXPECT_NEAR(test.reading.loop_area / test.law_reading.loop_area, 1, kAgreement) << angle;
   }
 }
 
