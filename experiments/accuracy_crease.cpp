@@ -55,12 +55,12 @@ void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
       s.integrator = integrator, s.implicit_every = implicit_every, s.step = step, s.tolerance = tolerance;
     }));
   };
+  for (const char* name : {"bdf2", "implicit"})
+    for (int parts = 1; parts <= most; parts *= 2) add(name, "substep", kFrame / parts, 0);
   for (int parts = 1; parts <= most; parts *= quick ? 2 : 4) {
     add("semi-implicit", "step", kFrame / parts, 0);  // the chapter's
     add("semi-implicit", "substep", kFrame / (parts * 64), 0);
   }
-  for (const char* name : {"implicit", "bdf2"})
-    for (int parts = 1; parts <= most; parts *= 2) add(name, "substep", kFrame / parts, 0);
   if (quick) return;
   for (double tolerance : {1e-4, 1e-5, 1e-6}) add("bdf2", "substep", kFrame, tolerance);
 }
