@@ -69,9 +69,9 @@ void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
 
 Problem crease_problem(const Effort& effort) {
   Problem problem{"crease",
-                  "A crease, folded by a clamp and let go: the motion through its reversals",
+                  "A crease, folded and let go: motion through reversals",
                   "opening angle [degree]",
-                  "root mean square of positions over vertices and times, over the length",
+                  "position error (root mean square) over the length",
                   "bdf2 with 1/64 of 1/60 s on the same mesh",
                   {},
                   {}};

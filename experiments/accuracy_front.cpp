@@ -113,10 +113,13 @@ std::vector<Order> observed_orders(const Solution& solution) {
   return orders;
 }
 
+// Few enough for as many colours: other elements, and other meshes of a motion, are one curve each.
 std::string series_of(const Solution& solution, const Setting& setting) {
-  std::vector<std::string> words = words_of(solution, setting);
-  if (solution.problem.reference_per_mesh) words.push_back(formatted("%.0f triangles", setting.triangles));
-  return joined(words);
+  const Setting& base = solution.problem.settings.front();
+  if (setting.element != base.element) return setting.element + ", every mesh";
+  if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
+  if (setting.precision != base.precision) return setting.precision;
+  return joined(words_of(solution, setting));
 }
 
 std::string describe(const Solution& solution, const Setting& s) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
+#include <utility>
 
 #include "experiments/csv.h"
 #include "render/plot.h"
@@ -90,6 +92,13 @@ void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
 // Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.
 constexpr double kLeastDrawn = 1e-6;
 
+void sort_by_time(render::Series& series) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
+  std::sort(points.begin(), points.end());
+  for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
+}
+
 render::Plot plot_of(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
   for (const auto& [setting, found] : solution.solved) {
@@ -102,6 +111,7 @@ render::Plot plot_of(const Solution& solution) {
     at->x.push_back(found.seconds);
     at->y.push_back(std::max(found.error, kLeastDrawn));
   }
+  for (render::Series& series : plot.series) sort_by_time(series);
   render::Series front{"front", {}, {}, render::Series::Style::dashed, "#222222"};
   for (std::size_t i : pareto_front(solution)) {
     front.x.push_back(solution.solved[i].found.seconds);

@@ -39,7 +39,7 @@ Problem swing_problem(const Effort& effort) {
   Problem problem{"swing",
                   "A strip let go: smooth motion",
                   "height of the free end [m]",
-                  "root mean square of positions over vertices and times, over the length",
+                  "position error (root mean square) over the length",
                   "bdf2 with 1/15360 s on the same mesh",
                   {},
                   {}};
