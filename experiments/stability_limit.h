@@ -13,9 +13,9 @@ struct LimitCondition {
   std::string law = "linear";
   double damping = 0;  // fabric.damping [s]
   // Of the shakings that must all stay bounded [m].  Waves of 1e-9 m are linear.  Larger ones couple with the
-  // membrane and resonate with the steps themselves at isolated steps far below the linear limit (Schlick,
-  // Mandziuk, Skeel & Srinivas 1998, J. Comput. Phys. 140:1): without damping one mode then grows to some
-  // ten times the energy of all and stays there, which no smaller bound excludes.
+  // membrane and can gain energy at isolated steps far below the linear limit, as if they resonated with the
+  // steps (Schlick, Mandziuk, Skeel & Srinivas 1998, J. Comput. Phys. 140:1): without damping one mode then
+  // grows to some ten times the energy of all and stays there, which no smaller bound excludes.
   std::vector<double> amplitudes = {1e-9};
   bool resonates() const { return amplitudes.size() > 1; }
 };
