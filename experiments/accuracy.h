@@ -2,6 +2,7 @@
 // from one base in one factor at a time.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -64,8 +65,9 @@ struct Effort {
 // A scene with the setting's choices; what the setting does not say is the scene's.
 Scene with(const Setting& setting, Scene scene);
 
-// Steps, bytes and seconds of a simulation that has been run for `seconds` [s].
-void note_cost(Simulation& simulation, const Scene& scene, double seconds, Found& found);
+// Steps and bytes of a simulation, and the seconds since `start`, when it was begun.
+void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_clock::time_point start,
+               Found& found);
 
 Problem sag_problem(const Effort& effort);     // heavy strips against the elastica
 Problem droop_problem(const Effort& effort);   // what remains of the sag with friction, unloaded

@@ -1,9 +1,9 @@
 // The threshold of strips that buckle under their own weight, upright and on edge.
-#include <chrono>
 #include <cmath>
 
 #include "experiments/accuracy.h"
 #include "experiments/buckling.h"
+#include "experiments/kes_strip.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -11,7 +11,6 @@ namespace {
 constexpr double kLength = 0.1;              // [m]
 constexpr double kUpright = 10, kEdge = 20;  // length over width
 constexpr int kTriangles = 320;              // upright 40 square cells along, 4 across; on edge 57 and 3
-const char* const kMeshes[] = {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"};
 
 Buckling kind_of(const Setting& setting) { return setting.load == 0 ? Buckling::upright : Buckling::edge; }
 
@@ -25,8 +24,7 @@ Found solve(const Setting& setting) {
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   const auto start = std::chrono::steady_clock::now();
   found.value = approach_threshold(strip, *simulation).critical_gamma;
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  note_cost(*simulation, strip.scene, seconds.count(), found);
+  note_cost(*simulation, strip.scene, start, found);
   found.triangles = strip.cloth.mesh.faces();
   found.error = std::abs(found.value / found.reference - 1);
   return found;
@@ -34,7 +32,7 @@ Found solve(const Setting& setting) {
 
 void vary(const Setting& base, bool quick, std::vector<Setting>& list) {
   list.push_back(base);
-  for (const char* mesh : kMeshes) {
+  for (const std::string& mesh : strip_meshes()) {
     if (mesh != base.mesh) list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
     for (int triangles : {kTriangles / 4, 4 * kTriangles})
       if (!quick || (triangles < kTriangles && mesh == base.mesh))

@@ -1,6 +1,5 @@
 // Free vibrations of a clamped strip: how much amplitude bending friction and viscosity take, and how much
 // the integrator.
-#include <chrono>
 #include <cmath>
 
 #include "experiments/accuracy.h"
@@ -78,8 +77,7 @@ Found solve(const Setting& setting) {
   const auto simulation = make_simulation(flat.scene, bent_in_first_mode(flat));
   const auto start = std::chrono::steady_clock::now();
   found.value = measure_decay(*simulation, flat, kCycles).loss();
-  note_cost(*simulation, flat.scene,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), found);
+  note_cost(*simulation, flat.scene, start, found);
   found.error = std::abs(found.value / found.reference - 1);
   return found;
 }

@@ -1,6 +1,5 @@
 #include "experiments/accuracy_motion.h"
 
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -18,8 +17,7 @@ Trajectory simulated(const Scene& scene, const Cloth& cloth, double sampling, Fo
     simulation->advance(stride);
     trajectory.push_back(simulation->positions());
   }
-  note_cost(*simulation, scene,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), found);
+  note_cost(*simulation, scene, start, found);
   found.triangles = cloth.mesh.faces();
   return trajectory;
 }

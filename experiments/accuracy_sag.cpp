@@ -1,11 +1,11 @@
 // Heavy strips against the elastica: how far they sag, and what remains when the weight is taken away.
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <tuple>
 
 #include "experiments/accuracy.h"
+#include "experiments/kes_strip.h"
 #include "experiments/overhang.h"
 
 namespace hysteron::experiments {
@@ -14,7 +14,6 @@ namespace {
 constexpr double kLength = 0.1, kWidth = 0.025;  // [m]
 constexpr int kAlong64 = 2048;                   // triangles: 64 square cells along the strip, 16 across
 constexpr double kGamma = 10;                    // density g L^3/b2
-const char* const kMeshes[] = {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"};
 
 Scene strip_of(const Setting& setting, bool unloaded) {
   Scene scene = with(setting, {});
@@ -78,8 +77,7 @@ Sag sag_of_cloth(const Scene& scene, Found& found) {
     simulation->advance(static_cast<int>(std::lround(scene.unload / scene.step)));
     sag.last = drop();
   }
-  note_cost(*simulation, scene,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), found);
+  note_cost(*simulation, scene, start, found);
   found.triangles = strip.cloth.mesh.faces();
   return sag;
 }
@@ -95,19 +93,19 @@ Setting base_of(const Effort& effort) {
 }
 
 void vary_meshes_and_sizes(const Setting& base, bool quick, std::vector<Setting>& list) {
-  for (const char* mesh : kMeshes) {
+  for (const std::string& mesh : strip_meshes()) {
     if (mesh != base.mesh) list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-    if (quick && std::string(mesh) != "unionjack" && std::string(mesh) != "random") continue;
+    if (quick && mesh != "unionjack" && mesh != "random") continue;
     for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64 / 4, kAlong64, 4 * kAlong64}) {
       if (triangles == base.triangles || (quick && triangles > base.triangles)) continue;
-      if (triangles > kAlong64 && std::string(mesh) != "unionjack") continue;
+      if (triangles > kAlong64 && mesh != "unionjack") continue;
       list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
     }
   }
 }
 
 void vary_elements(const Setting& base, bool quick, std::vector<Setting>& list) {
-  for (const char* mesh : kMeshes)
+  for (const std::string& mesh : strip_meshes())
     for (int triangles : {kAlong64 / 16, kAlong64 / 4, kAlong64}) {
       if (quick && triangles != kAlong64 / 16) continue;
       list.push_back(varied(
@@ -130,7 +128,7 @@ Problem sag_problem(const Effort& effort) {
   list.push_back(base);
   vary_meshes_and_sizes(base, effort.quick, list);
   vary_elements(base, effort.quick, list);
-  for (const char* mesh : kMeshes)
+  for (const std::string& mesh : strip_meshes())
     for (double gamma : {0.1, 1.0, 100.0, 1000.0}) {
       if (effort.quick && (gamma == 0.1 || gamma == 1000 || mesh != base.mesh)) continue;
       list.push_back(varied(base, "heaviness", [&](Setting& s) { s.mesh = mesh, s.load = gamma; }));
@@ -170,7 +168,7 @@ Problem droop_problem(const Effort& effort) {
   base.triangles = kAlong64 / 4;
   std::vector<Setting>& list = problem.settings;
   list.push_back(base);
-  for (const char* mesh : kMeshes)
+  for (const std::string& mesh : strip_meshes())
     if (mesh != base.mesh && !effort.quick)
       list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
   for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64})
