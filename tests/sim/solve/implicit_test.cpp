@@ -1,6 +1,7 @@
 // Implicit steps in motion: order, independence of the solver's details, stiff and long runs, losses.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "sim/bending/law_parameters.h"
@@ -194,6 +195,32 @@ TEST(QuasiStatic, BooksTheWeightThatTheHandStillCarries) {
   EXPECT_LT(ledger.gravitational, 0);
   EXPECT_LT(ledger.handle_work, 0);
   EXPECT_LT(ledger.remainder_relative, 1e-5);
+}
+
+// The whole scene, weight included, turned in space: the motion turns with it.
+TEST(Turned, SceneMovesAlike) {
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()) *
+                                Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitX()))
+                                   .toRotationMatrix();
+  const auto moved = [&](const Eigen::Matrix3d& rotation) {
+    Scene scene = test::hanging_square(40);
+    scene.law = "prandtl";
+    scene.integrator = "bdf2";
+    scene.step = 1.0 / 120;
+    scene.fabric.k0 = 5;
+    scene.newton_residual = 1e-11;
+    scene.newton_velocity = 0;
+    scene.gravity = rotation * scene.gravity;
+    Trial trial(scene);
+    test::ripple(trial.cloth, 5e-3);
+    for (Eigen::Vector3d& x : trial.cloth.start) x = rotation * x;
+    return trial.after(12)->positions();
+  };
+  const Positions plain = moved(Eigen::Matrix3d::Identity());
+  Positions back = moved(turn);
+  for (Eigen::Vector3d& x : back) x = turn.transpose() * x;
+  EXPECT_LT(test::farthest(plain, back), 1e-8);
+  EXPECT_GT(test::farthest(plain, Trial(test::hanging_square(40)).cloth.start), 0.02) << "nothing moved";
 }
 
 TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
