@@ -46,7 +46,7 @@ render::TriangleMesh body_of(const Obstacle& o) {
 Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   const Placement at = placement(o.motion, time);
   Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
-  motion.topLeftCorner<3, 3>() = at.rotation.cast<float>();
+  motion.topLeftCorner<3, 3>() = (at.scale * at.rotation).cast<float>();
   motion.topRightCorner<3, 1>() = at.translation.cast<float>();
   return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
 }
@@ -97,7 +97,7 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
   const std::vector<float> pattern = pattern_of(cloth.mesh);
   view_->set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
   for (const Obstacle& o : scene_.obstacle) {
-    const bool body = o.kind != "ground" && o.visible;
+    const bool body = o.kind != "ground" && o.kind != "hollow" && o.visible;
     obstacle_.push_back(body ? view_->add_obstacle(body_of(o), placed_at(o, 0)) : -1);
     if (o.kind == "ground" && !floor) floor = static_cast<float>(o.center.z());
   }
@@ -141,7 +141,8 @@ render::Image Pictures::picture(const std::string& look_name, const render::Came
   for (std::size_t i = 0; i < obstacle_.size(); ++i) {
     if (obstacle_[i] < 0) continue;
     view_->move_obstacle(obstacle_[i], placed_at(scene_.obstacle[i], simulation_.time()));
-    view_->show_obstacle(obstacle_[i], simulation_.time() < scene_.obstacle[i].until);
+    const Obstacle& o = scene_.obstacle[i];
+    view_->show_obstacle(obstacle_[i], o.from <= simulation_.time() && simulation_.time() < o.until);
   }
   render::Image image = view_->draw(camera);
   render::draw_caption(image, text, render::Corner::top_left);

@@ -16,6 +16,7 @@ program_packages=(
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"
+  "libcgal-dev|exact predicates that check for intersections"
   "libtinyobjloader-dev|reads OBJ meshes"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"

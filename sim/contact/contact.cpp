@@ -41,21 +41,22 @@ void Contact<Real, Device>::move(double start, double end) {
   set_.count = 0;
   for (std::size_t i = 0; i < obstacle_.size(); ++i) {
     const Obstacle& o = obstacle_[i];
-    if (start >= o.until) continue;
+    if (start < o.from || start >= o.until) continue;
     const Placement now = placement(o.motion, end), then = placement(o.motion, start);
     const Eigen::Matrix3d own =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
-    const Eigen::Matrix3d back = then.rotation * now.rotation.transpose();
+    const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
     Obstacle3<Real>& item = set_.item[set_.count++];
     const bool box = o.kind == "box";
     item.shape.kind = o.kind == "ground"     ? ShapeKind::ground
                       : o.kind == "sphere"   ? ShapeKind::sphere
+                      : o.kind == "hollow"   ? ShapeKind::hollow
                       : o.kind == "cylinder" ? ShapeKind::cylinder
                       : box                  ? ShapeKind::box
                                              : ShapeKind::capsule;
     const Eigen::Vector3d half = box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
-    item.shape.half = half.cast<Real>();
-    item.shape.rim = static_cast<Real>(o.rim);
+    item.shape.half = (now.scale * half).cast<Real>();
+    item.shape.rim = static_cast<Real>(now.scale * o.rim);
     item.rotation = (now.rotation * own).cast<Real>();
     item.center = now(o.center).cast<Real>();
     item.back_rotation = back.cast<Real>();

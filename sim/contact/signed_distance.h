@@ -7,9 +7,10 @@
 
 namespace hysteron {
 
-enum class ShapeKind { ground, sphere, cylinder, box, capsule };
+enum class ShapeKind { ground, sphere, hollow, cylinder, box, capsule };
 
-// A shape in its own frame: ground z <= 0; cylinder and capsule along z, centred; box centred.
+// A shape in its own frame: ground z <= 0; hollow: all but a sphere; cylinder and capsule along z, centred;
+// box centred.
 template <class Real>
 struct Shape {
   ShapeKind kind;
@@ -77,6 +78,10 @@ HYST_HD inline Distance<Real> signed_distance(const Shape<Real>& s, const Vec3<R
       return {p[2], Vec3<Real>::UnitZ()};
     case ShapeKind::sphere:
       return sphere_distance(p, s.half[0]);
+    case ShapeKind::hollow: {
+      const Distance<Real> d = sphere_distance(p, s.half[0]);
+      return {-d.value, -d.normal};
+    }
     case ShapeKind::cylinder:
       return cylinder_distance(s, p);
     case ShapeKind::box:

@@ -22,19 +22,21 @@ ClothMesh rest_mesh(const Scene& scene) {
   return make_rectangle(c.length, width, scene.triangles, family, scene.seed);
 }
 
-void select(const ClothMesh& mesh, const Pin& pin, int index, std::vector<int>& pin_of) {
+std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
+  std::vector<int> vertices;
   if (pin.select == "nearest") {
     int nearest = 0;
     for (int i = 1; i < mesh.vertices(); ++i)
       if ((mesh.rest[i] - pin.point).norm() < (mesh.rest[nearest] - pin.point).norm()) nearest = i;
-    pin_of[nearest] = index;
+    vertices.push_back(nearest);
   } else if (pin.select == "all-boundary") {
     for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
-      pin_of[mesh.edge[e].p2] = pin_of[mesh.edge[e].p3] = index;
+      vertices.insert(vertices.end(), {mesh.edge[e].p2, mesh.edge[e].p3});
   } else {
     for (int i = 0; i < mesh.vertices(); ++i)
-      if (is_in_box(mesh.rest[i], pin.low, pin.high)) pin_of[i] = index;
+      if (is_in_box(mesh.rest[i], pin.low, pin.high)) vertices.push_back(i);
   }
+  return vertices;
 }
 
 }  // namespace
@@ -55,9 +57,28 @@ std::vector<Eigen::Vector3d> Cloth::element_centers(int dimension) const {
   return centers;
 }
 
+std::vector<int> Cloth::pins(const Scene& scene, double time) const {
+  std::vector<int> result(pin.size(), -1);
+  for (std::size_t i = 0; i < pin.size(); ++i)
+    if (pin[i] >= 0 && time < scene.pin[pin[i]].until) result[i] = pin[i];
+  for (std::size_t p = 0; p < scene.pin.size(); ++p)
+    if (scene.pin[p].from > 0 && scene.pin[p].from <= time && time < scene.pin[p].until)
+      for (int vertex : grip[p]) result[vertex] = static_cast<int>(p);
+  return result;
+}
+
 std::vector<char> Cloth::held(const Scene& scene, double time) const {
-  std::vector<char> result(pin.size());
-  for (std::size_t i = 0; i < pin.size(); ++i) result[i] = pin[i] >= 0 && time < scene.pin[pin[i]].until;
+  std::vector<char> result;
+  for (int p : pins(scene, time)) result.push_back(p >= 0);
+  return result;
+}
+
+std::vector<char> Cloth::held_throughout(const Scene& scene) const {
+  std::vector<char> result = held(scene, 0);
+  for (const Pin& p : scene.pin) {
+    const std::vector<char> later = held(scene, p.until);
+    for (std::size_t i = 0; p.until <= scene.seconds && i < result.size(); ++i) result[i] &= later[i];
+  }
   return result;
 }
 
@@ -76,9 +97,11 @@ Cloth place_cloth(const Scene& scene, ClothMesh mesh) {
   for (const Eigen::Vector3d& x : cloth.mesh.rest) cloth.start.push_back(rotation * x + scene.cloth.position);
   cloth.pin.assign(cloth.mesh.vertices(), -1);
   for (std::size_t p = 0; p < scene.pin.size(); ++p) {
-    select(cloth.mesh, scene.pin[p], static_cast<int>(p), cloth.pin);
-    if (std::find(cloth.pin.begin(), cloth.pin.end(), static_cast<int>(p)) == cloth.pin.end())
+    cloth.grip.push_back(selected(cloth.mesh, scene.pin[p]));
+    if (cloth.grip.back().empty())
       throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
+    if (scene.pin[p].from > 0) continue;
+    for (int vertex : cloth.grip.back()) cloth.pin[vertex] = static_cast<int>(p);
   }
   return cloth;
 }

@@ -11,10 +11,14 @@ namespace hysteron {
 struct Cloth {
   ClothMesh mesh;
   std::vector<Eigen::Vector3d> start;  // positions at t = 0 [m]
-  std::vector<int> pin;                // per vertex: index of its pin in the scene, -1 = free
+  std::vector<int> pin;                // per vertex: the scene's pin that holds it at t = 0, -1 = free
+  std::vector<std::vector<int>> grip;  // per pin: its vertices
 
-  // Vertices that no force moves at `time` [s].
+  // Per vertex: the pin that holds it at `time` [s], -1 = free.
+  std::vector<int> pins(const Scene& scene, double time) const;
+  // Vertices that no force moves at `time` [s], and those that none moves from t = 0 to the scene's end.
   std::vector<char> held(const Scene& scene, double time) const;
+  std::vector<char> held_throughout(const Scene& scene) const;
   // Middles of the bending elements at rest [m]: of hinges (dimension 1) or of faces (3).
   std::vector<Eigen::Vector3d> element_centers(int dimension) const;
 };

@@ -37,7 +37,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.coupling", at<&S::fabric, &F::coupling>, "N/m", any(), "", "membrane coupling C12; coupling^2 < warp * weft"},
     {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "", "in-plane shear stiffness"},
     {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "", "viscous membrane damping time"},
-    {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles"},
+    {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles and itself"},
     {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name"},
     {"element", at<&S::element>, "", any(), "shape | hinge", "bending element"},
@@ -61,6 +61,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
     {"gravity", at<&S::gravity>, "m/s^2", any(), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
+    {"self-contact", at<&S::self_contact>, "", any(), "", "implicit, bdf2: cloth cannot pass through itself"},
     {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "per area; 0: from weight and thickness"},
     {"seed", at<&S::seed>, "", at_least(0), "", "of random meshes"},
 };
@@ -70,21 +71,23 @@ const KeyRow<Pin> kPinRows[] = {
     {"low", at<&Pin::low>, "m", any(), "", "corner of the box"},
     {"high", at<&Pin::high>, "m", any(), "", "opposite corner of the box, >= low"},
     {"point", at<&Pin::point>, "m", any(), "", "the nearest vertex to this is held (nearest)"},
+    {"from", at<&Pin::from>, "s", at_least(0), "", "taken at this time, where they then are"},
     {"until", at<&Pin::until>, "s", at_least(0), "", "released at this time"},
     {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
     {"center", at<&Pin::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
 };
 
 const KeyRow<Obstacle> kObstacleRows[] = {
-    {"kind", at<&Obstacle::kind>, "", any(), "ground | sphere | cylinder | box | capsule", "solid"},
+    {"kind", at<&Obstacle::kind>, "", any(), "ground | sphere | hollow | cylinder | box | capsule", "solid; hollow: a sphere with the cloth inside"},
     {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane"},
     {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule: direction"},
     {"size", at<&Obstacle::size>, "m", positive(), "", "half edges of the box"},
-    {"radius", at<&Obstacle::radius>, "m", positive(), "", "sphere, cylinder, capsule"},
+    {"radius", at<&Obstacle::radius>, "m", positive(), "", "sphere, hollow, cylinder, capsule"},
     {"height", at<&Obstacle::height>, "m", positive(), "", "length of the axis (cylinder, capsule)"},
     {"rim", at<&Obstacle::rim>, "m", at_least(0), "", "rounding of the edges (cylinder, box)"},
     {"friction", at<&Obstacle::friction>, "", at_least(-1), "", "Coulomb coefficient; negative: the fabric's"},
     {"visible", at<&Obstacle::visible>, "", any(), "", "drawn in pictures"},
+    {"from", at<&Obstacle::from>, "s", at_least(0), "", "put there at this time"},
     {"until", at<&Obstacle::until>, "s", at_least(0), "", "removed at this time"},
     {"motion-axis", at<&Obstacle::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
     {"motion-center", at<&Obstacle::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
@@ -101,6 +104,7 @@ const KeyRow<Keyframe> kKeyframeRows[] = {
     {"time", at<&Keyframe::time>, "s", at_least(0), "", "ascending from key to key"},
     {"position", at<&Keyframe::position>, "m", any(), "", "displacement from the start"},
     {"angle", at<&Keyframe::angle>, "degree", any(), "", "rotation about the motion's axis and centre"},
+    {"scale", at<&Keyframe::scale>, "", positive(), "", "of an obstacle: size over that at the start, about the motion's centre"},
 };
 // clang-format on
 

@@ -39,7 +39,8 @@ Placement placement(const Motion& motion, double time) {
   constexpr double kDegree = 3.14159265358979323846 / 180;
   const double angle = kDegree * interpolate(motion.keys, time, [](const Keyframe& k) { return k.angle; });
   result.rotation = Eigen::AngleAxisd(angle, motion.axis.normalized()).toRotationMatrix();
-  result.translation = motion.center - result.rotation * motion.center;
+  result.scale = interpolate(motion.keys, time, [](const Keyframe& k) { return k.scale; });
+  result.translation = motion.center - result.scale * (result.rotation * motion.center);
   for (int c = 0; c < 3; ++c)
     result.translation[c] += interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
   return result;

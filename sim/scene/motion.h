@@ -7,13 +7,14 @@
 
 namespace hysteron {
 
-// Rigid placement at time t [s]: x -> rotation * x + translation, identity at the motion's start position.
+// Placement at time t [s]: x -> scale * rotation * x + translation, identity at the motion's start position.
 // Between keys monotone cubic interpolation (Fritsch & Butland 1984), at rest before the first and after the
 // last.
 struct Placement {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const { return rotation * x + translation; }
+  double scale = 1;
+  Eigen::Vector3d operator()(const Eigen::Vector3d& x) const { return scale * (rotation * x) + translation; }
 };
 Placement placement(const Motion& motion, double time);
 

@@ -71,6 +71,7 @@ struct Keyframe {
   double time = 0;                    // [s]
   Eigen::Vector3d position{0, 0, 0};  // displacement from the start [m]
   double angle = 0;                   // rotation about the motion's axis and centre [degree]
+  double scale = 1;                   // of obstacles: size over that at the start, about the motion's centre
 };
 
 struct Motion {
@@ -80,27 +81,30 @@ struct Motion {
 };
 
 // Vertices held by hand: those of the rest shape inside the box or nearest to the point, from `from` to
-// `until`.
+// `until`.  A hand that takes hold later takes them where they are then and moves them from there.  Of hands
+// on the same vertex the last one holds it.
 struct Pin {
   std::string select = "box";      // pin.select   box | nearest | all-boundary
   Eigen::Vector3d low{0, 0, 0};    // pin.low      box corner in builder coordinates [m]
   Eigen::Vector3d high{0, 0, 0};   // pin.high
   Eigen::Vector3d point{0, 0, 0};  // pin.point    for `nearest`
+  double from = 0;                 // pin.from     taken at this time [s]
   double until = 1e30;             // pin.until    released at this time [s]
   Motion motion;                   // pin.keys, pin.axis, pin.center
 };
 
 struct Obstacle {
-  std::string kind = "ground";  // obstacle.kind  ground | sphere | cylinder | box | capsule
+  std::string kind = "ground";  // obstacle.kind  ground | sphere | hollow | cylinder | box | capsule
   Eigen::Vector3d center{
       0, 0, 0};  // obstacle.center [m]; ground: a point of the plane; cylinder: middle of its axis
   Eigen::Vector3d axis{0, 0, 1};        // obstacle.axis   ground: normal; cylinder, capsule: direction
   Eigen::Vector3d size{0.1, 0.1, 0.1};  // obstacle.size  box: half edges [m]
-  double radius = 0.1;                  // obstacle.radius sphere, cylinder, capsule [m]
+  double radius = 0.1;                  // obstacle.radius sphere, hollow sphere, cylinder, capsule [m]
   double height = 0.1;                  // obstacle.height cylinder, capsule: length of the axis [m]
   double rim = 0.001;                   // obstacle.rim    rounding of the cylinder's and box's edges [m]
   double friction = -1;                 // obstacle.friction  Coulomb coefficient; < 0: the fabric's
   bool visible = true;                  // obstacle.visible
+  double from = 0;                      // obstacle.from   put there at this time [s]
   double until = 1e30;                  // obstacle.until  removed at this time [s]
   Motion motion;                        // obstacle.keys, obstacle.motion-axis, obstacle.motion-center
 };
@@ -141,6 +145,7 @@ struct Scene {
   double seconds = 1;                       // seconds    simulated time [s]
   Eigen::Vector3d gravity{0, 0, -9.81};     // gravity    [m/s^2]
   double air_drag = 0;                      // air-drag   linear drag per area [kg/(m^2 s)]
+  bool self_contact = false;                // self-contact  cloth cannot pass through itself (implicit, bdf2)
   double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
   unsigned seed = 1;               // seed
   std::vector<Pin> pin;            // [[pin]]

@@ -66,6 +66,10 @@ void check_method(const Scene& scene) {
 }
 
 void check_steps(const Scene& scene) {
+  if (scene.self_contact && scene.integrator != "implicit" && scene.integrator != "bdf2")
+    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
+                         ") needs integrator = implicit | bdf2, not " + scene.integrator + " (" +
+                         origin_of(scene, "integrator") + ")");
   if (!(scene.tolerance > 0)) return;
   if (scene.integrator == "explicit" || scene.integrator == "quasi-static")
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
@@ -91,17 +95,28 @@ void check_motion(const Scene& scene, const std::string& path, const Motion& mot
   }
 }
 
+void check_times(const Scene& scene, double from, double until, const std::string& path) {
+  if (from >= until)
+    throw Error::request(path + ".from = " + number_text(from) + " s must be < " + path +
+                         ".until = " + number_text(until) + " s (" + origin_of(scene, path) + ")");
+}
+
 void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
+  check_times(scene, pin.from, pin.until, path);
   if (pin.select == "box" && (pin.low.array() > pin.high.array()).any()) {
     throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
                          origin_of(scene, path) + ")");
   }
   check_motion(scene, path, pin.motion);
+  for (std::size_t i = 0; i < pin.motion.keys.size(); ++i)
+    if (pin.motion.keys[i].scale != 1)
+      throw Error::request(path + ".keys[" + std::to_string(i) + "].scale is for obstacles (" +
+                           origin_of(scene, path) + ")");
 }
 
 // Half of its thinnest part; none of the ground.
 double half_thickness(const Obstacle& solid) {
-  if (solid.kind == "ground") return kInfinity;
+  if (solid.kind == "ground" || solid.kind == "hollow") return kInfinity;
   if (solid.kind == "box") return solid.size.minCoeff();
   return solid.kind == "cylinder" ? std::min(solid.radius, solid.height / 2) : solid.radius;
 }
@@ -132,6 +147,7 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
 }
 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
+  check_times(scene, solid.from, solid.until, path);
   const bool round = solid.kind == "cylinder" || solid.kind == "capsule";
   if ((round || solid.kind == "ground") && solid.axis.isZero(0)) {
     throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");

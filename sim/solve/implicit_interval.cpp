@@ -35,10 +35,8 @@ double Stepper<Real, Device>::load_share(double time) const {
 template <class Real, class Device>
 NewtonOutcome Stepper<Real, Device>::try_step(double start, double h) {
   hold(start, static_cast<Real>(h));
-  if (contact_) {
-    contact_->move(start, start + h);
-    remember_positions();
-  }
+  if (contact_) contact_->move(start, start + h);
+  if (contact_ || self_contact_) remember_positions();
   clock_.begin(Stage::solve);
   const NewtonOutcome outcome = implicit_->solve(vertex_state(), h, load_share(start + h));
   clock_.end(Stage::solve);
@@ -53,6 +51,7 @@ void Stepper<Real, Device>::take_step() {
   implicit_->accept(vertex_state(), ledger_.data());
   clock_.end(Stage::history);
   ++substeps_taken_;
+  if (self_contact_) self_contact_->commit(x_.data(), before_.data());
   if (!contact_) return;
   clock_.begin(Stage::contact);
   contact_->commit(x_.data(), before_.data());

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hysteron {
@@ -40,6 +41,7 @@ template <class Real, class Device>
 ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
                                          BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
                                          Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+                                         SelfContact<Real, Device>* self_contact,
                                          std::unique_ptr<LinearSolver<Real, Device>> solver)
     : device_(device),
       two_step_(scene.integrator == "bdf2"),
@@ -50,7 +52,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       total_mass_(sum_of(mass)),
       membrane_(membrane),
       bending_(bending),
-      potential_(device, matrix, membrane, bending, contact, mass),
+      potential_(device, matrix, membrane, bending, contact, self_contact, mass),
       solver_(std::move(solver)),
       newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene)),
       size_(device, 1),
@@ -60,11 +62,13 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       predicted_(device, vertices_),
       acceleration_(device, vertices_),
       x_before_(device, two_step_ ? vertices_ : 0),
-      v_before_(device, two_step_ ? vertices_ : 0) {}
+      v_before_(device, two_step_ ? vertices_ : 0),
+      way_(device, self_contact ? vertices_ : 0) {}
 
 template <class Real, class Device>
 std::size_t ImplicitStep<Real, Device>::bytes() const {
-  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes();
+  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
+         way_.bytes();
 }
 
 template <class Real, class Device>
@@ -79,7 +83,12 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
                     gravity_, drag_, share_});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const double steady = potential_of_guess(state, false);
-  if (last_h_ > 0 && !(potential_of_guess(state, true) < steady)) guess(state, false);
+  double begun = steady;
+  if (last_h_ > 0) {
+    begun = potential_of_guess(state, true);
+    if (!(begun < steady)) begun = potential_of_guess(state, false);
+  }
+  if (!std::isfinite(begun)) return {};  // the handles' way is not free, or the state not finite
   const double over = static_ ? 1.0 : formula_.over;
   return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, over);
 }
@@ -98,6 +107,7 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const char* he
 template <class Real, class Device>
 double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state, bool accelerated) {
   guess(state, accelerated);
+  if (potential_.has_self_contact() && !keep_apart(state)) return std::numeric_limits<double>::infinity();
   potential_.lag_friction(end_.data());
   return potential_.evaluate(end_.data(), nullptr).energy;
 }
@@ -132,6 +142,38 @@ void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool acce
   for_each(
       device_, "implicit guess", vertices_, HYST_KERNEL(int i) {
         end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + share * a[i]);
+      });
+}
+
+// Shortens the guess until the cloth does not pass through itself on the way there; held vertices have to go
+// all of theirs.
+template <class Real, class Device>
+bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
+  constexpr int kMostShortenings = 12;
+  constexpr double kWithin = 0.99, kFastest = 0.1;
+  double shorter = 1;
+  for (int k = 0; k < kMostShortenings; ++k) {
+    shorten_way(state, static_cast<Real>(shorter));
+    const double feasible = potential_.feasible_share(state.x, way_.data());
+    if (feasible >= 1) {
+      potential_.took(end_.data());
+      return true;
+    }
+    shorter = std::max(kWithin * feasible, kFastest);
+  }
+  return false;
+}
+
+// The way to the guess, of free vertices this share of it; the guess moves there.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::shorten_way(const VertexState<Real>& state, Real share) {
+  const Vec3<Real>* x = state.x;
+  const char* held = state.held;
+  Vec3<Real>*end = end_.data(), *way = way_.data();
+  for_each(
+      device_, "implicit: way", vertices_, HYST_KERNEL(int i) {
+        way[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(share * (end[i] - x[i]));
+        end[i] = x[i] + way[i];
       });
 }
 

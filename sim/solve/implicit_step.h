@@ -26,7 +26,7 @@ class ImplicitStep {
   ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
                BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
                Bending<Real, Device>& bending, Contact<Real, Device>* contact,
-               std::unique_ptr<LinearSolver<Real, Device>> solver);
+               SelfContact<Real, Device>* self_contact, std::unique_ptr<LinearSolver<Real, Device>> solver);
 
   // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
   NewtonOutcome solve(const VertexState<Real>& state, double h, double share);
@@ -44,6 +44,8 @@ class ImplicitStep {
   // The parts; public because nvcc allows no device lambda in a private member function.
   void place(const VertexState<Real>& state);
   void guess(const VertexState<Real>& state, bool accelerated);
+  bool keep_apart(const VertexState<Real>& state);
+  void shorten_way(const VertexState<Real>& state, Real share);
   void book(const VertexState<Real>& state, VertexLedger* ledger);
   void move_on(const VertexState<Real>& state);
 
@@ -72,6 +74,7 @@ class ImplicitStep {
   // Over the step before: acceleration [m/s^2]; in statics the velocity of the load [m/s].
   Buffer<Vec3<Real>, Device> acceleration_;
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
+  Buffer<Vec3<Real>, Device> way_;                  // to a guess; with self-contact only
 };
 
 }  // namespace hysteron

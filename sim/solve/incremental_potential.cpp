@@ -9,16 +9,18 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
                                                          Membrane<Real, Device>& membrane,
                                                          Bending<Real, Device>& bending,
                                                          Contact<Real, Device>* contact,
+                                                         SelfContact<Real, Device>* self_contact,
                                                          const Buffer<Real, Device>& mass)
     : device_(device),
       matrix_(matrix),
       membrane_(membrane),
       bending_(bending),
       contact_(contact),
+      self_contact_(self_contact),
       mass_(mass),
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
-      bending_diagonal_(device, vertices_),
+      rest_diagonal_(device, vertices_),
       softening_off_(device, matrix.column().size()),
       softening_diagonal_(device, vertices_),
       sums_(device, 1) {}
@@ -31,8 +33,19 @@ void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
 }
 
 template <class Real, class Device>
+double IncrementalPotential<Real, Device>::feasible_share(const Vec3<Real>* x, const Vec3<Real>* way) {
+  return self_contact_ ? self_contact_->prepare(x, way, start_.held) : 1;
+}
+
+template <class Real, class Device>
+void IncrementalPotential<Real, Device>::took(const Vec3<Real>* x) {
+  if (self_contact_) self_contact_->moved(x);
+}
+
+template <class Real, class Device>
 void IncrementalPotential<Real, Device>::lag_friction(const Vec3<Real>* x) {
   if (contact_) contact_->lag(x);
+  if (self_contact_) self_contact_->lag(x);
 }
 
 template <class Real, class Device>
@@ -44,6 +57,10 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   if (contact_) {
     contact_->evaluate(x, start_.now, gradient_.data());
     add_energies(contact_->energies(), vertices_);
+  }
+  if (self_contact_) {
+    self_contact_->evaluate(x, start_.now, gradient_.data());
+    add_energies(self_contact_->energies(), self_contact_->pairs());
   }
   add_energies(membrane_.energies(), membrane_.faces());
   add_energies(bending_.energies(), bending_.elements());
@@ -129,15 +146,19 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   const Real over = static_cast<Real>(start_.formula.over);
   const Real inertia = 1 / (over * over) + start_.drag / over + shift;
   const Real* mass = mass_.data();
-  Mat3<Real>* bending = bending_diagonal_.data();
+  Mat3<Real>* rest = rest_diagonal_.data();
   for_each(
       device_, "potential: masses", vertices_, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
-        bending[i].setZero();
+        rest[i].setZero();
       });
   if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal);
-  bending_.add_stiffness_diagonal(bending);
-  return {matrix, &bending_, bending, nullptr, softening};
+  bending_.add_stiffness_diagonal(rest);
+  if (self_contact_) {
+    self_contact_->linearise(x, start_.now);
+    self_contact_->add_stiffness_diagonal(rest);
+  }
+  return {matrix, &bending_, rest, nullptr, softening, self_contact_};
 }
 
 template <class Real, class Device>

@@ -10,6 +10,7 @@
 
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
+#include "sim/contact/self_contact.h"
 #include "sim/membrane/membrane.h"
 #include "sim/solve/pcg.h"
 
@@ -41,9 +42,14 @@ class IncrementalPotential {
  public:
   IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
                        Bending<Real, Device>& bending, Contact<Real, Device>* contact,
-                       const Buffer<Real, Device>& mass);
+                       SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass);
 
   void begin(const StepStart<Real>& start);
+  // Largest share of the way from x on which the cloth does not pass through itself, 1 without self-contact.
+  // evaluate() then serves points up to there; took() tells which of them was taken.
+  double feasible_share(const Vec3<Real>* x, const Vec3<Real>* way);
+  void took(const Vec3<Real>* x);
+  bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
   void lag_friction(const Vec3<Real>* x);
   // Phi and its gradient; the direction may be null.
@@ -54,10 +60,10 @@ class IncrementalPotential {
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   double load();  // norm of the weight of all free vertices [N]
-  bool has_friction() const { return contact_ != nullptr; }
+  bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
-    return gradient_.bytes() + bending_diagonal_.bytes() + softening_off_.bytes() +
-           softening_diagonal_.bytes() + sums_.bytes();
+    return gradient_.bytes() + rest_diagonal_.bytes() + softening_off_.bytes() + softening_diagonal_.bytes() +
+           sums_.bytes();
   }
 
   struct Totals {  // on the device
@@ -75,11 +81,12 @@ class IncrementalPotential {
   Membrane<Real, Device>& membrane_;
   Bending<Real, Device>& bending_;
   Contact<Real, Device>* contact_;
+  SelfContact<Real, Device>* self_contact_;
   const Buffer<Real, Device>& mass_;
   int vertices_;
   StepStart<Real> start_{};
   Buffer<Vec3<Real>, Device> gradient_;
-  Buffer<Mat3<Real>, Device> bending_diagonal_;
+  Buffer<Mat3<Real>, Device> rest_diagonal_;
   Buffer<Real, Device> softening_off_, softening_diagonal_;
   Buffer<Totals, Device> sums_;
 };

@@ -18,7 +18,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                    Vec3<Real>* x, double tolerance) override {
     constexpr int kMostIterations = 20000;
-    multigrid_.rebuild(system.matrix, system.bending_diagonal, rigidity_, held);
+    multigrid_.rebuild(system.matrix, system.rest_diagonal, rigidity_, held);
     LinearSystem<Real, Device> preconditioned = system;
     preconditioned.preconditioner = &multigrid_;
     return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);

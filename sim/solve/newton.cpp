@@ -87,14 +87,15 @@ long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held,
   return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
 }
 
-// Takes the first share of the direction, 1 or less, that lowers the potential enough, and returns it; 0 if
-// there is none.  Where the difference is within rounding, the slope must have become flatter instead (Hager
-// & Zhang 2005).
+// Takes the first share of the direction, as much as is feasible or less, that lowers the potential enough,
+// and returns it; 0 if there is none.  Where the difference is within rounding, the slope must have become
+// flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
 double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
   if (!(slope < 0)) return 0;
   const double rounding = kRounding<Real> * value.size;
-  double share = 1;
+  double share = potential_.feasible_share(x, direction_.data());
+  if (!(share > 0)) return 0;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
     try_share(x, static_cast<Real>(share));
     const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
@@ -103,6 +104,7 @@ double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double
                flatter = std::abs(rise) <= rounding && std::abs(trial.slope) <= -0.9 * slope;
     if (lower || flatter) {
       take_trial(x);
+      potential_.took(x);
       value = trial;
       return share;
     }

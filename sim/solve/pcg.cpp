@@ -28,12 +28,19 @@ BendingForceView<Real> Pcg<Real, Device>::bend(const System& system, const Vec3<
   return system.bending->forces();
 }
 
+// K p of self-contact, likewise.
+template <class Real, class Device>
+PairForceView<Real> Pcg<Real, Device>::press(const System& system, const Vec3<Real>* p) {
+  return system.self_contact ? system.self_contact->apply_stiffness(p) : PairForceView<Real>{};
+}
+
 // q = matrix * guess, and the factor alpha for which alpha * guess is nearest to the solution.
 template <class Real, class Device>
 void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
   const BlockRowsView<Real> matrix = system.matrix;
   const BendingForceView<Real> bending = bend(system, guess);
+  const PairForceView<Real> pressing = press(system, guess);
   Vec3<Real>* q = q_.data();
   Scalars* s = scalars_.data();
   for_each_sum<2>(
@@ -42,6 +49,7 @@ void Pcg<Real, Device>::project(const System& system, const char* held, const Ve
         if (held[i]) return;
         q[i] = matrix.times(i, guess);
         if (bending.start) q[i] -= bending.at(i);
+        if (pressing.start) q[i] += pressing.at(i);
         sums.term[0] += static_cast<double>(guess[i].dot(rhs[i]));
         sums.term[1] += static_cast<double>(guess[i].dot(q[i]));
       },
@@ -56,7 +64,7 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
                               double tolerance) {
   if (guess) project(system, held, rhs, guess);
   const BlockRowsView<Real> matrix = system.matrix;
-  const Mat3<Real>* bending = system.bending_diagonal;
+  const Mat3<Real>* rest = system.rest_diagonal;
   const Vec3<Real>* q = q_.data();
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
@@ -69,7 +77,7 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
           return;
         }
         Mat3<Real> block = matrix.diagonal[i];
-        if (bending) block += bending[i];
+        if (rest) block += rest[i];
         inverse[i] = block.inverse();
         x[i] = guess ? Vec3<Real>(static_cast<Real>(s->alpha) * guess[i]) : Vec3<Real>(Vec3<Real>::Zero());
         r[i] = guess ? Vec3<Real>(rhs[i] - static_cast<Real>(s->alpha) * q[i]) : rhs[i];
@@ -124,6 +132,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
   Scalars* s = scalars_.data();
   const BendingForceView<Real> bending = bend(system, p);
+  const PairForceView<Real> pressing = press(system, p);
   const ScalarRowsView<Real> softening = system.softening;
   for_each_sum<1>(
       device_, "solve: product", rows_,
@@ -131,6 +140,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
         if (s->done || held[i]) return;
         q[i] = softening.off ? matrix.times(i, p, softening) : matrix.times(i, p);
         if (bending.start) q[i] -= bending.at(i);
+        if (pressing.start) q[i] += pressing.at(i);
         sums.term[0] += static_cast<double>(p[i].dot(q[i]));
       },
       HYST_KERNEL(const Sums<1>& total) {

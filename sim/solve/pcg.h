@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/bending/bending.h"
+#include "sim/contact/self_contact.h"
 #include "sim/solve/block_rows.h"
 #include "sim/solve/preconditioner.h"
 
@@ -13,15 +14,17 @@ struct PcgOutcome {
   bool converged = false;
 };
 
-// matrix * p, plus bending's stiffness at its last linearise() where there is one, plus the membrane's
-// softening, which no preconditioner knows.
+// matrix * p, plus bending's and self-contact's stiffness at their last linearise() where they are, plus the
+// membrane's softening, which no preconditioner knows.
 template <class Real, class Device>
 struct LinearSystem {
   BlockRowsView<Real> matrix;
   Bending<Real, Device>* bending = nullptr;
-  const Mat3<Real>* bending_diagonal = nullptr;  // added to the matrix's blocks before they are inverted
+  // Of bending and self-contact: added to the matrix's blocks before they are inverted.
+  const Mat3<Real>* rest_diagonal = nullptr;
   Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
   ScalarRowsView<Real> softening = {};                     // null: none
+  SelfContact<Real, Device>* self_contact = nullptr;
 };
 
 template <class Real, class Device>
@@ -56,6 +59,7 @@ class Pcg {
   };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
   BendingForceView<Real> bend(const System& system, const Vec3<Real>* p);
+  PairForceView<Real> press(const System& system, const Vec3<Real>* p);
   void project(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* guess);
   void start(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
              const Vec3<Real>* guess, Vec3<Real>* x, double tolerance);

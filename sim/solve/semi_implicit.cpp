@@ -108,23 +108,45 @@ void Stepper<Real, Device>::remember_positions() {
       *device_, "remember positions", vertices_, HYST_KERNEL(int i) { before[i] = x[i]; });
 }
 
+// Hands that take hold or let go at this time or before it.
+template <class Real, class Device>
+void Stepper<Real, Device>::grip(double time) {
+  const auto next = std::upper_bound(grip_times_.begin(), grip_times_.end(), time);
+  next_grip_ = next == grip_times_.end() ? 1e30 : *next;
+  const std::vector<int> pins = cloth_.pins(scene_, time);
+  std::vector<char> held;
+  for (int p : pins) held.push_back(p >= 0);
+  held_.upload(held);
+  if (moving_pins_) take_hold(pins, time);
+}
+
+// What a hand takes starts where it is.
+template <class Real, class Device>
+void Stepper<Real, Device>::take_hold(const std::vector<int>& pins, double time) {
+  const std::vector<int> before = pin_.download();
+  std::vector<Vec3<Real>> start = start_.download();
+  const std::vector<Vec3<Real>> x = x_.download();
+  for (int i = 0; i < vertices_; ++i) {
+    if (pins[i] < 0 || pins[i] == before[i]) continue;
+    const Placement at = placement(scene_.pin[pins[i]].motion, time);
+    const Eigen::Vector3d now = x[i].template cast<double>() - at.translation;
+    start[i] = (at.rotation.transpose() * now / at.scale).template cast<Real>();
+  }
+  start_.upload(start);
+  pin_.upload(pins);
+}
+
 // Held vertices move at the constant velocity that brings them to their place at the end of the step.
 template <class Real, class Device>
 void Stepper<Real, Device>::hold(double start, Real h) {
-  if (held_changes_) {
-    std::vector<char> held(vertices_);
-    for (int i = 0; i < vertices_; ++i) held[i] = pin_host_[i] >= 0 && start < scene_.pin[pin_host_[i]].until;
-    held_.upload(held);
-    held_changes_ = false;
-    for (const Pin& pin : scene_.pin) held_changes_ |= pin.until > start && pin.until < scene_.seconds;
-  }
+  if (start >= next_grip_) grip(start);
   if (!moving_pins_) return;
   PinPlacements<Real> placements;
   for (std::size_t p = 0; p < scene_.pin.size(); ++p) {
     const Motion& motion = scene_.pin[p].motion;
     const Placement from = placement(motion, start), at = placement(motion, start + static_cast<double>(h));
     const Eigen::AngleAxisd turn(at.rotation * from.rotation.transpose());
-    placements.rotation[p] = at.rotation.template cast<Real>();
+    placements.rotation[p] = (at.scale * at.rotation).template cast<Real>();
     placements.translation[p] = at.translation.template cast<Real>();
     placements.turn[p] = (turn.angle() * turn.axis()).template cast<Real>();
     placements.pivot[p] = at(motion.center).template cast<Real>();

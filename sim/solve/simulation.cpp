@@ -49,7 +49,7 @@ std::string number(double value) {
 }
 
 StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
-  const std::vector<char> held = cloth.held(scene, scene.seconds);
+  const std::vector<char> held = cloth.held_throughout(scene);
   std::vector<double> mass;
   for (double area : cloth.mesh.vertex_area) mass.push_back(scene.fabric.density * area);
   const double unit = bending_eigenvalue(scene, cloth, op, mass, held, 1);
@@ -105,7 +105,7 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");
-  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, scene.seconds));
+  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   if (!scene.fabric.bends_alike())
     stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   if (scene.force == "chapter" && op.dimension != 1)
@@ -113,6 +113,8 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.force == "chapter" && scene.is_implicit())
     throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
                          scene.integrator);
+  if (scene.self_contact && scene.integrator != "implicit" && scene.integrator != "bdf2")
+    throw Error::request("self-contact needs integrator = implicit | bdf2, not " + scene.integrator);
   const StepLimits limits = choose_substeps(scene, cloth, op);
   return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)
                           : make_cpu_simulation(scene, cloth, op, limits);

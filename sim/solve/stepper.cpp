@@ -1,5 +1,6 @@
 #include "sim/solve/stepper.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -53,7 +54,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
                scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
                scene.fabric.damping * scene.fabric.b1),
       pcg_(*device_, explicit_ || all_implicit_ ? 0 : vertices_),
-      pin_host_(cloth.pin),
+      cloth_(cloth),
       x_(*device_, cast<Real>(cloth.start)),
       v_(*device_, vertices_),
       rhs_(*device_, vertices_),
@@ -67,12 +68,14 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     if (together_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   for (const Pin& pin : scene.pin) {
-    moving_pins_ |= !pin.motion.keys.empty();
-    held_changes_ |= pin.until < scene.seconds;
+    moving_pins_ |= !pin.motion.keys.empty() || pin.from > 0;
+    for (double time : {pin.from, pin.until})
+      if (time > 0 && time < scene.seconds) grip_times_.push_back(time);
   }
+  std::sort(grip_times_.begin(), grip_times_.end());
   if (moving_pins_) {
     start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
-    pin_ = Buffer<int, Device>(*device_, cloth.pin);
+    pin_ = Buffer<int, Device>(*device_, cloth.pins(scene, 0));
     if (all_implicit_) handle_way_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
@@ -81,11 +84,20 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     contact_->move(0, 0);
   }
+  if (scene.self_contact) {
+    self_contact_.emplace(*device_, cloth.mesh, scene);
+    if (before_.size() == 0) before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+  }
   if (all_implicit_)
     implicit_ = std::make_unique<ImplicitStep<Real, Device>>(
         *device_, scene, mass_, matrix_, membrane_, bending_, contact_ ? &*contact_ : nullptr,
+        self_contact_ ? &*self_contact_ : nullptr,
         make_linear_solver<Real>(*device_, scene, cloth, bending_.law().largest_stiffness()));
   bending_.commit(x_.data(), v_.data(), 0);
+  if (self_contact_) {
+    self_contact_->prepare(x_.data(), v_.data(), held_.data());  // at rest: v = 0
+    self_contact_->moved(x_.data());
+  }
   initial_ = measure();
   initial_.initial =
       initial_.kinetic + initial_.gravitational + initial_.membrane + initial_.bending + initial_.contact;
@@ -134,6 +146,7 @@ Ledger Stepper<Real, Device>::measure() {
   ledger.membrane = membrane_.stored_energy(x_.data());
   ledger.bending = bending_.stored_energy();
   if (contact_) ledger.contact = contact_->stored_energy(x_.data());
+  if (self_contact_) ledger.contact += self_contact_->stored_energy(x_.data());
   return ledger;
 }
 
@@ -159,6 +172,7 @@ Ledger Stepper<Real, Device>::ledger() {
     ledger.contact_friction = contact.friction;
     ledger.obstacle_work = contact.obstacle_work;
   }
+  if (self_contact_) ledger.contact_friction += self_contact_->friction_loss();
   ledger.commands = bending_.taken_by_commands();
   ledger.bending_gap = initial_.bending - ledger.bending - ledger.bending_friction - ledger.commands -
                        viscous_bending - bending_work;
@@ -171,7 +185,12 @@ Ledger Stepper<Real, Device>::ledger() {
 
 template <class Real, class Device>
 std::vector<std::pair<std::string, double>> Stepper<Real, Device>::stage_seconds() {
-  const StageSeconds seconds = clock_.seconds();
+  StageSeconds seconds = clock_.seconds();
+  if (self_contact_) {  // inside the solve
+    const double contact = self_contact_->seconds();
+    seconds[static_cast<int>(Stage::contact)] += contact;
+    seconds[static_cast<int>(Stage::solve)] -= contact;
+  }
   std::vector<std::pair<std::string, double>> result;
   for (int s = 0; s < kStages; ++s) result.emplace_back(kStageName[s], seconds[s]);
   return result;
@@ -233,6 +252,8 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
       "no pin moves");
   add("obstacles", contact_.has_value(), contact_ ? contact_->bytes() + before_.bytes() : 0,
       "contact, contact history", "no obstacles");
+  add("self-contact", self_contact_.has_value(), self_contact_ ? self_contact_->bytes() : 0,
+      "self-contact: pairs, collisions, barrier, product", "self-contact = false");
   add("energy ledger", true, ledger_.bytes(), "substep, implicit ledger", "");
   return parts;
 }

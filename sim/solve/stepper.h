@@ -6,6 +6,7 @@
 
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
+#include "sim/contact/self_contact.h"
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/motion.h"
@@ -62,7 +63,9 @@ class Stepper : public Simulation {
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
   void obey(double start, double end);  // commands that are due
   void stage(double start, Real h);     // one implicit solve and what leads to it
-  void hold(double start, Real h);      // pins: which vertices are held, and their velocity in this stage
+  void grip(double time);               // pins take hold and let go
+  void take_hold(const std::vector<int>& pins, double time);
+  void hold(double start, Real h);  // pins: which vertices are held, and their velocity in this stage
   void gather_impulses(Real h);  // bending and external forces, for a stage in which all forces act together
   void substep(Real dt);         // bending and external forces, explicit
   void explicit_substep(Real dt);  // every force, explicit
@@ -103,9 +106,12 @@ class Stepper : public Simulation {
   Bending<Real, Device> bending_;
   Pcg<Real, Device> pcg_;
   std::optional<Contact<Real, Device>> contact_;
+  std::optional<SelfContact<Real, Device>> self_contact_;
   std::unique_ptr<ImplicitStep<Real, Device>> implicit_;
-  bool moving_pins_ = false, held_changes_ = false;
-  std::vector<int> pin_host_;
+  bool moving_pins_ = false;
+  double next_grip_ = 0;            // when pins take hold or let go next [s]
+  std::vector<double> grip_times_;  // of all of them
+  Cloth cloth_;
   std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
   Buffer<Vec3<Real>, Device> handle_way_;  // of implicit steps with moving pins

@@ -39,9 +39,14 @@ TEST(CommandLine, TakesEveryKeyOfASceneAsAFlag) {
   for (const KeyDescription& key : scene_keys()) {
     if (key.path == "fabric.name") continue;
     const std::string flag = "--" + key.path;
-    const auto line = parsed({"drape", flag.c_str(), "x=1"});
-    EXPECT_EQ(text_of_flag(*line, key.path), "x=1");
+    const bool bare = key.type == "flag";
+    const auto line = bare ? parsed({"drape", flag.c_str()}) : parsed({"drape", flag.c_str(), "x=1"});
+    EXPECT_EQ(text_of_flag(*line, key.path), bare ? "true" : "x=1");
   }
+}
+
+TEST(CommandLine, TakesABareFlagBack) {
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--self-contact=false"}), "self-contact"), "false");
 }
 
 TEST(CommandLine, TakesNegativeNumbersAndVectorsAsOneWord) {

@@ -1,0 +1,41 @@
+// The barrier between two layers of cloth: no force at a distance of the shell, an infinite one where the
+// gap, what the distance exceeds the hardest compression by, closes.
+//
+// Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman 2020 (Incremental Potential
+// Contact), eq. 6 and, for nearly parallel edges, eq. 24.
+#pragma once
+
+#include <cmath>
+
+#include "sim/device/host_device.h"
+
+namespace hysteron {
+
+template <class Real>
+struct Barrier {
+  Real energy, slope, stiffness;  // [J/m^2], by distance [N/m^2], [N/m^3]; slope <= 0 <= stiffness
+};
+
+// Of a gap in (0, range); k [N/m^3].
+template <class Real>
+HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range) {
+  using std::log;
+  const Real u = gap / range, w = u - 1, ln = log(u);
+  return {-k * range * range * w * w * ln, -k * range * (2 * w * ln + w * w / u),
+          k * (w * w / (u * u) - 4 * w / u - 2 * ln)};
+}
+
+// Fades the energy of two edges out as they become parallel, where their closest points jump.  c = squared
+// norm of the edges' cross product, `full` where the factor becomes 1.
+template <class Real>
+struct Fade {
+  Real factor, slope;  // by c
+};
+template <class Real>
+HYST_HD Fade<Real> parallel_fade(Real c, Real full) {
+  if (c >= full) return {1, 0};
+  const Real s = c / full;
+  return {s * (2 - s), 2 * (1 - s) / full};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,317 @@
+#include "sim/contact/self_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact/self_touch.h"
+
+namespace hysteron {
+
+namespace {
+
+constexpr double kSlip = 0.01;              // elastic slip of friction over the thickness
+constexpr double kPressure = 50 * 98.0665;  // of the KES compression test [Pa] (Kawabata 1980)
+constexpr double kCompressed = 0.2;         // of the thickness, at that pressure
+constexpr double kReachOfEdge = 0.2;        // most that lists reach beyond a path, over the mean edge length
+
+// Stiffness [N/m^3] of a barrier that gives in by kCompressed at kPressure.
+double barrier_stiffness(double thickness) {
+  const double range = (1 - kHardest) * thickness, gap = range - kCompressed * thickness;
+  return -kPressure / barrier(1.0, gap, range).slope;
+}
+
+double mean_edge(const ClothMesh& mesh) {
+  double sum = 0;
+  for (const Edge& e : mesh.edge) sum += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
+  return sum / static_cast<double>(mesh.edge.size());
+}
+
+}  // namespace
+
+template <class Real, class Device>
+SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene)
+    : device_(device),
+      vertices_(mesh.vertices()),
+      thickness_(static_cast<Real>(scene.fabric.thickness)),
+      least_reach_(thickness_ / 4),
+      most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
+      model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
+             static_cast<Real>(scene.fabric.friction), static_cast<Real>(kSlip) * thickness_},
+      pairs_(device, mesh, scene.fabric.thickness),
+      center_(device, vertices_),
+      share_(device),
+      friction_(device),
+      old_friction_(device),
+      stiffness_(device),
+      slot_(device),
+      energy_(device),
+      vertex_item_(device),
+      key_(device),
+      vertex_start_(device, vertices_ + 1),
+      sum_(device, 2),
+      clock_(device) {}
+
+// Largest distance of x + way from `from` over all vertices; without `from`, length of the longest way.
+template <class Real, class Device>
+Real SelfContact<Real, Device>::longest(const Vec3<Real>* x, const Vec3<Real>* way, const Vec3<Real>* from) {
+  Real* lengths = share_.reserve(vertices_);
+  for_each(
+      device_, "self-contact: lengths", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> away = from ? Vec3<Real>(x[i] + way[i] - from[i]) : way[i];
+        lengths[i] = -away.norm();
+      });
+  return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
+}
+
+template <class Real, class Device>
+double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held) {
+  clock_.begin(Stage::contact);
+  if (!ready_ || pending_ || !(longest(x, way, center_.data()) <= reach_))
+    rebuild(x, way, held, std::clamp(longest(x, way, nullptr) / 2, least_reach_, most_reach_));
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  Real* share = share_.reserve(pairs_.count());
+  for_each(
+      device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
+        const SelfPair<Real> pair = pairs[p];
+        Vec3<Real> from[4], along[4];
+        pair.gather(x, from);
+        pair.gather(way, along);
+        share[p] = feasible_share(from, along, pair.is_edges(), least_distance(pair));
+      });
+  const double least = smallest(device_, pairs_.scratch(), share, pairs_.count(), Real(1));
+  clock_.end(Stage::contact);
+  return least;
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::moved(const Vec3<Real>* x) {
+  if (!pending_) return;
+  pending_ = false;
+  Vec3<Real>* center = center_.data();
+  for_each(
+      device_, "self-contact: moved", vertices_, HYST_KERNEL(int i) { center[i] = x[i]; });
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* way, const char* held,
+                                        Real reach) {
+  reach_ = reach;
+  pairs_.find(x, way, held, reach);
+  ready_ = pending_ = true;
+  const int count = pairs_.count();
+  carry_over();
+  stiffness_.reserve(count);
+  slot_.reserve(4 * static_cast<std::size_t>(count));
+  energy_.reserve(count);
+  int* key = key_.reserve(4 * static_cast<std::size_t>(count));
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  for_each(
+      device_, "self-contact: corners", count, HYST_KERNEL(int p) {
+        for (int k = 0; k < 4; ++k) key[4 * p + k] = pairs[p].v[k];
+      });
+  group(device_, pairs_.scratch(), key, 4 * count, vertices_, vertex_start_.data(),
+        vertex_item_.reserve(4 * static_cast<std::size_t>(count)));
+}
+
+// Friction of the pairs that stay in the list.
+template <class Real, class Device>
+void SelfContact<Real, Device>::carry_over() {
+  friction_.swap(old_friction_);
+  PairFriction<Real>* friction = friction_.reserve(pairs_.count());
+  const PairFriction<Real>* old = old_friction_.data();
+  const SelfPair<Real>*pairs = pairs_.pairs(), *old_pairs = pairs_.old_pairs();
+  const int *start = pairs_.start(), *old_start = pairs_.old_start();
+  for_each(
+      device_, "self-contact: carry over", pairs_.rows(), HYST_KERNEL(int row) {
+        for (int p = start[row]; p < start[row + 1]; ++p) {
+          PairFriction<Real> kept{Vec3<Real>::Zero(), Vec3<Real>::Zero(), Vec<Real, 4>::Zero(), 0};
+          for (int q = old_start[row]; q < old_start[row + 1]; ++q)
+            if (old_pairs[q].other == pairs[p].other) kept = old[q];
+          friction[p] = kept;
+        }
+      });
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::lag(const Vec3<Real>* x) {
+  if (!(model_.friction > 0)) return;
+  clock_.begin(Stage::contact);
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  PairFriction<Real>* friction = friction_.data();
+  for_each(
+      device_, "self-contact: lagged friction", pairs_.count(), HYST_KERNEL(int p) {
+        const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
+        friction[p].limit = touch.touches ? model.friction * touch.force : Real(0);
+        if (!touch.touches) return;
+        friction[p].normal = touch.normal;
+        friction[p].weight = touch.weight;
+      });
+  clock_.end(Stage::contact);
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* before,
+                                         Vec3<Real>* gradient) {
+  clock_.begin(Stage::contact);
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  const PairFriction<Real>* friction = friction_.data();
+  Vec3<Real>* slot = slot_.data();
+  double* energy = energy_.data();
+  for_each(
+      device_, "self-contact: barrier", pairs_.count(), HYST_KERNEL(int p) {
+        const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
+        for (int k = 0; k < 4; ++k)
+          slot[4 * p + k] = touch.touches ? barrier_gradient(touch, k) : Vec3<Real>(Vec3<Real>::Zero());
+        energy[p] = touch.touches ? touch.energy : 0;
+        const PairFriction<Real> f = friction[p];
+        if (!(f.limit > 0)) return;
+        const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
+        const Real length = e.norm(), k_t = f.limit / model.slip;
+        const bool slides = length > model.slip;
+        energy[p] +=
+            static_cast<double>(slides ? f.limit * (length - model.slip / 2) : k_t * length * length / 2);
+        const Vec3<Real> force = (slides ? f.limit / length : k_t) * e;
+        for (int k = 0; k < 4; ++k) slot[4 * p + k] += f.weight[k] * force;
+      });
+  const PairForceView<Real> forces = gathered();
+  for_each(
+      device_, "self-contact: forces", vertices_, HYST_KERNEL(int i) { gradient[i] += forces.at(i); });
+  clock_.end(Stage::contact);
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before) {
+  clock_.begin(Stage::contact);
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  const PairFriction<Real>* friction = friction_.data();
+  PairStiffness<Real>* stiffness = stiffness_.data();
+  for_each(
+      device_, "self-contact: stiffness", pairs_.count(), HYST_KERNEL(int p) {
+        const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
+        const PairFriction<Real> f = friction[p];
+        PairStiffness<Real> s{Mat3<Real>::Zero(), Vec<Real, 4>::Zero()};
+        if (touch.touches) {
+          s.block = touch.stiffness * touch.normal * touch.normal.transpose();
+          s.weight = touch.weight;
+        }
+        if (f.limit > 0) {
+          if (!touch.touches) s.weight = f.weight;
+          const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
+          const Real length = e.norm();
+          Mat3<Real> tangent = Mat3<Real>::Identity() - f.normal * f.normal.transpose();
+          if (length > model.slip)
+            tangent = model.slip / length * (tangent - (e / length) * (e / length).transpose());
+          s.block += f.limit / model.slip * tangent;
+        }
+        stiffness[p] = s;
+      });
+  clock_.end(Stage::contact);
+}
+
+template <class Real, class Device>
+PairForceView<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>* v) {
+  clock_.begin(Stage::contact);
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  const PairStiffness<Real>* stiffness = stiffness_.data();
+  Vec3<Real>* slot = slot_.data();
+  for_each(
+      device_, "self-contact: product", pairs_.count(), HYST_KERNEL(int p) {
+        const PairStiffness<Real>& s = stiffness[p];
+        Vec3<Real> apart = Vec3<Real>::Zero();
+        for (int k = 0; k < 4; ++k) apart += s.weight[k] * v[pairs[p].v[k]];
+        const Vec3<Real> force = s.block * apart;
+        for (int k = 0; k < 4; ++k) slot[4 * p + k] = s.weight[k] * force;
+      });
+  clock_.end(Stage::contact);
+  return gathered();
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
+  const PairStiffness<Real>* stiffness = stiffness_.data();
+  const PairForceView<Real> rows = gathered();
+  for_each(
+      device_, "self-contact: diagonal", vertices_, HYST_KERNEL(int i) {
+        for (int j = rows.start[i]; j < rows.start[i + 1]; ++j) {
+          const PairStiffness<Real>& s = stiffness[rows.item[j] / 4];
+          const Real w = s.weight[rows.item[j] % 4];
+          diagonal[i] += w * w * s.block;
+        }
+      });
+}
+
+// The stops stretch and slide; work done against them that they do not store is lost.
+template <class Real, class Device>
+void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before) {
+  if (!(model_.friction > 0)) return;
+  clock_.begin(Stage::contact);
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  PairFriction<Real>* friction = friction_.data();
+  double* sum = sum_.data();
+  for_each_sum<2>(
+      device_, "self-contact: history", pairs_.count(),
+      HYST_KERNEL(int p, Sums<2>& sums) {
+        PairFriction<Real>& f = friction[p];
+        if (!(f.limit > 0)) {
+          f.slip.setZero();
+          return;
+        }
+        const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
+        const Real length = e.norm(), k_t = f.limit / model.slip;
+        const Vec3<Real> held = length > model.slip ? Vec3<Real>(model.slip / length * e) : e;
+        sums.term[0] += static_cast<double>(k_t * held.dot(e - f.slip));
+        sums.term[1] += static_cast<double>(k_t * held.squaredNorm() / 2);
+        f.slip = held;
+      },
+      HYST_KERNEL(const Sums<2>& total) {
+        sum[0] = total.term[0];
+        sum[1] = total.term[1];
+      });
+  const std::vector<double> total = sum_.download();
+  loss_ += stored_ + total[0] - total[1];
+  stored_ = total[1];
+  clock_.end(Stage::contact);
+}
+
+template <class Real, class Device>
+double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* x) {
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  double* sum = sum_.data();
+  for_each_sum<1>(
+      device_, "self-contact: energy", pairs_.count(),
+      HYST_KERNEL(int p, Sums<1>& sums) {
+        const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
+        if (touch.touches) sums.term[0] += touch.energy;
+      },
+      HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
+  return sum_.download()[0] + stored_;
+}
+
+template <class Real, class Device>
+int SelfContact<Real, Device>::touching(const Vec3<Real>* x) {
+  const SelfContactModel<Real> model = model_;
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  double* sum = sum_.data();
+  for_each_sum<1>(
+      device_, "self-contact: count", pairs_.count(),
+      HYST_KERNEL(int p, Sums<1>& sums) { sums.term[0] += self_touch(pairs[p], model, x).touches; },
+      HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
+  return static_cast<int>(sum_.download()[0]);
+}
+
+template <class Real, class Device>
+std::size_t SelfContact<Real, Device>::bytes() const {
+  return pairs_.bytes() + center_.bytes() + share_.bytes() + friction_.bytes() + old_friction_.bytes() +
+         stiffness_.bytes() + slot_.bytes() + energy_.bytes() + vertex_item_.bytes() + key_.bytes() +
+         vertex_start_.bytes() + sum_.bytes();
+}
+
+template class SelfContact<double, ThisDevice>;
+template class SelfContact<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,105 @@
+// Cloth against itself, in implicit steps: a barrier that keeps layers apart, collision detection that bounds
+// each correction so that none passes the barrier, and Coulomb friction.
+//
+// A start without intersections stays without: every path that Newton's method takes is checked
+// (additive_ccd.h) against all pairs that it could bring together (self_pairs.h).
+//
+// Barrier: layers feel each other from a distance of the thickness on and never come nearer than half of it.
+// Its stiffness is that at which the pressure of the KES compression test, 50 gf/cm^2 = 4.9 kPa (Kawabata
+// 1980), takes a fifth of the thickness; an assumed softness, the same for all fabrics.
+// Friction: a Prandtl stop per pair as against obstacles (contact.h), which slides after an elastic slip of
+// 1 % of the thickness; its force limit is that of the last iterate that lag() saw.
+// Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.
+#pragma once
+
+#include "sim/contact/self_pairs.h"
+#include "sim/device/stage_clock.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+// Numbers of pairs' vertices, gathered by vertex.
+template <class Real>
+struct PairForceView {
+  const int* start = nullptr;  // rows: vertices; null: no self-contact
+  const int* item = nullptr;   // 4 * pair + corner
+  const Vec3<Real>* force = nullptr;
+  HYST_HD Vec3<Real> at(int vertex) const {
+    Vec3<Real> f = Vec3<Real>::Zero();
+    for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
+    return f;
+  }
+};
+
+template <class Real>
+struct PairFriction {
+  Vec3<Real> slip, normal;  // elastic slip at the start of the step [m]; the rest as lag() saw it
+  Vec<Real, 4> weight;
+  Real limit;  // mu f_n [N]; 0: no contact
+};
+
+template <class Real>
+struct PairStiffness {
+  Mat3<Real> block;  // between the closest points [N/m]
+  Vec<Real, 4> weight;
+};
+
+template <class Real>
+struct SelfContactModel {
+  Real stiffness, friction, slip;  // [N/m^3], Coulomb coefficient, [m]
+};
+
+template <class Real, class Device>
+class SelfContact {
+ public:
+  SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
+
+  // Largest share of the way from x that keeps layers apart; afterwards evaluate() and its kind may be called
+  // on the path up to there.  moved() tells which of its points was taken.
+  double prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held);
+  void moved(const Vec3<Real>* x);
+
+  // As in Contact.
+  void lag(const Vec3<Real>* x);
+  void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
+  const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
+  int pairs() const { return pairs_.count(); }
+  void linearise(const Vec3<Real>* x, const Vec3<Real>* before);
+  PairForceView<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
+  void add_stiffness_diagonal(Mat3<Real>* diagonal);
+  void commit(const Vec3<Real>* x, const Vec3<Real>* before);
+
+  double stored_energy(const Vec3<Real>* x);      // [J]
+  double friction_loss() const { return loss_; }  // since the start [J]
+  int touching(const Vec3<Real>* x);              // pairs within their shells
+  double seconds() { return clock_.seconds()[static_cast<int>(Stage::contact)]; }
+  std::size_t bytes() const;
+
+  // Parts; public because nvcc allows no device lambda in a private member function.
+  void rebuild(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach);
+  void carry_over();
+  Real longest(const Vec3<Real>* x, const Vec3<Real>* way, const Vec3<Real>* from);
+  PairForceView<Real> gathered() const { return {vertex_start_.data(), vertex_item_.data(), slot_.data()}; }
+
+ private:
+  Device& device_;
+  int vertices_;
+  Real thickness_, least_reach_, most_reach_;
+  SelfContactModel<Real> model_;
+  SelfPairs<Real, Device> pairs_;
+  bool ready_ = false, pending_ = false;
+  Real reach_ = 0;
+  double stored_ = 0, loss_ = 0;  // of friction [J]
+  Buffer<Vec3<Real>, Device> center_;
+  GrowingBuffer<Real, Device> share_;
+  GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
+  GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
+  GrowingBuffer<Vec3<Real>, Device> slot_;  // four for each pair
+  GrowingBuffer<double, Device> energy_;
+  GrowingBuffer<int, Device> vertex_item_, key_;
+  Buffer<int, Device> vertex_start_;
+  Buffer<double, Device> sum_;  // two
+  StageClock<Device> clock_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,191 @@
+#include "sim/contact/self_pairs.h"
+
+#include "sim/contact/additive_ccd.h"
+
+namespace hysteron {
+
+namespace {
+
+constexpr double kOfRestDistance = 0.5;  // most of the distance at rest that a shell may take
+constexpr double kParallel = 1e-3;       // sine squared at rest below which edges fade (Li et al. 2020)
+
+std::vector<std::array<int, 3>> triangles_of(const ClothMesh& mesh) {
+  std::vector<std::array<int, 3>> corners;
+  for (const auto& f : mesh.face) corners.push_back({f[0], f[1], f[2]});
+  return corners;
+}
+
+std::vector<std::array<int, 3>> edges_of(const ClothMesh& mesh) {
+  std::vector<std::array<int, 3>> corners;
+  for (const Edge& e : mesh.edge) corners.push_back({e.p2, e.p3, e.p3});
+  return corners;
+}
+
+template <class Real>
+struct Candidates {  // what the loops need, by value
+  const Vec3<Real>* rest;
+  const int *face, *edge;
+  const Real *vertex_area, *edge_area;
+  Real thickness, reach;
+  Sweep<Real> sweep;
+  const char* held;
+
+  HYST_HD bool is_out(const int (&v)[4], bool edges) const {
+    for (int i = 0; i < (edges ? 2 : 1); ++i)
+      for (int j = edges ? 2 : 1; j < 4; ++j)
+        if (v[i] == v[j]) return true;
+    return held[v[0]] && held[v[1]] && held[v[2]] && held[v[3]];
+  }
+
+  // Whether the pair can matter; completes it.
+  HYST_HD bool complete(SelfPair<Real>& pair, bool edges) const {
+    if (is_out(pair.v, edges)) return false;
+    Vec3<Real> x[4], way[4];
+    pair.gather(sweep.from, x);
+    pair.gather(sweep.way, way);
+    remove_mean(way);
+    const Real near = distance_of(x, edges) - fastest_approach(way, edges) - 2 * reach;
+    if (near > thickness) return false;
+    pair.gather(rest, x);
+    const Real apart = Real(kOfRestDistance) * distance_of(x, edges);
+    pair.shell = apart < thickness ? apart : thickness;
+    pair.parallel = edges ? Real(kParallel) * (x[1] - x[0]).squaredNorm() * (x[3] - x[2]).squaredNorm() : 0;
+    return near <= pair.shell;
+  }
+
+  HYST_HD bool vertex_on_triangle(int vertex, int triangle, SelfPair<Real>& pair) const {
+    pair.v[0] = vertex;
+    for (int k = 0; k < 3; ++k) pair.v[1 + k] = face[3 * triangle + k];
+    pair.other = triangle;
+    pair.area = vertex_area[vertex] / 4;
+    return complete(pair, false);
+  }
+
+  HYST_HD bool edge_on_edge(int first, int second, SelfPair<Real>& pair) const {
+    for (int k = 0; k < 2; ++k) {
+      pair.v[k] = edge[2 * first + k];
+      pair.v[2 + k] = edge[2 * second + k];
+    }
+    pair.other = second;
+    pair.area = (edge_area[first] + edge_area[second]) / 8;
+    return complete(pair, true);
+  }
+};
+
+}  // namespace
+
+template <class Real, class Device>
+SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double thickness)
+    : device_(device),
+      vertices_(mesh.vertices()),
+      edges_(static_cast<int>(mesh.edge.size())),
+      rows_(vertices_ + edges_),
+      thickness_(static_cast<Real>(thickness)),
+      triangle_tree_(device, triangles_of(mesh), mesh.rest),
+      edge_tree_(device, edges_of(mesh), mesh.rest),
+      found_(device, rows_),
+      start_(device, rows_ + 1),
+      old_start_(device, rows_ + 1),
+      pair_(device),
+      old_pair_(device),
+      scratch_(device),
+      sum_(device, 1) {
+  std::vector<Vec3<Real>> rest;
+  for (const auto& x : mesh.rest) rest.push_back(x.cast<Real>());
+  rest_ = Buffer<Vec3<Real>, Device>(device, rest);
+  std::vector<int> face, edge;
+  for (const auto& f : mesh.face) face.insert(face.end(), {f[0], f[1], f[2]});
+  face_ = Buffer<int, Device>(device, face);
+  std::vector<int> order(edges_);
+  device_download(device, order.data(), edge_tree_.view().item, order.size() * sizeof(int));
+  std::vector<Real> area;
+  for (int e : order) {
+    const Edge& it = mesh.edge[e];
+    edge.insert(edge.end(), {it.p2, it.p3});
+    area.push_back(
+        static_cast<Real>((mesh.face_area[it.face0] + (it.interior() ? mesh.face_area[it.face1] : 0.0)) / 3));
+  }
+  edge_ = Buffer<int, Device>(device, edge);
+  edge_area_ = Buffer<Real, Device>(device, area);
+  vertex_area_ =
+      Buffer<Real, Device>(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end()));
+}
+
+template <class Real, class Device>
+Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* way) {
+  Vec3<double>* sum = sum_.data();
+  for_each_sum<3>(
+      device_, "self-contact: mean way", vertices_,
+      HYST_KERNEL(int i, Sums<3>& sums) {
+        for (int k = 0; k < 3; ++k) sums.term[k] += static_cast<double>(way[i][k]);
+      },
+      HYST_KERNEL(const Sums<3>& total) {
+        for (int k = 0; k < 3; ++k) (*sum)[k] = total.term[k];
+      });
+  return (sum_.download()[0] / vertices_).template cast<Real>();
+}
+
+// Counts the pairs of each row, or writes them.
+template <class Real, class Device>
+template <bool kWrite>
+void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach) {
+  const Candidates<Real> candidates{
+      rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_,
+      reach,        sweep,        held};
+  const BoxTreeView<Real> triangles = triangle_tree_.view(), edges = edge_tree_.view();
+  int* found = found_.data();
+  const int* start = start_.data();
+  SelfPair<Real>* pairs = pair_.data();
+  const int vertices = vertices_;
+  for_each(
+      device_, "self-contact: pairs", rows_, HYST_KERNEL(int row) {
+        int n = 0;
+        const int first = kWrite ? start[row] : 0;
+        SelfPair<Real> pair;
+        if (row < vertices) {
+          Box<Real> box = Box<Real>::nothing();
+          sweep.include(box, row);
+          triangles.find(box, 0, [&](int rank) {
+            if (!candidates.vertex_on_triangle(row, triangles.item[rank], pair)) return;
+            if (kWrite) pairs[first + n] = pair;
+            ++n;
+          });
+        } else {
+          const int edge = row - vertices;
+          edges.find(edges.box[edges.leaves + edge], edge + 1, [&](int rank) {
+            if (!candidates.edge_on_edge(edge, rank, pair)) return;
+            if (kWrite) pairs[first + n] = pair;
+            ++n;
+          });
+        }
+        if (!kWrite) found[row] = n;
+      });
+}
+
+template <class Real, class Device>
+void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach) {
+  std::swap(start_, old_start_);
+  pair_.swap(old_pair_);
+  old_count_ = count_;
+  const Sweep<Real> sweep{x, way, mean_of(way), thickness_ + 2 * reach};
+  triangle_tree_.fit(sweep);
+  Sweep<Real> half = sweep;  // both edges' boxes are wider
+  half.margin = sweep.margin / 2;
+  edge_tree_.fit(half);
+  search<false>(sweep, held, reach);
+  count_ = exclusive_scan(device_, scratch_, found_.data(), rows_, start_.data());
+  pair_.reserve(count_);
+  search<true>(sweep, held, reach);
+}
+
+template <class Real, class Device>
+std::size_t SelfPairs<Real, Device>::bytes() const {
+  return rest_.bytes() + face_.bytes() + edge_.bytes() + vertex_area_.bytes() + edge_area_.bytes() +
+         triangle_tree_.bytes() + edge_tree_.bytes() + 3 * start_.bytes() + pair_.bytes() +
+         old_pair_.bytes() + scratch_.bytes();
+}
+
+template class SelfPairs<double, ThisDevice>;
+template class SelfPairs<float, ThisDevice>;
+
+}  // namespace hysteron

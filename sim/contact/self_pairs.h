@@ -1,0 +1,71 @@
+// Which vertices may come near which triangles, and which edges near which edges, while a cloth moves.
+#pragma once
+
+#include "sim/contact/box_tree.h"
+#include "sim/device/algorithms.h"
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// Vertex v[0] and triangle v[1..3], or edges v[0]v[1] and v[2]v[3].
+template <class Real>
+struct SelfPair {
+  int v[4];
+  int other;      // triangle, or rank of the second edge: with the row it names the pair
+  Real shell;     // distance from which on they repel each other [m]
+  Real area;      // share of the cloth for which the pair stands [m^2]
+  Real parallel;  // edges: where the fade of parallel ones ends [m^4]; a vertex and a triangle: 0
+
+  HYST_HD bool is_edges() const { return parallel > 0; }
+  HYST_HD void gather(const Vec3<Real>* values, Vec3<Real> (&out)[4]) const {
+    for (int k = 0; k < 4; ++k) out[k] = values[v[k]];
+  }
+};
+
+// The pairs that can matter while vertices go from x along `way`, and anywhere within `reach` of a point of
+// that path: all that come nearer to each other than their shells.  Rows: vertices, then edges by rank in
+// their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held.
+//
+// A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
+// the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
+// triangles and of edges that cross add up to that of the contact, half by each (on average over directions).
+// Pairs beside these are in reach as well: by test 1.3 to 1.5 times the area where edges are 6 thicknesses
+// long.
+template <class Real, class Device>
+class SelfPairs {
+ public:
+  SelfPairs(Device& device, const ClothMesh& mesh, double thickness);
+
+  // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
+  // many rows, and old_pairs() are those of the list before.
+  void find(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach);
+  int count() const { return count_; }
+  int old_count() const { return old_count_; }
+  int rows() const { return rows_; }
+  const SelfPair<Real>* pairs() const { return pair_.data(); }
+  const int* start() const { return start_.data(); }
+  const SelfPair<Real>* old_pairs() const { return old_pair_.data(); }
+  const int* old_start() const { return old_start_.data(); }
+  Scratch<Device>& scratch() { return scratch_; }
+  std::size_t bytes() const;
+
+  // Parts of find(); public because nvcc allows no device lambda in a private member function.
+  Vec3<Real> mean_of(const Vec3<Real>* way);
+  template <bool kWrite>
+  void search(const Sweep<Real>& sweep, const char* held, Real reach);
+
+ private:
+  Device& device_;
+  int vertices_, edges_, rows_, count_ = 0, old_count_ = 0;
+  Real thickness_;
+  Buffer<Vec3<Real>, Device> rest_;
+  Buffer<int, Device> face_, edge_;  // 3 vertices a triangle, 2 an edge by rank
+  Buffer<Real, Device> vertex_area_, edge_area_;
+  BoxTree<Real, Device> triangle_tree_, edge_tree_;
+  Buffer<int, Device> found_, start_, old_start_;  // by row
+  GrowingBuffer<SelfPair<Real>, Device> pair_, old_pair_;
+  Scratch<Device> scratch_;
+  Buffer<Vec3<double>, Device> sum_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,78 @@
+// One pair of cloth parts: its distance, the barrier's force, the stop of friction.
+#pragma once
+
+#include "sim/contact/additive_ccd.h"
+#include "sim/contact/barrier.h"
+#include "sim/contact/self_contact.h"
+
+namespace hysteron {
+
+inline constexpr double kHardest = 0.5;  // share of a shell that no pressure takes
+
+template <class Real>
+HYST_HD Real least_distance(const SelfPair<Real>& pair) {
+  return static_cast<Real>(kHardest) * pair.shell;
+}
+
+template <class Real>
+struct SelfTouch {
+  bool touches = false;
+  Vec3<Real> normal;
+  Vec<Real, 4> weight;
+  double energy;             // [J]
+  Real force, stiffness;     // [N], [N/m]
+  Real fade_slope = 0;       // of the energy by the squared cross product of the edges
+  Vec3<Real> first, second;  // the edges, where they are nearly parallel
+};
+
+template <class Real>
+HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
+                                                 const SelfContactModel<Real>& model,
+                                                 const Vec3<Real>* position) {
+  Vec3<Real> x[4];
+  pair.gather(position, x);
+  const ClosestPoints<Real> closest = pair.is_edges() ? edge_edge(x) : point_triangle(x);
+  SelfTouch<Real> touch;
+  const Real distance = closest.offset.norm(), least = least_distance(pair);
+  if (!(distance < pair.shell)) return touch;
+  touch.touches = true;
+  touch.normal = closest.offset / distance;
+  touch.weight = closest.weight;
+  // An impossible gap, which paths that were checked do not have, is repelled as the smallest one.
+  const Real range = pair.shell - least, floor = Real(1e-3) * range, gap = distance - least;
+  const Barrier<Real> b = barrier(model.stiffness, gap > floor ? gap : floor, range);
+  Fade<Real> fade{1, 0};
+  if (pair.is_edges()) {
+    touch.first = x[1] - x[0];
+    touch.second = x[3] - x[2];
+    fade = parallel_fade(touch.first.cross(touch.second).squaredNorm(), pair.parallel);
+    touch.fade_slope = fade.slope * pair.area * b.energy;
+  }
+  touch.energy = static_cast<double>(fade.factor * pair.area * b.energy);
+  touch.force = -fade.factor * pair.area * b.slope;
+  touch.stiffness = fade.factor * pair.area * b.stiffness;
+  return touch;
+}
+
+// Gradient of the barrier's energy by the pair's vertex k.
+template <class Real>
+HYST_HD Vec3<Real> barrier_gradient(const SelfTouch<Real>& touch, int k) {
+  Vec3<Real> gradient = -touch.force * touch.weight[k] * touch.normal;
+  if (touch.fade_slope != 0) {  // d|a x b|^2/da = 2 (a |b|^2 - (a.b) b)
+    const Vec3<Real>&mine = k < 2 ? touch.first : touch.second, other = k < 2 ? touch.second : touch.first;
+    const Vec3<Real> by_edge = 2 * (other.squaredNorm() * mine - mine.dot(other) * other);
+    gradient += (k % 2 ? touch.fade_slope : -touch.fade_slope) * by_edge;
+  }
+  return gradient;
+}
+
+// Tangential displacement since the stop was at rest.
+template <class Real>
+HYST_HD Vec3<Real> pair_slip(const SelfPair<Real>& pair, const PairFriction<Real>& friction,
+                             const Vec3<Real>* position, const Vec3<Real>* before) {
+  Vec3<Real> e = friction.slip;
+  for (int k = 0; k < 4; ++k) e += friction.weight[k] * (position[pair.v[k]] - before[pair.v[k]]);
+  return e - friction.normal * friction.normal.dot(e);
+}
+
+}  // namespace hysteron

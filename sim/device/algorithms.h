@@ -1,0 +1,137 @@
+// Scans, extremes and groups on one device; the same bits whatever the number of threads.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+
+#include "sim/device/device.h"
+#ifdef __CUDACC__
+#include <cub/cub.cuh>
+#endif
+
+namespace hysteron {
+
+// Memory that grows when asked for more and keeps what it has when asked for less; growing loses the
+// contents.
+template <class T, class Device>
+class GrowingBuffer {
+ public:
+  explicit GrowingBuffer(Device& device) : device_(&device) {}
+  T* reserve(std::size_t size) {
+    if (size > buffer_.size()) {
+      buffer_ = {};
+      buffer_ = Buffer<T, Device>(*device_, size + size / 4);
+    }
+    return buffer_.data();
+  }
+  T* data() { return buffer_.data(); }
+  const T* data() const { return buffer_.data(); }
+  std::size_t bytes() const { return buffer_.bytes(); }
+  void swap(GrowingBuffer& other) { std::swap(buffer_, other.buffer_); }
+
+ private:
+  Device* device_;
+  Buffer<T, Device> buffer_;
+};
+
+// Scratch of the functions below.
+template <class Device>
+struct Scratch {
+  explicit Scratch(Device& device) : memory(device), keys(device), items(device), result(device, 1) {}
+  GrowingBuffer<char, Device> memory;
+  GrowingBuffer<int, Device> keys, items;
+  Buffer<double, Device> result;
+  std::size_t bytes() const { return memory.bytes() + keys.bytes() + items.bytes() + result.bytes(); }
+};
+
+// start[i] = count[0] + ... + count[i-1] for i in [0, n]; start has n + 1 elements.  Returns start[n].
+inline int exclusive_scan(Cpu&, Scratch<Cpu>&, const int* count, int n, int* start) {
+  start[0] = 0;
+  for (int i = 0; i < n; ++i) start[i + 1] = start[i] + count[i];
+  return start[n];
+}
+
+// The least of n values, or `otherwise` if that is less.
+template <class Real>
+Real smallest(Cpu&, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
+  for (int i = 0; i < n; ++i) otherwise = std::min(otherwise, value[i]);
+  return otherwise;
+}
+
+// Rows of items by their key in [0, rows): row r is item[start[r]] ... item[start[r+1]-1], in ascending
+// order. Negative keys belong to no row.
+inline void group(Cpu&, Scratch<Cpu>& scratch, const int* key, int n, int rows, int* start, int* item) {
+  int* next = scratch.keys.reserve(rows + 1);
+  std::fill(next, next + rows + 1, 0);
+  for (int i = 0; i < n; ++i)
+    if (key[i] >= 0) ++next[key[i] + 1];
+  std::partial_sum(next, next + rows + 1, next);
+  std::copy(next, next + rows + 1, start);
+  for (int i = 0; i < n; ++i)
+    if (key[i] >= 0) item[next[key[i]]++] = i;
+}
+
+#ifdef __CUDACC__
+template <class Call>
+void with_cub_memory(Scratch<Cuda>& scratch, const char* name, const Call& call) {
+  std::size_t bytes = 0;
+  check_cuda(call(nullptr, bytes), name);
+  char* memory = scratch.memory.reserve(bytes);
+  check_cuda(call(memory, bytes), name);
+}
+
+inline int exclusive_scan(Cuda& cuda, Scratch<Cuda>& scratch, const int* count, int n, int* start) {
+  with_cub_memory(scratch, "scan", [&](void* memory, std::size_t& bytes) {
+    return cub::DeviceScan::InclusiveSum(memory, bytes, count, start + 1, n, cuda.stream);
+  });
+  check_cuda(cudaMemsetAsync(start, 0, sizeof(int), cuda.stream), "scan");
+  int total = 0;
+  device_download(cuda, &total, start + n, sizeof(int));
+  return total;
+}
+
+template <class Real>
+Real smallest(Cuda& cuda, Scratch<Cuda>& scratch, const Real* value, int n, Real otherwise) {
+  if (n == 0) return otherwise;
+  Real* result = reinterpret_cast<Real*>(scratch.result.data());
+  with_cub_memory(scratch, "smallest", [&](void* memory, std::size_t& bytes) {
+    return cub::DeviceReduce::Min(memory, bytes, value, result, n, cuda.stream);
+  });
+  Real least = 0;
+  device_download(cuda, &least, result, sizeof(Real));
+  return std::min(least, otherwise);
+}
+
+// Radix sort is stable; negative keys become the last row.
+inline void group(Cuda& cuda, Scratch<Cuda>& scratch, const int* key, int n, int rows, int* start,
+                  int* item) {
+  int *keys = scratch.keys.reserve(2 * static_cast<std::size_t>(n)), *sorted = keys + n;
+  int* order = scratch.items.reserve(n);
+  for_each(
+      cuda, "group: keys", n, HYST_KERNEL(int i) {
+        keys[i] = key[i] < 0 ? rows : key[i];
+        order[i] = i;
+      });
+  int bits = 1;
+  while ((rows >> bits) > 0) ++bits;
+  if (n > 0)
+    with_cub_memory(scratch, "group", [&](void* memory, std::size_t& bytes) {
+      return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted, order, item, n, 0, bits,
+                                             cuda.stream);
+    });
+  for_each(
+      cuda, "group: rows", rows + 1, HYST_KERNEL(int r) {
+        int low = 0, high = n;  // first place whose key is r or more
+        while (low < high) {
+          const int middle = (low + high) / 2;
+          if (sorted[middle] < r)
+            low = middle + 1;
+          else
+            high = middle;
+        }
+        start[r] = low;
+      });
+}
+#endif
+
+}  // namespace hysteron

@@ -1,0 +1,18 @@
+// Triangles of a surface that pass through each other, by exact predicates: an independent check of contact.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// Pairs of triangles (first < second) that intersect at these positions, in ascending order; triangles that
+// share an edge count as neighbours and never do, those that share a vertex where they meet elsewhere as
+// well. `most` ends the search early.
+std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen::Vector3i>& face,
+                                                        const std::vector<Eigen::Vector3d>& position,
+                                                        std::size_t most = 1000000);
+
+}  // namespace hysteron

@@ -1,0 +1,179 @@
+// Cloth on cloth: pressure, friction, no way through; energies; an exact check of intersections.
+#include "sim/contact/self_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "sim/error.h"
+#include "sim/mesh/intersections.h"
+#include "tests/sim/solve/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kSide = 0.05;
+
+// Two sheets of one cloth, far apart at rest; the upper one starts `gap` above the lower one, which reaches
+// farther on all sides.
+Trial two_sheets(double gap, int triangles) {
+  Scene scene = test::free_square(triangles);
+  scene.law = "prandtl";
+  scene.self_contact = true;
+  scene.integrator = "implicit";
+  scene.step = 1.0 / 240;
+  const ClothMesh lower = make_rectangle(1.4 * kSide, 1.4 * kSide, triangles, MeshFamily::random, 1);
+  const ClothMesh upper = make_rectangle(kSide, kSide, triangles / 2, MeshFamily::random, 2);
+  ClothMesh both = lower;
+  for (const Vector3d& x : upper.rest) both.rest.push_back(x + Vector3d(1, 0, 0));
+  for (const auto& f : upper.face) both.face.push_back(f.array() + lower.vertices());
+  both.pattern.clear();
+  build_topology(both, "two sheets");
+  Trial trial(scene);
+  trial.cloth = place_cloth(scene, both);
+  for (int i = lower.vertices(); i < both.vertices(); ++i)
+    trial.cloth.start[i] += Vector3d(0.2 * kSide - 1, 0.2 * kSide, gap);
+  Pin hand;
+  trial.scene.pin = {hand};
+  trial.cloth.grip = {{}};
+  for (int i = 0; i < lower.vertices(); ++i) {
+    trial.cloth.pin[i] = 0;
+    trial.cloth.grip[0].push_back(i);
+  }
+  return trial;
+}
+
+std::vector<int> upper_vertices(const Trial& trial) {
+  std::vector<int> result;
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
+    if (trial.cloth.pin[i] < 0) result.push_back(i);
+  return result;
+}
+
+// What the list's areas are chosen for: the layers' force is that of the barrier times the upper one's area,
+// and of pairs beside those right above each other.
+TEST(SelfContact, OfFlatLayersHasTheBarriersPressure) {
+  for (double share : {0.6, 0.8, 0.95}) {
+    const double thickness = Fabric{}.thickness, gap = share * thickness;
+    const Trial trial = two_sheets(gap, 800);
+    Cpu cpu(1);
+    SelfContact<double, Cpu> contact(cpu, trial.cloth.mesh, trial.scene);
+    const std::vector<Vector3d> still(trial.cloth.start.size(), Vector3d::Zero());
+    const std::vector<char> held(still.size());
+    EXPECT_EQ(contact.prepare(trial.cloth.start.data(), still.data(), held.data()), 1);
+    contact.moved(trial.cloth.start.data());
+    std::vector<Vector3d> gradient(still.size(), Vector3d::Zero());
+    contact.evaluate(trial.cloth.start.data(), trial.cloth.start.data(), gradient.data());
+    double force = 0;
+    for (int i : upper_vertices(trial)) force -= gradient[i].z();
+    // At a fifth of the thickness it is 4.9 kPa.
+    const double u = (gap - thickness / 2) / (thickness / 2);
+    const auto pressure = [](double u) { return 2 * (u - 1) * std::log(u) + (u - 1) * (u - 1) / u; };
+    const double expected = 4903.3 * pressure(u) / pressure(0.6) * kSide * kSide;
+    EXPECT_GT(force / expected, 1) << share;
+    EXPECT_LT(force / expected, 1.5) << share;
+  }
+}
+
+// The gradient is the energy's, through parallel edges as well; sums over all pairs vanish.
+TEST(SelfContact, GradientIsTheEnergys) {
+  Trial trial = two_sheets(0.8 * Fabric{}.thickness, 60);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> noise(-5e-5, 5e-5);
+  for (int i : upper_vertices(trial))
+    trial.cloth.start[i] += Vector3d(noise(random), noise(random), noise(random));
+  Cpu cpu(1);
+  SelfContact<double, Cpu> contact(cpu, trial.cloth.mesh, trial.scene);
+  auto x = trial.cloth.start;
+  const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
+  const std::vector<char> held(x.size());
+  contact.prepare(x.data(), still.data(), held.data());
+  contact.moved(x.data());
+  std::vector<Vector3d> gradient(x.size(), Vector3d::Zero());
+  contact.evaluate(x.data(), x.data(), gradient.data());
+  Vector3d sum = Vector3d::Zero();
+  double largest = 0;
+  for (const Vector3d& g : gradient) {
+    sum += g;
+    largest = std::max(largest, g.norm());
+  }
+  EXPECT_LT(sum.norm(), 1e-9 * largest);
+  constexpr double kTiny = 1e-9;
+  for (int i : upper_vertices(trial))
+    for (int c = 0; c < 3; ++c) {
+      const double at = x[i][c];
+      x[i][c] = at + kTiny;
+      const double high = contact.stored_energy(x.data());
+      x[i][c] = at - kTiny;
+      const double low = contact.stored_energy(x.data());
+      x[i][c] = at;
+      EXPECT_NEAR((high - low) / (2 * kTiny), gradient[i][c], 1e-5 * largest) << i;
+    }
+}
+
+TEST(SelfContact, CarriesASheetThatLandsOnAnother) {
+  const Trial trial = two_sheets(2e-3, 200);
+  const auto simulation = trial.after(60);
+  const auto x = simulation->positions();
+  for (int i : upper_vertices(trial)) {
+    EXPECT_GT(x[i].z(), Fabric{}.thickness / 2);
+    EXPECT_LT(x[i].z(), 1.5 * Fabric{}.thickness);
+  }
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
+  const Ledger ledger = simulation->ledger();
+  EXPECT_LT(ledger.remainder_relative, 1e-9);
+  EXPECT_GT(ledger.contact_friction, -1e-12);
+}
+
+// Mean way down a slope that starts once the sheets lie on each other [m].
+double slid_on_cloth(double slope) {
+  Trial trial = two_sheets(Fabric{}.thickness * 0.999, 60);
+  trial.scene.gravity = 9.81 * Vector3d(std::sin(slope), 0, -std::cos(slope));
+  const auto simulation = trial.after(60);
+  const auto x = simulation->positions();
+  double sum = 0;
+  const std::vector<int> upper = upper_vertices(trial);
+  for (int i : upper) sum += x[i].x() - trial.cloth.start[i].x();
+  return sum / static_cast<double>(upper.size());
+}
+
+TEST(SelfContact, SlipsAtTheAngleOfFriction) {
+  const double angle = std::atan(Fabric{}.friction);
+  EXPECT_LT(slid_on_cloth(0.98 * angle), 2e-5);
+  const double slope = 1.02 * angle, time = 0.25;
+  const double free_way = 9.81 * (std::sin(slope) - Fabric{}.friction * std::cos(slope)) * time * time / 2;
+  EXPECT_NEAR(slid_on_cloth(slope) / free_way, 1, 0.25);
+}
+
+TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {
+  Scene scene = test::free_square(40);
+  scene.self_contact = true;
+  scene.integrator = "explicit";
+  EXPECT_THROW(Trial(scene).simulation(), Error);
+}
+
+TEST(Intersections, AreFoundBetweenSheetsThatCross) {
+  Trial trial = two_sheets(1e-3, 60);
+  auto x = trial.cloth.start;
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
+  for (int i : upper_vertices(trial)) x[i].z() -= 0.1 * (x[i].x() - 0.7 * kSide);
+  const auto found = intersecting_triangles(trial.cloth.mesh.face, x);
+  EXPECT_GT(found.size(), 5u);
+  for (const auto& [a, b] : found) EXPECT_LT(a, b);
+}
+
+// Two triangles that share a corner only: apart, and with a side through the other one.
+TEST(Intersections, AreFoundBeyondACommonCorner) {
+  const std::vector<Eigen::Vector3i> face = {{0, 1, 2}, {0, 3, 4}};
+  std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.5, 0.2, 1}};
+  EXPECT_TRUE(intersecting_triangles(face, x).empty());
+  x[4] = {0.3, 0.2, -1};
+  EXPECT_EQ(intersecting_triangles(face, x).size(), 1u);
+}
+
+}  // namespace
+}  // namespace hysteron
