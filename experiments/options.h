@@ -19,6 +19,7 @@ struct Options {
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
+  bool check_intersections = false;                  // check-intersections  of every moment that is recorded
   bool quick = false;                                // quick      a small version of the same question
   bool resume = false;                               // resume
   bool explain = false;                              // explain    print what the scene includes, and stop

@@ -8,6 +8,7 @@
 #include "experiments/report.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/recovery.h"
+#include "sim/mesh/intersections.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -102,6 +103,16 @@ void Session::watch_folds(const std::vector<Eigen::Vector3d>& x) {
   folded_ = std::max(folded_, static_cast<double>(sharp) / std::max<std::size_t>(1, angle.size()));
 }
 
+bool Session::checks_intersections() const {
+  return setup_.options.check_intersections || setup_.scene.self_contact;
+}
+
+void Session::watch_intersections(const std::vector<Eigen::Vector3d>& x) {
+  if (!checks_intersections()) return;
+  const auto stage = run_->stage("intersections");
+  intersections_ += static_cast<long>(intersecting_triangles(cloth_.mesh.face, x).size());
+}
+
 void Session::note_folds() {
   constexpr double kMany = 0.01;
   run_->metric("sharp_edges_percent", 100 * folded_);
@@ -157,6 +168,7 @@ bool Session::simulate(const Question& question) {
     record.row(row);
     if (pictures_) pictures_->frame(*run_);
     watch_folds(x);
+    watch_intersections(x);
     export_mesh(frame, x);
     run_->progress(question.progress(moment));
     settled = frame > 0 && question.settled && question.settled(moment);
@@ -193,6 +205,7 @@ void Session::finish(const std::string& title) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
+  if (checks_intersections()) run_->metric("intersections_count", intersections_);
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");

@@ -55,6 +55,8 @@ class Session {
   void finish(const std::string& title);
 
  private:
+  bool checks_intersections() const;
+  void watch_intersections(const std::vector<Eigen::Vector3d>& x);
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
@@ -65,7 +67,8 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
-  double folded_ = 0;  // largest share of sharply folded edges
+  long intersections_ = 0;  // pairs of triangles, of all recorded moments
+  double folded_ = 0;       // largest share of sharply folded edges
 };
 
 }  // namespace hysteron::experiments
