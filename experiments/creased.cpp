@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/bending/recovery.h"
 #include "sim/contact/penalty.h"
 #include "sim/error.h"
 #include "sim/scene/motion.h"
@@ -18,7 +19,7 @@ constexpr double kFinest = 0.8;   // elements there, in thicknesses
 constexpr double kGrowth = 1.25;  // of columns from there on
 constexpr double kWidest = 0.05;  // column, of the length
 constexpr double kLoop = 0.1;     // radius of the hand's turn, of the length
-constexpr double kFold = 0.4, kLower = 0.2, kPress = 0.2, kLift = 0.1;  // durations [s]
+constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3, kLift = 0.1;  // durations [s]
 constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
 constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
 constexpr double kRise = 0.04;   // of the plate [m]
@@ -90,8 +91,12 @@ Obstacle plate_of(const Scene& scene, const CreaseTimes& times, double lowest) {
   plate.size = {0.375 * length, 0.75 * scene.cloth.width, kPlate};
   plate.rim = kPlate / 4;
   plate.center = {0.3 * length, scene.cloth.width / 2, ready + kPlate + kRise};
-  plate.motion.keys = {key(kFold, 0), key(kFold + kLower, -kRise), key(times.pressed, lowest - ready - kRise),
-                       key(times.released, lowest - ready - kRise), key(times.released + kLift, 0)};
+  plate.motion.keys = {key(kFold, 0),
+                       key(times.folded, -kRise),
+                       key(times.folded + kSettle, -kRise),
+                       key(times.pressed, lowest - ready - kRise),
+                       key(times.released, lowest - ready - kRise),
+                       key(times.released + kLift, 0)};
   return plate;
 }
 
@@ -102,7 +107,7 @@ Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
   Scene& scene = crease.scene;
   CreaseTimes& times = crease.times;
   times.folded = kFold + kLower;
-  times.pressed = times.folded + kPress;
+  times.pressed = times.folded + kSettle + kPress;
   times.released = times.pressed + choice.hold;
   times.end = times.released + choice.recovery;
   scene.seconds = times.end;
@@ -146,15 +151,27 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
   return std::acos(std::clamp(far.normalized().dot(near.normalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
+double Crease::opening_of_law(const std::vector<double>& largest) const {
+  constexpr int kRows = 40;
+  const LawRequest law{scene.law, scene.fabric.virgin_curve(), scene.param};
+  double bent = 0;
+  for (int f = 0; f < cloth.mesh.faces(); ++f) {
+    std::vector<LawRow> rows;
+    for (int k = 1; k <= kRows; ++k) rows.push_back({largest[f] * k / kRows, times.released / kRows});
+    if (largest[f] > 0) bent += cloth.mesh.face_area[f] * residual_after(law, rows);
+  }
+  return 180 - bent / scene.cloth.width * 180 / std::numbers::pi;
+}
+
 double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
   const double thickness = scene.fabric.thickness, lowest = 2.05 * thickness;
   const Crease crease = creased(scene, choice, lowest);
   const auto simulation = make_simulation(crease.scene, crease.cloth);
+  const Obstacle& plate = crease.scene.obstacle[1];
   while (simulation->time() < crease.times.pressed) {
     simulation->advance(1);
     const double time = simulation->time();
-    if (time <= crease.times.folded) continue;
-    const Obstacle& plate = crease.scene.obstacle[1];
+    if (time <= crease.times.folded + kSettle) continue;
     if (crease.plate_force(simulation->positions(), time) >= choice.force)
       return placement(plate.motion, time)(plate.center).z() - plate.size.z();
   }

@@ -26,6 +26,9 @@ struct Crease {
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
   // Angle between the limbs: 0 folded flat, 180 straight [degree].
   double opening(const std::vector<Eigen::Vector3d>& x) const;
+  // What the law alone makes of it: the opening if each triangle had only been bent along the strip to its
+  // `largest` curvature [1/m] and let go [degree].
+  double opening_of_law(const std::vector<double>& largest) const;
 };
 
 // A specimen of scene.cloth.length by scene.cloth.width whose elements are at most a thickness long across

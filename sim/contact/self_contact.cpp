@@ -42,12 +42,13 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       share_(device),
       friction_(device),
       old_friction_(device),
+      presses_(device),
+      pressing_(device),
       stiffness_(device),
+      rows_(device, vertices_),
+      stiffness_rows_(device, vertices_),
       slot_(device),
       energy_(device),
-      vertex_item_(device),
-      key_(device),
-      vertex_start_(device, vertices_ + 1),
       sum_(device, 2),
       clock_(device) {}
 
@@ -100,17 +101,16 @@ void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* w
   ready_ = pending_ = true;
   const int count = pairs_.count();
   carry_over();
-  stiffness_.reserve(count);
   slot_.reserve(4 * static_cast<std::size_t>(count));
   energy_.reserve(count);
-  int* key = key_.reserve(4 * static_cast<std::size_t>(count));
+  int* key = rows_.key.reserve(4 * static_cast<std::size_t>(count));
   const SelfPair<Real>* pairs = pairs_.pairs();
   for_each(
       device_, "self-contact: corners", count, HYST_KERNEL(int p) {
         for (int k = 0; k < 4; ++k) key[4 * p + k] = pairs[p].v[k];
       });
-  group(device_, pairs_.scratch(), key, 4 * count, vertices_, vertex_start_.data(),
-        vertex_item_.reserve(4 * static_cast<std::size_t>(count)));
+  group(device_, pairs_.scratch(), key, 4 * count, vertices_, rows_.start.data(),
+        rows_.item.reserve(4 * static_cast<std::size_t>(count)));
 }
 
 // Friction of the pairs that stay in the list.
@@ -175,64 +175,86 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* 
         const Vec3<Real> force = (slides ? f.limit / length : k_t) * e;
         for (int k = 0; k < 4; ++k) slot[4 * p + k] += f.weight[k] * force;
       });
-  const PairForceView<Real> forces = gathered();
+  const PairForceView<Real> forces = gathered(rows_);
   for_each(
       device_, "self-contact: forces", vertices_, HYST_KERNEL(int i) { gradient[i] += forces.at(i); });
   clock_.end(Stage::contact);
 }
 
+// Numbers the pairs that press or rub; returns how many they are.
+template <class Real, class Device>
+int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
+  const int count = pairs_.count();
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  const PairFriction<Real>* friction = friction_.data();
+  int* presses = presses_.reserve(count);
+  for_each(
+      device_, "self-contact: pressing", count, HYST_KERNEL(int p) {
+        Vec3<Real> at[4];
+        pairs[p].gather(x, at);
+        presses[p] = friction[p].limit > 0 || distance_of(at, pairs[p].is_edges()) < pairs[p].shell;
+      });
+  return exclusive_scan(device_, pairs_.scratch(), presses, count, pressing_.reserve(count + 1));
+}
+
 template <class Real, class Device>
 void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before) {
   clock_.begin(Stage::contact);
+  pressing_count_ = find_pressing(x);
+  const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
-  PairStiffness<Real>* stiffness = stiffness_.data();
+  const int *presses = presses_.data(), *number = pressing_.data();
+  PairStiffness<Real>* stiffness = stiffness_.reserve(pressing_count_);
+  int* key = stiffness_rows_.key.reserve(entries);
   for_each(
       device_, "self-contact: stiffness", pairs_.count(), HYST_KERNEL(int p) {
+        if (!presses[p]) return;
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         const PairFriction<Real> f = friction[p];
-        PairStiffness<Real> s{Mat3<Real>::Zero(), Vec<Real, 4>::Zero()};
+        PairStiffness<Real>& s = stiffness[number[p]];
+        for (int k = 0; k < 4; ++k) key[4 * number[p] + k] = s.v[k] = pairs[p].v[k];
+        s.block.setZero();
+        s.weight = f.weight;
         if (touch.touches) {
           s.block = touch.stiffness * touch.normal * touch.normal.transpose();
           s.weight = touch.weight;
         }
-        if (f.limit > 0) {
-          if (!touch.touches) s.weight = f.weight;
-          const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
-          const Real length = e.norm();
-          Mat3<Real> tangent = Mat3<Real>::Identity() - f.normal * f.normal.transpose();
-          if (length > model.slip)
-            tangent = model.slip / length * (tangent - (e / length) * (e / length).transpose());
-          s.block += f.limit / model.slip * tangent;
-        }
-        stiffness[p] = s;
+        if (!(f.limit > 0)) return;
+        const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
+        const Real length = e.norm();
+        Mat3<Real> tangent = Mat3<Real>::Identity() - f.normal * f.normal.transpose();
+        if (length > model.slip)
+          tangent = model.slip / length * (tangent - (e / length) * (e / length).transpose());
+        s.block += f.limit / model.slip * tangent;
       });
+  group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
+        stiffness_rows_.item.reserve(entries));
   clock_.end(Stage::contact);
 }
 
 template <class Real, class Device>
 PairForceView<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>* v) {
   clock_.begin(Stage::contact);
-  const SelfPair<Real>* pairs = pairs_.pairs();
   const PairStiffness<Real>* stiffness = stiffness_.data();
   Vec3<Real>* slot = slot_.data();
   for_each(
-      device_, "self-contact: product", pairs_.count(), HYST_KERNEL(int p) {
+      device_, "self-contact: product", pressing_count_, HYST_KERNEL(int p) {
         const PairStiffness<Real>& s = stiffness[p];
         Vec3<Real> apart = Vec3<Real>::Zero();
-        for (int k = 0; k < 4; ++k) apart += s.weight[k] * v[pairs[p].v[k]];
+        for (int k = 0; k < 4; ++k) apart += s.weight[k] * v[s.v[k]];
         const Vec3<Real> force = s.block * apart;
         for (int k = 0; k < 4; ++k) slot[4 * p + k] = s.weight[k] * force;
       });
   clock_.end(Stage::contact);
-  return gathered();
+  return gathered(stiffness_rows_);
 }
 
 template <class Real, class Device>
 void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
   const PairStiffness<Real>* stiffness = stiffness_.data();
-  const PairForceView<Real> rows = gathered();
+  const PairForceView<Real> rows = gathered(stiffness_rows_);
   for_each(
       device_, "self-contact: diagonal", vertices_, HYST_KERNEL(int i) {
         for (int j = rows.start[i]; j < rows.start[i + 1]; ++j) {
@@ -307,8 +329,8 @@ int SelfContact<Real, Device>::touching(const Vec3<Real>* x) {
 template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
   return pairs_.bytes() + center_.bytes() + share_.bytes() + friction_.bytes() + old_friction_.bytes() +
-         stiffness_.bytes() + slot_.bytes() + energy_.bytes() + vertex_item_.bytes() + key_.bytes() +
-         vertex_start_.bytes() + sum_.bytes();
+         presses_.bytes() + pressing_.bytes() + stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() +
+         slot_.bytes() + energy_.bytes() + sum_.bytes();
 }
 
 template class SelfContact<double, ThisDevice>;

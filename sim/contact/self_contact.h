@@ -40,8 +40,19 @@ struct PairFriction {
 
 template <class Real>
 struct PairStiffness {
+  int v[4];
   Mat3<Real> block;  // between the closest points [N/m]
   Vec<Real, 4> weight;
+};
+
+// Entries of pairs' vertices, sorted by vertex.
+template <class Device>
+struct PairRows {
+  PairRows(Device& device, int vertices) : start(device, vertices + 1), item(device), key(device) {}
+  Buffer<int, Device> start;        // rows: vertices
+  GrowingBuffer<int, Device> item;  // 4 * pair + corner
+  GrowingBuffer<int, Device> key;   // vertex of each entry
+  std::size_t bytes() const { return start.bytes() + item.bytes() + key.bytes(); }
 };
 
 template <class Real>
@@ -79,7 +90,10 @@ class SelfContact {
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach);
   void carry_over();
   Real longest(const Vec3<Real>* x, const Vec3<Real>* way, const Vec3<Real>* from);
-  PairForceView<Real> gathered() const { return {vertex_start_.data(), vertex_item_.data(), slot_.data()}; }
+  int find_pressing(const Vec3<Real>* x);
+  PairForceView<Real> gathered(const PairRows<Device>& rows) const {
+    return {rows.start.data(), rows.item.data(), slot_.data()};
+  }
 
  private:
   Device& device_;
@@ -93,11 +107,14 @@ class SelfContact {
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> share_;
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
+  // Of the pairs that press or rub where linearise() was called last: their numbers among all follow from
+  // `pressing_`, a running count.
+  int pressing_count_ = 0;
+  GrowingBuffer<int, Device> presses_, pressing_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
+  PairRows<Device> rows_, stiffness_rows_;
   GrowingBuffer<Vec3<Real>, Device> slot_;  // four for each pair
   GrowingBuffer<double, Device> energy_;
-  GrowingBuffer<int, Device> vertex_item_, key_;
-  Buffer<int, Device> vertex_start_;
   Buffer<double, Device> sum_;  // two
   StageClock<Device> clock_;
 };

@@ -49,7 +49,9 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
     outcome.load = std::hypot(weight, value.reaction);
-    outcome.converged |= value.residual <= limits_.residual * outcome.load;
+    // What is unbalanced is small beside the load, or would hardly move the cloth within the step.
+    outcome.converged |= value.residual <= limits_.residual * outcome.load ||
+                         value.residual * over * std::sqrt(vertices_) / total_mass <= limits_.velocity;
     if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
     outcome.linear_iterations +=
         find_direction(x, held, shift, value.residual < kNear * first, std::max(forcing, kTightest));

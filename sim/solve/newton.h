@@ -9,7 +9,8 @@ namespace hysteron {
 // A step has converged when the unbalanced force is small or the last correction was.
 struct NewtonLimits {
   double residual = 1e-6;  // norm of the unbalanced force over that of the weight and what the handles carry
-  double velocity = 1e-9;  // root mean square of a correction over the step's time [m/s]
+  double velocity = 1e-9;  // root mean square of a correction over the step's time, or of what the unbalanced
+                           // force makes of free masses in it [m/s]
   int iterations = 60;
   // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift
   // falls with every full step and rises with every shortened one [1/s^2].

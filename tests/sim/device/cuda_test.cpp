@@ -3,6 +3,7 @@
 
 #include "sim/bending/law_parameters.h"
 #include "sim/error.h"
+#include "sim/mesh/intersections.h"
 #include "sim/solve/back_end.h"
 #include "tests/sim/solve/scenes.h"
 
@@ -108,6 +109,45 @@ TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   const auto exact = run_on("cpu", scene)->positions();
   scene.precision = "float";
   EXPECT_LT(test::farthest(run_on("cuda", scene)->positions(), exact), kNear);
+}
+
+// A strip whose end a hand takes over until it lies on the other one.
+Scene folding_strip() {
+  Scene scene = test::free_square(600);
+  scene.cloth.shape = "strip";
+  scene.cloth.length = 0.06;
+  scene.cloth.width = 0.02;
+  scene.integrator = "implicit";
+  scene.self_contact = true;
+  scene.step = 5e-3;
+  scene.law = "prandtl";
+  scene.newton_residual = 1e-9;
+  Pin clamp, hand;
+  clamp.low = {-1, -1, -1};
+  clamp.high = {0.02, 1, 1};
+  hand.low = {0.05, -1, -1};
+  hand.high = {1, 1, 1};
+  hand.motion.axis = {0, -1, 0};
+  hand.motion.center = {0.035, 0, 0.005};
+  hand.motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0, 0}, 180}, {0.25, {0, 0, -0.0096}, 180}};
+  scene.pin = {clamp, hand};
+  return scene;
+}
+
+TEST(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr double kAgreement = 1e-6;  // [m]
+  const Scene scene = folding_strip();
+  const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
+  EXPECT_GT(cpu->ledger().contact, 0);
+  const double distance = test::farthest(cpu->positions(), gpu->positions());
+  RecordProperty("distance_nm", std::to_string(1e9 * distance));
+  EXPECT_LT(distance, kAgreement);
+  EXPECT_EQ(gpu->state_hash(), again->state_hash());
+  EXPECT_LT(gpu->ledger().remainder_relative, 1e-9);
+  const Trial trial(scene);
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, gpu->positions()).empty());
 }
 
 TEST(Device, ListNamesTheCpuAndTheGpuOrWhyThereIsNone) {

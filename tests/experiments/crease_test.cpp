@@ -1,0 +1,86 @@
+// The crease recovery specimen, and what opens it.
+#include "experiments/creased.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/contact/penalty.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.cloth.length = 0.04;
+  scene.cloth.width = 0.015;
+  scene.triangles = 200;
+  scene.contact_stiffness = 1e9;
+  return scene;
+}
+
+TEST(CreaseSpecimen, HasElementsNoLongerThanAThicknessAcrossTheCrease) {
+  const Crease crease = creased(small_scene(), {}, 1.4e-3);
+  const ClothMesh& mesh = crease.cloth.mesh;
+  int near = 0;
+  for (const Edge& e : mesh.edge) {
+    const double middle = (mesh.rest[e.p2].x() + mesh.rest[e.p3].x()) / 2;
+    if (std::abs(middle - 0.02) > 2e-3) continue;
+    ++near;
+    EXPECT_LE(std::abs(mesh.rest[e.p2].x() - mesh.rest[e.p3].x()), crease.scene.fabric.thickness);
+  }
+  EXPECT_GT(near, 20);
+  EXPECT_NEAR(crease.opening(crease.cloth.start), 180, 1e-6);
+}
+
+TEST(CreaseSpecimen, FeelsThePlateByItsShell) {
+  const Crease crease = creased(small_scene(), {}, 1.4e-3);
+  auto x = crease.cloth.start;
+  const double sink = 0.1 * crease.scene.fabric.thickness;
+  for (auto& p : x) p.z() = 1.4e-3 - crease.scene.fabric.thickness + sink;
+  const double covered = 0.015 * (0.3 + 0.375) * 0.04;
+  EXPECT_NEAR(crease.plate_force(x, crease.times.pressed) / (1e9 * covered * sink), 1, 0.1);
+}
+
+// Bent to a curvature K over all its length and let go, a law keeps M0/b2 at most.
+TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
+  Crease crease = creased(small_scene(), {}, 1.4e-3);
+  const std::vector<double> largest(crease.cloth.mesh.faces(), 1000.0);
+  const Fabric& f = crease.scene.fabric;
+  const double kept = (f.b1 - f.b2) * f.k0 / 2 / f.b2 * 0.04 * 180 / 3.14159265358979323846;
+  EXPECT_NEAR(crease.opening_of_law(largest), 180 - kept, 0.01 * kept);
+  crease.scene.law = "linear";
+  EXPECT_NEAR(crease.opening_of_law(largest), 180, 1e-9);
+}
+
+nlohmann::json metrics_of(const std::string& law) {
+  const Folder folder;
+  CommandLine line{"crease",
+                   "hysteron crease",
+                   {{"law", law},
+                    {"triangles", "200"},
+                    {"crease.hold", "0.05"},
+                    {"crease.recovery", "0.3"},
+                    {"crease.force", "5"}},
+                   {}};
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  line.flags.push_back({"out", (folder.path() / "run").string()});
+  EXPECT_EQ(crease(line), 0);
+  return nlohmann::json::parse(text_of(folder.path() / "run" / "manifest.json"))["metrics"];
+}
+
+TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
+  const auto elastic = metrics_of("linear"), hysteretic = metrics_of("prandtl");
+  EXPECT_EQ(elastic["intersections_count"], 0);
+  EXPECT_EQ(hysteretic["intersections_count"], 0);
+  EXPECT_GT(elastic["recovery_angle_deg"], 178);
+  EXPECT_NEAR(elastic["law_recovery_angle_deg"].get<double>(), 180, 1e-6);
+  EXPECT_LT(hysteretic["recovery_angle_deg"], 165);
+  EXPECT_GT(hysteretic["recovery_angle_deg"], 90);
+  EXPECT_NEAR(elastic["plate_force_N"].get<double>(), 5, 1.5);
+  EXPECT_LT(elastic["energy_remainder_relative"], 1e-4);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
