@@ -26,16 +26,18 @@ struct Box {
   }
 };
 
-// Where vertices go within a step: from `from` to from + way - mean; the mean is what they share.
+// Where vertices go within a step: from `from` to from + share (way - mean); the mean is what they have in
+// common.
 template <class Real>
 struct Sweep {
   const Vec3<Real>*from, *way;
   Vec3<Real> mean;
+  Real share;
   Real margin;  // boxes reach farther by this
 
   HYST_HD void include(Box<Real>& box, int vertex) const {
     box.include(from[vertex]);
-    box.include(from[vertex] + way[vertex] - mean);
+    box.include(from[vertex] + share * (way[vertex] - mean));
   }
   HYST_HD void widen(Box<Real>& box) const {
     box.low.array() -= margin;

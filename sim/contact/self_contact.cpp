@@ -12,6 +12,7 @@ namespace {
 constexpr double kSlip = 0.01;              // elastic slip of friction over the thickness
 constexpr double kPressure = 50 * 98.0665;  // of the KES compression test [Pa] (Kawabata 1980)
 constexpr double kCompressed = 0.2;         // of the thickness, at that pressure
+constexpr double kWayOfEdge = 5;            // most of a way that is looked at, over the mean edge length
 constexpr double kReachOfEdge = 0.2;        // most that lists reach beyond a path, over the mean edge length
 
 // Stiffness [N/m^3] of a barrier that gives in by kCompressed at kPressure.
@@ -35,6 +36,7 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       thickness_(static_cast<Real>(scene.fabric.thickness)),
       least_reach_(thickness_ / 4),
       most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
+      most_way_(std::max(4 * thickness_, static_cast<Real>(kWayOfEdge * mean_edge(mesh)))),
       model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
              static_cast<Real>(scene.fabric.friction), static_cast<Real>(kSlip) * thickness_},
       pairs_(device, mesh, scene.fabric.thickness),
@@ -52,23 +54,33 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       sum_(device, 2),
       clock_(device) {}
 
-// Largest distance of x + way from `from` over all vertices; without `from`, length of the longest way.
+// Of any vertex, without what all have in common.
 template <class Real, class Device>
-Real SelfContact<Real, Device>::longest(const Vec3<Real>* x, const Vec3<Real>* way, const Vec3<Real>* from) {
+Real SelfContact<Real, Device>::longest_way(const Vec3<Real>* way) {
+  const Vec3<Real> mean = pairs_.mean_of(way);
   Real* lengths = share_.reserve(vertices_);
   for_each(
-      device_, "self-contact: lengths", vertices_, HYST_KERNEL(int i) {
-        const Vec3<Real> away = from ? Vec3<Real>(x[i] + way[i] - from[i]) : way[i];
-        lengths[i] = -away.norm();
-      });
+      device_, "self-contact: ways", vertices_, HYST_KERNEL(int i) { lengths[i] = -(way[i] - mean).norm(); });
+  return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
+}
+
+// Largest distance of the way's end from where the list of pairs was made for.
+template <class Real, class Device>
+Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* way, Real share) {
+  const Vec3<Real>* center = center_.data();
+  Real* lengths = share_.reserve(vertices_);
+  for_each(
+      device_, "self-contact: lengths", vertices_,
+      HYST_KERNEL(int i) { lengths[i] = -(x[i] + share * way[i] - center[i]).norm(); });
   return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
 }
 
 template <class Real, class Device>
 double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held) {
   clock_.begin(Stage::contact);
-  if (!ready_ || pending_ || !(longest(x, way, center_.data()) <= reach_))
-    rebuild(x, way, held, std::clamp(longest(x, way, nullptr) / 2, least_reach_, most_reach_));
+  const Real longest = longest_way(way), most = longest > most_way_ ? most_way_ / longest : Real(1);
+  if (!ready_ || pending_ || !(farthest(x, way, most) <= reach_))
+    rebuild(x, way, most, held, std::clamp(most * longest / 2, least_reach_, most_reach_));
   const SelfPair<Real>* pairs = pairs_.pairs();
   Real* share = share_.reserve(pairs_.count());
   for_each(
@@ -77,11 +89,12 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
         Vec3<Real> from[4], along[4];
         pair.gather(x, from);
         pair.gather(way, along);
+        for (Vec3<Real>& w : along) w *= most;
         share[p] = feasible_share(from, along, pair.is_edges(), least_distance(pair));
       });
   const double least = smallest(device_, pairs_.scratch(), share, pairs_.count(), Real(1));
   clock_.end(Stage::contact);
-  return least;
+  return static_cast<double>(most) * least;
 }
 
 template <class Real, class Device>
@@ -94,10 +107,10 @@ void SelfContact<Real, Device>::moved(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* way, const char* held,
-                                        Real reach) {
+void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* way, Real share,
+                                        const char* held, Real reach) {
   reach_ = reach;
-  pairs_.find(x, way, held, reach);
+  pairs_.find(x, way, share, held, reach);
   ready_ = pending_ = true;
   const int count = pairs_.count();
   carry_over();

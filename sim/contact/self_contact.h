@@ -65,7 +65,8 @@ class SelfContact {
  public:
   SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
 
-  // Largest share of the way from x that keeps layers apart; afterwards evaluate() and its kind may be called
+  // Largest share of the way from x that keeps layers apart, and no vertex farther than some edges from where
+  // the others go on average; afterwards evaluate() and its kind may be called
   // on the path up to there.  moved() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held);
   void moved(const Vec3<Real>* x);
@@ -87,9 +88,10 @@ class SelfContact {
   std::size_t bytes() const;
 
   // Parts; public because nvcc allows no device lambda in a private member function.
-  void rebuild(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach);
+  void rebuild(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held, Real reach);
   void carry_over();
-  Real longest(const Vec3<Real>* x, const Vec3<Real>* way, const Vec3<Real>* from);
+  Real longest_way(const Vec3<Real>* way);
+  Real farthest(const Vec3<Real>* x, const Vec3<Real>* way, Real share);
   int find_pressing(const Vec3<Real>* x);
   PairForceView<Real> gathered(const PairRows<Device>& rows) const {
     return {rows.start.data(), rows.item.data(), slot_.data()};
@@ -98,7 +100,7 @@ class SelfContact {
  private:
   Device& device_;
   int vertices_;
-  Real thickness_, least_reach_, most_reach_;
+  Real thickness_, least_reach_, most_reach_, most_way_;
   SelfContactModel<Real> model_;
   SelfPairs<Real, Device> pairs_;
   bool ready_ = false, pending_ = false;

@@ -44,7 +44,7 @@ struct Candidates {  // what the loops need, by value
     pair.gather(sweep.from, x);
     pair.gather(sweep.way, way);
     remove_mean(way);
-    const Real near = distance_of(x, edges) - fastest_approach(way, edges) - 2 * reach;
+    const Real near = distance_of(x, edges) - sweep.share * fastest_approach(way, edges) - 2 * reach;
     if (near > thickness) return false;
     pair.gather(rest, x);
     const Real apart = Real(kOfRestDistance) * distance_of(x, edges);
@@ -163,11 +163,12 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
 }
 
 template <class Real, class Device>
-void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, Real reach) {
+void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held,
+                                   Real reach) {
   std::swap(start_, old_start_);
   pair_.swap(old_pair_);
   old_count_ = count_;
-  const Sweep<Real> sweep{x, way, mean_of(way), thickness_ + 2 * reach};
+  const Sweep<Real> sweep{x, way, mean_of(way), share, thickness_ + 2 * reach};
   triangle_tree_.fit(sweep);
   Sweep<Real> half = sweep;  // both edges' boxes are wider
   half.margin = sweep.margin / 2;

@@ -122,7 +122,7 @@ TEST(SelfPairs, MissNoneThatComesNear) {
   const std::vector<char> held(mesh.vertices());
   Cpu cpu(1);
   SelfPairs<double, Cpu> pairs(cpu, mesh, kThickness);
-  pairs.find(x.data(), way.data(), held.data(), kReach);
+  pairs.find(x.data(), way.data(), 1, held.data(), kReach);
   std::set<std::tuple<bool, std::array<int, 4>>> listed;
   for (int p = 0; p < pairs.count(); ++p) {
     const SelfPair<double>& pair = pairs.pairs()[p];
