@@ -92,7 +92,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
 
 std::string caption_of(const Recovered& recovered) {
   char text[120];
-  std::snprintf(text, sizeof text, "%s: opens to %.1f degree (law alone: %.1f)", recovered.law.c_str(),
+  std::snprintf(text, sizeof text, "%s: %.0f deg (law alone %.0f)", recovered.law.c_str(),
                 recovered.opening.back(), recovered.of_law);
   return text;
 }
@@ -188,8 +188,8 @@ int crease_laws(const CommandLine& line, const std::vector<std::string>& laws) {
   std::erase_if(first.flags, [](const Flag& f) { return f.path == "law"; });
   const Setup setup = set_up(first, defaults(), bind(kRows, choice));
   Json keys = to_json(bind(kRows, choice));
-  keys["fabric"] = setup.scene.fabric.name;
-  keys["law"] = laws;
+  keys["fabrics"] = setup.scene.fabric.name;
+  keys["laws"] = laws;
   Options options = setup.options;
   if (options.out.empty()) options.out = "out/crease";
   Run run(line, options, keys);

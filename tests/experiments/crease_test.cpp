@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sim/contact/penalty.h"
@@ -54,23 +55,26 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
   EXPECT_NEAR(crease.opening_of_law(largest), 180, 1e-9);
 }
 
-nlohmann::json metrics_of(const std::string& law) {
+// Both laws by one command.
+TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const Folder folder;
+  const auto out = folder.path() / "run";
   CommandLine line{"crease",
                    "hysteron crease",
-                   {{"law", law},
+                   {{"law", "linear,prandtl"},
                     {"triangles", "200"},
                     {"crease.hold", "0.05"},
                     {"crease.recovery", "0.3"},
-                    {"crease.force", "5"}},
+                    {"crease.force", "5"},
+                    {"out", out.string()}},
                    {}};
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  line.flags.push_back({"out", (folder.path() / "run").string()});
   EXPECT_EQ(crease(line), 0);
-  return nlohmann::json::parse(text_of(folder.path() / "run" / "manifest.json"))["metrics"];
-}
-
-TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
+  const auto metrics_of = [&](const char* law) {
+    return nlohmann::json::parse(text_of(out / law / "manifest.json"))["metrics"];
+  };
+  const std::string table = text_of(out / "table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   const auto elastic = metrics_of("linear"), hysteretic = metrics_of("prandtl");
   EXPECT_EQ(elastic["intersections_count"], 0);
   EXPECT_EQ(hysteretic["intersections_count"], 0);
