@@ -173,7 +173,10 @@ void draw(Run& run, const std::vector<Recovered>& all, const std::string& title)
   for (const Recovered& r : all) {
     if (!r.failed.empty()) continue;
     if (r.picture) entries.push_back({*r.picture, caption_of(r)});
-    plot.series.push_back({r.law, r.time, r.opening});
+    constexpr std::size_t kColors = 7;  // of the palette: then they come again, dashed
+    const bool again = plot.series.size() >= kColors;
+    plot.series.push_back(
+        {r.law, r.time, r.opening, again ? render::Series::Style::dashed : render::Series::Style::line});
   }
   if (!entries.empty())
     render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {title}),
