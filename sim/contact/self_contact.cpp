@@ -328,18 +328,6 @@ double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-int SelfContact<Real, Device>::touching(const Vec3<Real>* x) {
-  const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  double* sum = sum_.data();
-  for_each_sum<1>(
-      device_, "self-contact: count", pairs_.count(),
-      HYST_KERNEL(int p, Sums<1>& sums) { sums.term[0] += self_touch(pairs[p], model, x).touches; },
-      HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
-  return static_cast<int>(sum_.download()[0]);
-}
-
-template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
   return pairs_.bytes() + center_.bytes() + share_.bytes() + friction_.bytes() + old_friction_.bytes() +
          presses_.bytes() + pressing_.bytes() + stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() +

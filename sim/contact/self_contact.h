@@ -83,7 +83,6 @@ class SelfContact {
 
   double stored_energy(const Vec3<Real>* x);      // [J]
   double friction_loss() const { return loss_; }  // since the start [J]
-  int touching(const Vec3<Real>* x);              // pairs within their shells
   double seconds() { return clock_.seconds()[static_cast<int>(Stage::contact)]; }
   std::size_t bytes() const;
 
