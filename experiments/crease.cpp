@@ -51,7 +51,6 @@ struct Recovered {
   std::vector<double> time, opening;  // [s], [degree]
   double force = 0;                   // of the plate before it goes [N]
   double of_law = NAN;                // opening that the law alone would leave [degree]
-  double residual = 0;                // largest curvature that is left [1/m]
   std::optional<render::Image> picture{};
   std::string failed{};
 };
@@ -101,7 +100,8 @@ Recovered crease_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice));
   if (setup.options.quick) setup.scene.triangles = std::min(setup.scene.triangles, 500);
-  const double plate = loaded_plate(setup.scene, choice);
+  const double plate =
+      setup.options.explain ? 2 * setup.scene.fabric.thickness : loaded_plate(setup.scene, choice);
   const Crease crease = creased(setup.scene, choice, plate);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
@@ -112,11 +112,10 @@ Recovered crease_once(const CommandLine& line) {
   if (session.simulation().dimension() == 3) recovered.of_law = crease.opening_of_law(largest);
   std::vector<double> left;
   keep_largest(session.simulation(), left);
-  recovered.residual = *std::max_element(left.begin(), left.end());
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening.back());
   run.metric("law_recovery_angle_deg", recovered.of_law);
-  run.metric("residual_curvature_per_m", recovered.residual);
+  run.metric("residual_curvature_per_m", *std::max_element(left.begin(), left.end()));
   run.metric("plate_force_N", recovered.force);
   run.metric("plate_height_m", plate);
   if (session.pictures()) {
@@ -194,6 +193,10 @@ int crease_laws(const CommandLine& line, const std::vector<std::string>& laws) {
   keys["fabrics"] = setup.scene.fabric.name;
   keys["laws"] = laws;
   Options options = setup.options;
+  if (options.explain) {
+    for (const std::string& law : laws) crease_once(with_law(line, law, {}));
+    return 0;
+  }
   if (options.out.empty()) options.out = "out/crease";
   Run run(line, options, keys);
   std::vector<Recovered> all;

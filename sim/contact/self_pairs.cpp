@@ -167,7 +167,6 @@ void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, R
                                    Real reach) {
   std::swap(start_, old_start_);
   pair_.swap(old_pair_);
-  old_count_ = count_;
   const Sweep<Real> sweep{x, way, mean_of(way), share, thickness_ + 2 * reach};
   triangle_tree_.fit(sweep);
   Sweep<Real> half = sweep;  // both edges' boxes are wider

@@ -41,7 +41,6 @@ class SelfPairs {
   void find(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held, Real reach);
   Vec3<Real> mean_of(const Vec3<Real>* way);
   int count() const { return count_; }
-  int old_count() const { return old_count_; }
   int rows() const { return rows_; }
   const SelfPair<Real>* pairs() const { return pair_.data(); }
   const int* start() const { return start_.data(); }
@@ -56,7 +55,7 @@ class SelfPairs {
 
  private:
   Device& device_;
-  int vertices_, edges_, rows_, count_ = 0, old_count_ = 0;
+  int vertices_, edges_, rows_, count_ = 0;
   Real thickness_;
   Buffer<Vec3<Real>, Device> rest_;
   Buffer<int, Device> face_, edge_;  // 3 vertices a triangle, 2 an edge by rank
