@@ -5,12 +5,9 @@
 #include <cstdio>
 #include <optional>
 
-#include "experiments/comma_list.h"
 #include "experiments/creased.h"
-#include "experiments/csv.h"
-#include "experiments/report.h"
+#include "experiments/law_page.h"
 #include "experiments/session.h"
-#include "sim/atomic_file.h"
 #include "sim/bending/law_parameters.h"
 #include "sim/error.h"
 
@@ -20,7 +17,10 @@ namespace {
 using C = CreaseChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
+    {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
     {"crease.force", at<&C::force>, "N", positive(), "", "of the plate"},
+    {"crease.radius", at<&C::radius>, "m", positive(), "", "of the rod"},
+    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "between the limbs of the pleat at rest"},
     {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the whole load"},
     {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
 };
@@ -52,15 +52,15 @@ struct Recovered {
   double force = 0;                   // of the plate before it goes [N]
   double of_law = NAN;                // opening that the law alone would leave [degree]
   std::optional<render::Image> picture{};
-  std::string failed{};
 };
 
-// Largest curvature along the strip that each triangle has had [1/m].
+// Curvature along the strip that was largest in each triangle, with its sign [1/m].
 void keep_largest(Simulation& simulation, std::vector<double>& largest) {
   const int d = simulation.dimension();
   const std::vector<double> curvature = simulation.curvature();
   largest.resize(curvature.size() / d);
-  for (std::size_t e = 0; e < largest.size(); ++e) largest[e] = std::max(largest[e], curvature[d * e]);
+  for (std::size_t e = 0; e < largest.size(); ++e)
+    if (std::abs(curvature[d * e]) > std::abs(largest[e])) largest[e] = curvature[d * e];
 }
 
 Question question_of(Session& session, const Crease& crease, std::vector<double>& largest,
@@ -100,9 +100,13 @@ Recovered crease_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice));
   if (setup.options.quick) setup.scene.triangles = std::min(setup.scene.triangles, 500);
-  const double plate =
-      setup.options.explain ? 2 * setup.scene.fabric.thickness : loaded_plate(setup.scene, choice);
-  const Crease crease = creased(setup.scene, choice, plate);
+  const bool pressed = choice.fold == "plate";
+  const double plate = !pressed                ? 0.0
+                       : setup.options.explain ? 2 * setup.scene.fabric.thickness
+                                               : loaded_plate(setup.scene, choice);
+  const Crease crease = pressed                ? creased(setup.scene, choice, plate)
+                        : choice.fold == "rod" ? wrapped(setup.scene, choice)
+                                               : pleated(setup.scene, choice);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
   Recovered recovered{setup.scene.law, {}, {}};
@@ -115,9 +119,12 @@ Recovered crease_once(const CommandLine& line) {
   Run& run = session.run();
   run.metric("recovery_angle_deg", recovered.opening.back());
   run.metric("law_recovery_angle_deg", recovered.of_law);
-  run.metric("residual_curvature_per_m", *std::max_element(left.begin(), left.end()));
-  run.metric("plate_force_N", recovered.force);
-  run.metric("plate_height_m", plate);
+  const auto [least, most] = std::minmax_element(left.begin(), left.end());
+  run.metric("residual_curvature_per_m", std::max(-*least, *most));
+  if (pressed) {
+    run.metric("plate_force_N", recovered.force);
+    run.metric("plate_height_m", plate);
+  }
   if (session.pictures()) {
     recovered.picture =
         session.pictures()->picture("cloth", session.pictures()->camera(), caption_of(recovered));
@@ -131,92 +138,29 @@ Recovered crease_once(const CommandLine& line) {
   return recovered;
 }
 
-std::vector<std::string> laws_of(const CommandLine& line) {
-  std::string text;
-  for (const Flag& flag : line.flags)
-    if (flag.path == "law") text = flag.text;
-  if (text != "all") return split(text);
-  std::vector<std::string> names;
-  for (const auto& law : law_catalogue()) names.push_back(law.name);
-  return names;
+// The same for several laws.
+LawOutcome outcome_of(const Recovered& recovered) {
+  LawOutcome outcome;
+  if (recovered.opening.empty()) return outcome;
+  outcome.caption = caption_of(recovered);
+  outcome.numbers = {{"recovery_angle_deg", recovered.opening.back()},
+                     {"law_recovery_angle_deg", recovered.of_law},
+                     {"plate_force_N", recovered.force}};
+  outcome.series = {{recovered.law, recovered.time, recovered.opening}};
+  outcome.picture = recovered.picture;
+  return outcome;
 }
 
-// The same line for one law, into a folder of that name.
-CommandLine with_law(const CommandLine& line, const std::string& law, const std::filesystem::path& folder) {
-  CommandLine one = line;
-  std::erase_if(one.flags,
-                [](const Flag& f) { return f.path == "law" || f.path == "out" || f.path == "json"; });
-  one.flags.push_back({"law", law});
-  one.flags.push_back({"out", (folder / law).string()});
-  one.command += " (law " + law + ")";
-  return one;
-}
-
-void write_table(Run& run, const std::vector<Recovered>& all) {
-  AtomicFile file(run.path("table.csv").string());
-  file.stream() << "law,recovery angle [degree],of the law alone [degree],plate [N],failed\n";
-  for (const Recovered& r : all) {
-    const auto text = [](double value) {
-      return std::isfinite(value) ? std::to_string(value) : std::string();
-    };
-    file.stream() << row_of({r.law, r.failed.empty() ? text(r.opening.back()) : "", text(r.of_law),
-                             r.failed.empty() ? text(r.force) : "", r.failed});
-    if (r.failed.empty()) run.metric(r.law + ".recovery_angle_deg", r.opening.back());
-  }
-  file.commit();
-}
-
-void draw(Run& run, const std::vector<Recovered>& all, const std::string& title) {
-  std::vector<render::SheetEntry> entries;
-  render::Plot plot{title, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}};
-  for (const Recovered& r : all) {
-    if (!r.failed.empty()) continue;
-    if (r.picture) entries.push_back({*r.picture, caption_of(r)});
-    constexpr std::size_t kColors = 7;  // of the palette: then they come again, dashed
-    const bool again = plot.series.size() >= kColors;
-    plot.series.push_back(
-        {r.law, r.time, r.opening, again ? render::Series::Style::dashed : render::Series::Style::line});
-  }
-  if (!entries.empty())
-    render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {title}),
-                      render::PngEffort::best);
-  if (!plot.series.empty())
-    run.plot("plot_opening", [&](const auto& base) { render::write_plot(base, plot); });
-}
-
-int crease_laws(const CommandLine& line, const std::vector<std::string>& laws) {
+int crease_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   C choice;
   CommandLine first = line;
   std::erase_if(first.flags, [](const Flag& f) { return f.path == "law"; });
   const Setup setup = set_up(first, defaults(), bind(kRows, choice));
-  Json keys = to_json(bind(kRows, choice));
-  keys["fabrics"] = setup.scene.fabric.name;
-  keys["laws"] = laws;
-  Options options = setup.options;
-  if (options.explain) {
-    for (const std::string& law : laws) crease_once(with_law(line, law, {}));
-    return 0;
-  }
-  if (options.out.empty()) options.out = "out/crease";
-  Run run(line, options, keys);
-  std::vector<Recovered> all;
-  for (const std::string& law : laws) {
-    Recovered recovered{law, {}, {}};
-    try {
-      recovered = crease_once(with_law(line, law, run.folder()));
-    } catch (const Error& error) {
-      if (error.exit_code() == 1) throw;
-      recovered.failed = error.what();
-    }
-    all.push_back(std::move(recovered));
-    run.progress(all.back().failed.empty() ? caption_of(all.back()) : law + ": " + all.back().failed);
-    write_table(run, all);
-  }
-  if (!options.no_images) draw(run, all, "Crease recovery, " + setup.scene.fabric.name);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
-  return 0;
+  LawPage page{"Crease recovery, " + setup.scene.fabric.name, laws, {}, {}};
+  page.plots = {
+      {"plot_opening", {page.title, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}}}};
+  page.once = [](const CommandLine& one) { return outcome_of(crease_once(one)); };
+  return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 
 }  // namespace
@@ -227,7 +171,7 @@ std::vector<KeyDescription> crease_keys() {
 }
 
 int crease(const CommandLine& line) {
-  const std::vector<std::string> laws = laws_of(line);
+  const std::vector<LawVariant> laws = laws_of(line);
   if (laws.size() > 1) return crease_laws(line, laws);
   crease_once(line);
   return 0;

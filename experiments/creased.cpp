@@ -25,11 +25,11 @@ constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
 constexpr double kRise = 0.04;   // of the plate [m]
 
 // Column lines from the crease outwards to half the length, mirrored.
-std::vector<double> columns(double length, double thickness) {
+std::vector<double> columns(double length, double thickness, double fine) {
   std::vector<double> half{0};
   double step = kFinest * thickness;
   while (half.back() < length / 2) {
-    if (half.back() >= kFine * length) step = std::min(step * kGrowth, kWidest * length);
+    if (half.back() >= fine) step = std::min(step * kGrowth, kWidest * length);
     half.push_back(half.back() + step);
   }
   for (double& x : half) x *= length / 2 / half.back();
@@ -39,9 +39,11 @@ std::vector<double> columns(double length, double thickness) {
   return lines;
 }
 
-ClothMesh specimen(const Scene& scene) {
+}  // namespace
+
+ClothMesh crease_specimen(const Scene& scene, double fine) {
   const double length = scene.cloth.length, width = scene.cloth.width;
-  const std::vector<double> line = columns(length, scene.fabric.thickness);
+  const std::vector<double> line = columns(length, scene.fabric.thickness, fine);
   const int nx = static_cast<int>(line.size()) - 1;
   const int ny = 2 * std::max(1, static_cast<int>(std::lround(scene.triangles / (4.0 * nx))));
   ClothMesh mesh = make_grid(length, width, nx, ny, MeshFamily::unionjack, scene.seed);
@@ -52,6 +54,15 @@ ClothMesh specimen(const Scene& scene) {
   build_topology(graded, "crease specimen");
   return graded;
 }
+
+Pin crease_clamp(const Scene& scene) {
+  Pin pin;
+  pin.low = {-1, -1, -1};
+  pin.high = {kGrip * scene.cloth.length, 1, 1};
+  return pin;
+}
+
+namespace {
 
 Keyframe key(double time, double height, double angle = 0) {
   Keyframe result;
@@ -72,13 +83,6 @@ Pin hand(const Scene& scene, double ground, double lowered) {
   pin.motion.center = {length / 2, 0, ground + radius};
   const double down = kLetGo * scene.fabric.thickness - 2 * radius;
   pin.motion.keys = {key(0, 0, 0), key(kFold, 0, 180), key(lowered, down, 180)};
-  return pin;
-}
-
-Pin clamp(const Scene& scene) {
-  Pin pin;
-  pin.low = {-1, -1, -1};
-  pin.high = {kGrip * scene.cloth.length, 1, 1};
   return pin;
 }
 
@@ -116,15 +120,16 @@ Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
   scene.cloth.position = {0, 0, ground};
   Obstacle plane;
   plane.visible = false;
-  scene.pin = {clamp(scene), hand(scene, ground, times.folded)};
+  scene.pin = {crease_clamp(scene), hand(scene, ground, times.folded)};
   scene.obstacle = {plane, plate_of(scene, times, plate)};
-  ClothMesh mesh = specimen(scene);
+  ClothMesh mesh = crease_specimen(scene, kFine * scene.cloth.length);
   scene.triangles = mesh.faces();
   crease.cloth = place_cloth(scene, std::move(mesh));
   return crease;
 }
 
 double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) const {
+  if (scene.obstacle.size() < 2) return 0;
   const Obstacle& plate = scene.obstacle[1];
   const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
   double force = 0;
@@ -137,12 +142,16 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
 }
 
 double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
-  const double length = scene.cloth.length, reach = kGrip * length;
+  const double length = scene.cloth.length, reach = grip * length;
+  const ClothMesh& mesh = cloth.mesh;
+  const auto along = [&](std::size_t i) {
+    return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
+  };
   const auto middle = [&](double from, double to) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (cloth.mesh.rest[i].x() >= from && cloth.mesh.rest[i].x() <= to) sum += x[i], ++count;
+      if (along(i) >= from && along(i) <= to) sum += x[i], ++count;
     return Eigen::Vector3d(sum / count);
   };
   const Eigen::Vector3d far =
@@ -157,10 +166,11 @@ double Crease::opening_of_law(const std::vector<double>& largest) const {
   double bent = 0;
   for (int f = 0; f < cloth.mesh.faces(); ++f) {
     std::vector<LawRow> rows;
-    for (int k = 1; k <= kRows; ++k) rows.push_back({largest[f] * k / kRows, times.released / kRows});
-    if (largest[f] > 0) bent += cloth.mesh.face_area[f] * residual_after(law, rows);
+    const double size = std::abs(largest[f]);
+    for (int k = 1; k <= kRows; ++k) rows.push_back({size * k / kRows, times.released / kRows});
+    if (size > 0) bent += std::copysign(cloth.mesh.face_area[f], largest[f]) * residual_after(law, rows);
   }
-  return 180 - bent / scene.cloth.width * 180 / std::numbers::pi;
+  return 180 - rest_turn - bent / scene.cloth.width * 180 / std::numbers::pi;
 }
 
 double loaded_plate(const Scene& scene, const CreaseChoice& choice) {

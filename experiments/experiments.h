@@ -52,6 +52,8 @@ Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags
 int drape(const CommandLine& line);
 int swing(const CommandLine& line);
 int crease(const CommandLine& line);
+int fold(const CommandLine& line);
+int crumple(const CommandLine& line);
 int cantilever(const CommandLine& line);
 int buckle(const CommandLine& line);
 int accuracy(const CommandLine& line);
@@ -66,6 +68,8 @@ int stability(const CommandLine& line);
 int validate(const CommandLine& line);
 
 std::vector<KeyDescription> crease_keys();
+std::vector<KeyDescription> fold_keys();
+std::vector<KeyDescription> crumple_keys();
 std::vector<KeyDescription> cantilever_keys();
 std::vector<KeyDescription> buckle_keys();
 std::vector<KeyDescription> accuracy_keys();

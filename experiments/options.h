@@ -16,6 +16,7 @@ struct Options {
   std::string renderer = "auto";  // renderer   auto | egl | osmesa
   bool no_images = false;         // no-images
   std::string look = "cloth";     // look       what the pictures show
+  std::string light = "studio";   // light      studio | raking
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh

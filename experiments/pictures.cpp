@@ -12,9 +12,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;        // pictures on the contact sheet
-constexpr int kThumbnailWidth = 640;   // kept in memory until then [pixels]
-constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
+constexpr int kSheetCells = 12;                      // pictures on the contact sheet
+constexpr int kThumbnailWidth = 640;                 // kept in memory until then [pixels]
+constexpr double kCurvatureRange = 2;                // colours span this many K0 on either side
+constexpr double kResidualRange = 1;                 // the same for residual curvature
+const Eigen::Vector3f kRaking{0.94f, 0.22f, 0.25f};  // light from the left, a little from the front and above
+constexpr float kRakingRoom = 0.35f;                 // in a dim room
 
 std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
   std::vector<float> xyz;
@@ -113,25 +116,48 @@ render::Camera Pictures::camera() const {
                                  static_cast<float>(options_.camera_fov), aspect);
 }
 
-void Pictures::show(render::ClothView& view, const std::string& look_name) {
-  render::Look look = render::look_named(look_name);
+// The look with its light and the ends of its colour map.  `residual` is the map of curvatures.
+render::Look Pictures::look_of(const std::string& name) const {
+  render::Look look = render::look_named(name == "residual" ? "curvature" : name);
   if (look.show == render::Show::curvature) {
-    look.value_high = static_cast<float>(kCurvatureRange * scene_.fabric.k0);
+    const double range = name == "residual" ? kResidualRange : kCurvatureRange;
+    look.value_high = static_cast<float>(range * scene_.fabric.k0);
     look.value_low = -look.value_high;
-    view.set_values(vertex_curvature(cloth_, simulation_.curvature(), simulation_.dimension()));
   } else if (look.show == render::Show::friction) {
     look.value_low = 0;
     look.value_high = 1;
+  }
+  if (options_.light == "raking") {
+    const Eigen::Vector3f back = options_.camera_direction.cast<float>().normalized();
+    const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();
+    look.room = kRakingRoom;
+    look.to_light = kRaking.x() * left + kRaking.y() * back + kRaking.z() * Eigen::Vector3f::UnitZ();
+  }
+  return look;
+}
+
+void Pictures::show(render::ClothView& view, const std::string& look_name) {
+  const render::Look look = look_of(look_name);
+  if (look.show == render::Show::curvature) {
+    view.set_values(vertex_curvature(
+        cloth_, look_name == "residual" ? simulation_.residual_curvature() : simulation_.curvature(),
+        simulation_.dimension()));
+  } else if (look.show == render::Show::friction) {
     view.set_values(vertex_average(cloth_, simulation_.friction_share(), simulation_.dimension()));
   }
   view.set_look(look);
   if (!view.write_positions(why_host_)) view.set_positions(flat(simulation_.positions()));
 }
 
-std::string Pictures::caption(double time) const {
+std::string Pictures::when(double time) const {
   char text[64];
   std::snprintf(text, sizeof text, "t = %.2f s", time);
-  return scene_.fabric.name + ", law " + scene_.law + "\n" + text;
+  const std::string phase = scene_.phase_at(time);
+  return text + (phase.empty() ? "" : ", " + phase);
+}
+
+std::string Pictures::caption(double time) const {
+  return scene_.fabric.name + ", law " + scene_.law + "\n" + when(time);
 }
 
 render::Image Pictures::picture(const std::string& look_name, const render::Camera& camera,
@@ -148,10 +174,11 @@ render::Image Pictures::picture(const std::string& look_name, const render::Came
   render::draw_caption(image, text, render::Corner::top_left);
   render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
                          render::Corner::bottom_left, "at the cloth's middle");
-  const render::Look look = render::look_named(look_name);
+  const render::Look look = look_of(look_name);
   if (look.show == render::Show::curvature) {
-    const double k = kCurvatureRange * scene_.fabric.k0;
-    render::draw_color_bar(image, {look.map, -k, k, "curvature", "1/m"}, render::Corner::bottom_right);
+    const char* what = look_name == "residual" ? "residual curvature" : "curvature";
+    render::draw_color_bar(image, {look.map, look.value_low, look.value_high, what, "1/m"},
+                           render::Corner::bottom_right);
   } else if (look.show == render::Show::friction) {
     render::draw_color_bar(image, {look.map, 0, 1, "friction moment / M0", ""}, render::Corner::bottom_right);
   }
@@ -164,10 +191,8 @@ void Pictures::frame(Run& run) {
   char name[32];
   std::snprintf(name, sizeof name, "frames/%04d.png", frames_++);
   const int width = std::min(kThumbnailWidth, image.width());
-  char time[32];
-  std::snprintf(time, sizeof time, "t = %.2f s", simulation_.time());
-  thumbnails_.push_back(
-      {render::shrink(image, width, std::max(1, image.height() * width / image.width())), time});
+  thumbnails_.push_back({render::shrink(image, width, std::max(1, image.height() * width / image.width())),
+                         when(simulation_.time())});
   writer_.write(run.path(name), std::move(image));
 }
 

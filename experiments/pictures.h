@@ -34,6 +34,8 @@ class Pictures {
   void frame(Run& run);
   // Draws the present state in a look of its own, with caption and colour bar.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
+  // "studio" or "raking", for the pictures to come.
+  void set_light(const std::string& light) { options_.light = light; }
   // The sequence's camera.
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
@@ -43,6 +45,8 @@ class Pictures {
 
  private:
   void show(render::ClothView& view, const std::string& look_name);
+  render::Look look_of(const std::string& name) const;
+  std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
 
   Scene scene_;

@@ -35,24 +35,25 @@ std::vector<std::string> ledger_columns() {
 // the closed form for a first reversal from the virgin curve (which a longer history only resembles).
 void note_recovery(Run& run, Simulation& simulation, const Scene& scene) {
   const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param);
-  if (scene.law == "pabst" || scene.law == "linear" || !has_residual_formula(law)) return;
   const int d = simulation.dimension();
-  const std::vector<double> k = simulation.curvature(), m = simulation.moment();
   const std::vector<double> root = simulation.residual_curvature();
+  double by_root = 0;
+  for (double k : root) by_root += k * k;
+  const double elements = static_cast<double>(root.size()) / d;
+  run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
+  if (scene.law == "pabst" || scene.law == "linear" || !has_residual_formula(law)) return;
+  const std::vector<double> k = simulation.curvature(), m = simulation.moment();
   long cases[3] = {0, 0, 0};
-  double by_root = 0, by_formula = 0;
+  double by_formula = 0;
   for (std::size_t i = 0; i < k.size(); i += d) {
-    const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d), rest(&root[i], d);
+    const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d);
     const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
     ++cases[static_cast<int>(recovery_case(law.curve, moment.norm())) - 1];
-    by_root += rest.squaredNorm();
     by_formula += std::pow(residual_by_formula(law, size, std::max(along, 0.0)), 2);
   }
-  const double elements = static_cast<double>(k.size()) / d;
   run.metric("recovery_elastic_count", cases[0]);
   run.metric("recovery_partial_count", cases[1]);
   run.metric("recovery_full_slip_count", cases[2]);
-  run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
   run.metric("residual_curvature_formula_rms_per_m", std::sqrt(by_formula / elements));
 }
 
@@ -158,7 +159,7 @@ bool Session::simulate(const Question& question) {
   const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
   std::vector<Eigen::Vector3d> before = simulation_->positions();
   bool settled = false;
-  for (int frame = 0;; ++frame) {
+  for (int frame = 0, meshes = 0;; ++frame) {
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
     const Moment moment{simulation_->time(), x, fastest(x, before, stride * setup_.scene.step)};
     const Ledger ledger = simulation_->ledger();
@@ -166,10 +167,11 @@ bool Session::simulate(const Question& question) {
     for (double value : question.measure(moment)) row.push_back(value);
     for (const auto& [name, joules] : ledger.rows()) row.push_back(joules);
     record.row(row);
-    if (pictures_) pictures_->frame(*run_);
+    const bool pictured = !question.pictured || question.pictured(moment);
+    if (pictures_ && pictured) pictures_->frame(*run_);
     watch_folds(x);
     watch_intersections(x);
-    export_mesh(frame, x);
+    if (pictured) export_mesh(meshes++, x);
     run_->progress(question.progress(moment));
     settled = frame > 0 && question.settled && question.settled(moment);
     if (settled || simulation_->steps() >= steps) break;
@@ -200,12 +202,15 @@ void Session::finish(const std::string& title) {
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.is_implicit()) {
     run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
+    if (setup_.scene.newton_iterations > 0)
+      run_->metric("unbalanced_steps_count", simulation_->unbalanced_steps());
   }
   if (setup_.scene.is_implicit() || setup_.scene.tolerance > 0) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
-  if (checks_intersections()) run_->metric("intersections_count", intersections_);
+  if (!setup_.scene.obstacle.empty()) run_->metric("deep_contact_steps_count", simulation_->deep_steps());
+  if (checks_intersections()) run_->metric("intersections", intersections_);
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");

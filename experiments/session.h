@@ -27,7 +27,8 @@ struct Question {
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Moment&)> measure;
-  std::function<bool(const Moment&)> settled;  // ends the run early
+  std::function<bool(const Moment&)> settled;   // ends the run early
+  std::function<bool(const Moment&)> pictured;  // which moments are drawn and exported; empty: all of them
   std::function<std::string(const Moment&)> progress;
 };
 
@@ -44,7 +45,8 @@ class Session {
   const Cloth& cloth() const { return cloth_; }
   const Scene& scene() const { return setup_.scene; }
   Simulation& simulation() { return *simulation_; }
-  Pictures* pictures() { return pictures_.get(); }  // null with --no-images
+  long intersections() const { return intersections_; }  // of all recorded moments, where they are counted
+  Pictures* pictures() { return pictures_.get(); }       // null with --no-images
 
   // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled
   // (returned).

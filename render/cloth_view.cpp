@@ -167,7 +167,7 @@ Image ClothView::draw(const Camera& camera) {
                     // taken it away
   if (cloth_) cloth_->update_normals();
   if (look_.show != Show::silhouette) {
-    shadows_.aim(bounds(), look_.to_light);
+    shadows_.aim(bounds(), look_.to_light, look_.room);
     shadows_.draw([this](const Program& program) { draw_casters(program); });
     if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
   }

@@ -28,6 +28,7 @@ struct Look {
   ColorMap map = ColorMap::diverging;
   float value_low = -1, value_high = 1;             // ends of the colour map, in the value's unit
   Eigen::Vector3f to_light{-0.62f, -0.38f, 0.78f};  // key light's direction, any length
+  float room = 1;  // brightness of the room around; less of it leaves the key light to model the shape
   float thread_spacing = 0.45e-3f;  // [m]; cotton broadcloth has 20 to 40 threads a centimetre
   float weave = 1;                  // strength of the threads' relief and unevenness, 0 = smooth
   // Obstacles are drawn this much smaller [m]: flat triangles laid over a round rim cut into it.

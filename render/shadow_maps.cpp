@@ -82,11 +82,12 @@ ShadowMaps::ShadowMaps(const GlFunctions& gl)
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl.SamplerParameteri(depth_sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  aim({{-1, -1, -1}, {1, 1, 1}}, to_light_);
+  aim({{-1, -1, -1}, {1, 1, 1}}, to_light_, room_);
   check_gl(gl, "making shadow maps");
 }
 
-void ShadowMaps::aim(const Box& casters, const Eigen::Vector3f& to_light) {
+void ShadowMaps::aim(const Box& casters, const Eigen::Vector3f& to_light, float room) {
+  room_ = room;
   to_light_ = to_light.normalized();
   radius_ = std::max(casters.radius(), 1e-6f);
   key_matrix_ = light_matrix(to_light_, casters.center(), radius_);
@@ -125,6 +126,7 @@ void ShadowMaps::bind(const Program& program, float sky_blur) const {
   program.set("key_map", kKeyUnit);
   program.set("sky_map", kSkyUnit);
   program.set("to_light", to_light_);
+  program.set("room", room_);
   program.set("key_matrix", key_matrix_);
   program.set("key_texel", 2 * kBorder * radius_ / kKeySide);
   gl_->ActiveTexture(GL_TEXTURE0 + kDepthUnit);

@@ -19,8 +19,9 @@ class ShadowMaps {
  public:
   explicit ShadowMaps(const GlFunctions& gl);
 
-  // `casters`: box of everything that throws a shadow; `to_light`: direction to the key light.
-  void aim(const Box& casters, const Eigen::Vector3f& to_light);
+  // `casters`: box of everything that throws a shadow; `to_light`: direction to the key light;
+  // `room`: brightness of the room (Look).
+  void aim(const Box& casters, const Eigen::Vector3f& to_light, float room);
   // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
   // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in
@@ -38,6 +39,7 @@ class ShadowMaps {
   std::array<Eigen::Matrix4f, kSkyLights> sky_matrices_;
   Eigen::Matrix4f key_matrix_;
   Eigen::Vector3f to_light_{0, 0, 1};
+  float room_ = 1;
   float radius_ = 1;  // of the casters [m]
 };
 

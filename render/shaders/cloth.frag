@@ -58,9 +58,9 @@ void main() {
   float reaching = key_reaching(world, normal);
   float direct = max(dot(fine, to_light), 0.0) * smoothstep(0.0, 0.12, facing);
   float through = kThrough * max(-facing, 0.0);
-  vec3 light = room_light(fine, seen, sky.z) + kKeyLight * reaching * (direct + through);
+  vec3 light = room_light(fine, seen, sky.z) + key_light() * reaching * (direct + through);
   vec3 view = toward_eye(world);
-  float fill = 0.10 * max(dot(fine, view), 0.0) * (0.3 + 0.7 * seen);
+  float fill = 0.10 * room * max(dot(fine, view), 0.0) * (0.3 + 0.7 * seen);
 
 #ifdef FIELD
   float t = clamp((field - value_range.x) / (value_range.y - value_range.x), 0.0, 1.0);

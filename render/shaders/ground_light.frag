@@ -43,7 +43,7 @@ float soft_key(vec3 point) {
 void main() {
   float facing = max(to_light.z, 0.0);
   vec3 up = vec3(0, 0, 1);
-  vec3 open = kKeyLight * facing + kSkyLight;
-  vec3 light = kKeyLight * facing * soft_key(world) + room_light(up, sky.x, sky.z);
+  vec3 open = key_light() * facing + room * kSkyLight;
+  vec3 light = key_light() * facing * soft_key(world) + room_light(up, sky.x, sky.z);
   color = vec4(light / open, 1);
 }

@@ -4,6 +4,7 @@ uniform vec3 eye;
 uniform vec3 view_forward;  // used instead of the eye where the camera is orthographic
 uniform float orthographic;
 uniform vec3 to_light;
+uniform float room;  // brightness of the room and its floor; 1: the studio's
 uniform sampler2DShadow key_map;
 uniform mat4 key_matrix;
 uniform float key_texel;  // size of a texel in the world [m]
@@ -14,6 +15,9 @@ const vec3 kFloorLight = vec3(0.20, 0.195, 0.185);
 const float kBlur = 4.5;    // radius of the key shadow's edge in texels
 const int kKeyTaps = 16;
 const int kRimTaps = 4;
+
+// Brighter where the room is darker.
+vec3 key_light() { return kKeyLight * (1.9 - 0.9 * room); }
 
 vec3 toward_eye(vec3 point) { return orthographic > 0.5 ? -view_forward : normalize(eye - point); }
 
@@ -44,5 +48,5 @@ float key_reaching(vec3 point, vec3 normal) {
 // Soft light from the room and the floor on a surface that sees `seen` of the sky; `openness`: of the point itself.
 vec3 room_light(vec3 normal, float seen, float openness) {
   float up = 0.5 + 0.5 * normal.z;
-  return kSkyLight * up * seen + kFloorLight * (1.0 - up) * (0.25 + 0.75 * openness);
+  return room * (kSkyLight * up * seen + kFloorLight * (1.0 - up) * (0.25 + 0.75 * openness));
 }

@@ -1,32 +1,46 @@
 #include "sim/bending/law_run.h"
 
+#include <cmath>
+
 #include "sim/bending/law_commands.h"
 #include "sim/bending/law_visit.h"
 #include "sim/bending/recovery.h"
 
 namespace hysteron {
+
+struct LawWalk::State {
+  virtual ~State() = default;
+  virtual std::unique_ptr<State> copy() const = 0;
+  virtual LawPoint to(const LawRow& row) = 0;
+  virtual double residual() const = 0;
+  virtual double friction_moment() const = 0;
+  virtual double permanent_set() const = 0;
+};
+
 namespace {
 
 // A law with its memory, on the way through the rows.
-template <class Law>
-struct Drive {
-  Law law;
-  History<double, Law::kHistory> history{};
-  LawRun run{};
+template <class L>
+struct Drive final : LawWalk::State {
+  L law;
+  History<double, L::kHistory> history{};
   double dissipated = 0;
 
-  void through(const std::vector<LawRow>& rows) {
-    for (const LawRow& row : rows) to(row);
+  explicit Drive(const L& chosen) : law(chosen) {}
+  std::unique_ptr<State> copy() const override { return std::make_unique<Drive>(*this); }
+
+  double tangent(const LawRow& row) {
+    set_step_time(law, row.seconds);
+    return law.tangent(Vec<double, 1>(row.curvature), history)(0, 0);
   }
 
-  void to(const LawRow& row) {
+  LawPoint to(const LawRow& row) override {
     const Vec<double, 1> curvature(row.curvature);
     set_step_time(law, row.seconds);
-    run.tangent.push_back(law.tangent(curvature, history)(0, 0));
     auto step = law.step(curvature, history);
     history = step.history;
     dissipated += step.dissipated;
-    if constexpr (kIsEditable<Law>) {
+    if constexpr (kIsEditable<L>) {
       if (row.edit) {
         const double stored = step.stored;
         history = law.edited(curvature, history);
@@ -34,9 +48,27 @@ struct Drive {
         dissipated += stored - step.stored;
       }
     }
-    run.moment.push_back(step.moment[0]);
-    run.stored.push_back(step.stored);
-    run.dissipated.push_back(dissipated);
+    return {step.moment[0], step.stored, dissipated};
+  }
+
+  double residual() const override {
+    L let_go = law;
+    set_step_time(let_go, 0.0);
+    return let_go.residual(history)[0];
+  }
+
+  double friction_moment() const override {
+    if constexpr (requires { law.m0* law.strength(history); })
+      return law.m0 * law.strength(history);
+    else
+      return NAN;
+  }
+
+  double permanent_set() const override {
+    if constexpr (requires { L::set_of(history); })
+      return L::set_of(history)[0];
+    else
+      return 0;
   }
 };
 
@@ -53,22 +85,33 @@ void with_law(const LawRequest& request, const Visit& visit) {
 LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows) {
   LawRun run;
   with_law(request, [&]<class Law>(const Law& law) {
-    Drive<Law> drive{law};
-    drive.through(rows);
-    run = std::move(drive.run);
+    Drive<Law> drive(law);
+    for (const LawRow& row : rows) {
+      run.tangent.push_back(drive.tangent(row));
+      const LawPoint point = drive.to(row);
+      run.moment.push_back(point.moment);
+      run.stored.push_back(point.stored);
+      run.dissipated.push_back(point.dissipated);
+    }
   });
   return run;
 }
 
 double residual_after(const LawRequest& request, const std::vector<LawRow>& rows) {
-  double residual = 0;
-  with_law(request, [&]<class Law>(const Law& law) {
-    Drive<Law> drive{law};
-    drive.through(rows);
-    set_step_time(drive.law, 0.0);
-    residual = drive.law.residual(drive.history)[0];
-  });
-  return residual;
+  LawWalk walk(request);
+  for (const LawRow& row : rows) walk.to(row);
+  return walk.residual();
 }
+
+LawWalk::LawWalk(const LawRequest& request) {
+  with_law(request, [&]<class Law>(const Law& law) { state_ = std::make_unique<Drive<Law>>(law); });
+}
+LawWalk::~LawWalk() = default;
+LawWalk::LawWalk(const LawWalk& other) : state_(other.state_->copy()) {}
+LawWalk::LawWalk(LawWalk&&) noexcept = default;
+LawPoint LawWalk::to(const LawRow& row) { return state_->to(row); }
+double LawWalk::residual() const { return state_->residual(); }
+double LawWalk::friction_moment() const { return state_->friction_moment(); }
+double LawWalk::permanent_set() const { return state_->permanent_set(); }
 
 }  // namespace hysteron

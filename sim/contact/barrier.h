@@ -1,5 +1,7 @@
-// The barrier between two layers of cloth: no force at a distance of the shell, an infinite one where the
-// gap, what the distance exceeds the hardest compression by, closes.
+// The barrier between two layers of cloth: no force at a distance of the shell, one that grows without bound
+// as the gap, what the distance exceeds the hardest compression by, becomes small against its range.  Where
+// next to nothing of it is left, the force goes on growing with constant stiffness: a step that does not end
+// in equilibrium must not leave a pair so near that nothing can move any more.
 //
 // Source: Li, Ferguson, Schneider, Langlois, Zorin, Panozzo, Jiang & Kaufman 2020 (Incremental Potential
 // Contact), eq. 6 and, for nearly parallel edges, eq. 24.
@@ -16,13 +18,17 @@ struct Barrier {
   Real energy, slope, stiffness;  // [J/m^2], by distance [N/m^2], [N/m^3]; slope <= 0 <= stiffness
 };
 
-// Of a gap in (0, range); k [N/m^3].
+inline constexpr double kStiffest = 0.05;  // share of the range below which the stiffness stays
+
+// Of a gap below the range; k [N/m^3].
 template <class Real>
 HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range) {
   using std::log;
-  const Real u = gap / range, w = u - 1, ln = log(u);
-  return {-k * range * range * w * w * ln, -k * range * (2 * w * ln + w * w / u),
-          k * (w * w / (u * u) - 4 * w / u - 2 * ln)};
+  const Real closest = static_cast<Real>(kStiffest) * range, beyond = gap < closest ? gap - closest : Real(0);
+  const Real u = (gap - beyond) / range, w = u - 1, ln = log(u);
+  const Real energy = -k * range * range * w * w * ln, slope = -k * range * (2 * w * ln + w * w / u),
+             stiffness = k * (w * w / (u * u) - 4 * w / u - 2 * ln);
+  return {energy + beyond * (slope + beyond * stiffness / 2), slope + beyond * stiffness, stiffness};
 }
 
 // Fades the energy of two edges out as they become parallel, where their closest points jump.  c = squared

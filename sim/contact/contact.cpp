@@ -4,8 +4,6 @@
 
 #include "sim/contact/penalty.h"
 #include "sim/contact/touch.h"
-#include "sim/error.h"
-#include "sim/scene/motion.h"
 
 namespace hysteron {
 
@@ -26,44 +24,18 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())),
       slip_(device, vertices_),
       touching_(device, vertices_),
+      spared_(device, vertices_),
       loss_(device, vertices_),
       work_(device, vertices_),
-      energy_(device, vertices_) {
-  if (obstacle_.size() > kMostObstacles)
-    throw Error::request("obstacle: " + std::to_string(obstacle_.size()) + " obstacles, at most " +
-                         std::to_string(kMostObstacles) + " are possible");
+      energy_(device, vertices_),
+      deep_(device, 1) {
   stiffness_ = static_cast<Real>(contact_stiffness_per_area(scene));
   tangential_ = static_cast<Real>(kTangential) * stiffness_;
 }
 
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
-  set_.count = 0;
-  for (std::size_t i = 0; i < obstacle_.size(); ++i) {
-    const Obstacle& o = obstacle_[i];
-    if (start < o.from || start >= o.until) continue;
-    const Placement now = placement(o.motion, end), then = placement(o.motion, start);
-    const Eigen::Matrix3d own =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
-    const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
-    Obstacle3<Real>& item = set_.item[set_.count++];
-    const bool box = o.kind == "box";
-    item.shape.kind = o.kind == "ground"     ? ShapeKind::ground
-                      : o.kind == "sphere"   ? ShapeKind::sphere
-                      : o.kind == "hollow"   ? ShapeKind::hollow
-                      : o.kind == "cylinder" ? ShapeKind::cylinder
-                      : box                  ? ShapeKind::box
-                                             : ShapeKind::capsule;
-    const Eigen::Vector3d half = box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
-    item.shape.half = (now.scale * half).cast<Real>();
-    item.shape.rim = static_cast<Real>(now.scale * o.rim);
-    item.rotation = (now.rotation * own).cast<Real>();
-    item.center = now(o.center).cast<Real>();
-    item.back_rotation = back.cast<Real>();
-    item.back_translation = (then.translation - back * now.translation).cast<Real>();
-    item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction_ : o.friction);
-    item.index = static_cast<int>(i);
-  }
+  set_ = obstacles_during<Real>(obstacle_, fabric_friction_, start, end);
 }
 
 template <class Real, class Device>
@@ -88,15 +60,17 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
 }
 
 template <class Real, class Device>
-void Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before) {
+int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before, const char* held) {
   const ContactModel<Real> model{shell_, stiffness_, tangential_};
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   Vec3<Real>* slipped = slip_.data();
   int* touching = touching_.data();
-  double *loss = loss_.data(), *work = work_.data();
-  for_each(
-      device_, "contact history", vertices_, HYST_KERNEL(int i) {
+  double *loss = loss_.data(), *work = work_.data(), *deep = deep_.data();
+  const char* spared = spared_.data();
+  for_each_sum<1>(
+      device_, "contact history", vertices_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
         const Touch<Real> t = touch(set, model, x[i], area[i]);
         const Real k = model.tangential * area[i];
         if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
@@ -105,12 +79,16 @@ void Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before
         }
         touching[i] = t.index + 1;
         if (t.index < 0) return;
+        const bool too_deep = t.strongest > 2 * model.shell * model.stiffness * area[i];
+        if (too_deep && !(held[i] && spared[i])) sums.term[0] += 1;
         const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-        const Vec3<Real> held = s.share * s.trial;
-        loss[i] += static_cast<double>(k * held.dot(s.trial - held));
-        work[i] += static_cast<double>((t.normal_force - k * held).dot(t.obstacle_motion));
-        slipped[i] = held;
-      });
+        const Vec3<Real> stretched = s.share * s.trial;
+        loss[i] += static_cast<double>(k * stretched.dot(s.trial - stretched));
+        work[i] += static_cast<double>((t.normal_force - k * stretched).dot(t.obstacle_motion));
+        slipped[i] = stretched;
+      },
+      HYST_KERNEL(const Sums<1>& total) { *deep = total.term[0]; });
+  return static_cast<int>(deep_.download()[0]);
 }
 
 template <class Real, class Device>
@@ -137,8 +115,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return area_.bytes() + slip_.bytes() + touching_.bytes() + loss_.bytes() + work_.bytes() + energy_.bytes() +
-         lagged_.bytes();
+  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + loss_.bytes() + work_.bytes() +
+         energy_.bytes() + lagged_.bytes() + deep_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -6,31 +6,11 @@
 // resting cloth for good, where a velocity-smoothed friction would let it creep.
 #pragma once
 
-#include "sim/contact/signed_distance.h"
+#include "sim/contact/obstacle_set.h"
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/scene/scene.h"
 #include "sim/solve/block_rows.h"
 
 namespace hysteron {
-
-inline constexpr int kMostObstacles = 12;  // they travel with each kernel launch by value
-
-template <class Real>
-struct Obstacle3 {
-  Shape<Real> shape;
-  Mat3<Real> rotation;  // own frame -> world, at the end of the step
-  Vec3<Real> center;
-  Mat3<Real> back_rotation;  // world point of the obstacle at the step's end -> at its start
-  Vec3<Real> back_translation;
-  Real friction;
-  int index;  // in the scene
-};
-
-template <class Real>
-struct ObstacleSet {
-  int count = 0;
-  Obstacle3<Real> item[kMostObstacles];
-};
 
 // Friction of one vertex as an implicit step sees it: what depends on the normal force, held fixed.
 template <class Real>
@@ -63,8 +43,12 @@ class Contact {
   const double* energies() const { return energy_.data(); }  // [J]
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal);
 
-  // Accepts the positions: slips and losses.
-  void commit(const Vec3<Real>* position, const Vec3<Real>* before);
+  // Accepts the positions: slips and losses.  Returns how many vertices are deeper below a surface than the
+  // shell is thick.
+  int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
+  // Vertices that may be that deep while they are held: they were when they or the obstacle came.
+  void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
+  std::vector<char> spared() const { return spared_.download(); }
 
   double stored_energy(const Vec3<Real>* position);  // [J]
   ContactLoss losses() const;                        // since the start
@@ -81,7 +65,8 @@ class Contact {
   Buffer<Real, Device> area_;
   Buffer<Vec3<Real>, Device> slip_;  // E [m]
   Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
-  Buffer<double, Device> loss_, work_, energy_;
+  Buffer<char, Device> spared_;
+  Buffer<double, Device> loss_, work_, energy_, deep_;
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
 };
 

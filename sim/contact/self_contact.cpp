@@ -76,9 +76,11 @@ Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* 
 }
 
 template <class Real, class Device>
-double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held) {
+double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held,
+                                          double at_most) {
   clock_.begin(Stage::contact);
-  const Real longest = longest_way(way), most = longest > most_way_ ? most_way_ / longest : Real(1);
+  const Real longest = longest_way(way), asked = static_cast<Real>(at_most),
+             most = asked * longest > most_way_ ? most_way_ / longest : asked;
   if (!ready_ || pending_ || !(farthest(x, way, most) <= reach_))
     rebuild(x, way, most, held, std::clamp(most * longest / 2, least_reach_, most_reach_));
   const SelfPair<Real>* pairs = pairs_.pairs();
@@ -325,6 +327,29 @@ double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* x) {
       },
       HYST_KERNEL(const Sums<1>& total) { sum[0] = total.term[0]; });
   return sum_.download()[0] + stored_;
+}
+
+template <class Real, class Device>
+std::vector<Vec3<Real>> SelfContact<Real, Device>::forces() const {
+  const std::vector<int> start = rows_.start.download();
+  std::vector<int> item(4 * static_cast<std::size_t>(pairs_.count()));
+  std::vector<Vec3<Real>> slot(item.size()), forces(vertices_, Vec3<Real>::Zero());
+  if (item.empty()) return forces;
+  device_download(device_, item.data(), rows_.item.data(), item.size() * sizeof(int));
+  device_download(device_, slot.data(), slot_.data(), slot.size() * sizeof(Vec3<Real>));
+  for (int i = 0; i < vertices_; ++i)
+    for (int j = start[i]; j < start[i + 1]; ++j) forces[i] -= slot[item[j]];
+  return forces;
+}
+
+template <class Real, class Device>
+SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
+  std::vector<Real> share(pairs_.count());
+  device_download(device_, share.data(), share_.data(), share.size() * sizeof(Real));
+  const auto least = std::min_element(share.begin(), share.end()) - share.begin();
+  SelfPair<Real> pair;
+  device_download(device_, &pair, pairs_.pairs() + least, sizeof pair);
+  return pair;
 }
 
 template <class Real, class Device>

@@ -68,7 +68,7 @@ class SelfContact {
   // Largest share of the way from x that keeps layers apart, and no vertex farther than some edges from where
   // the others go on average; afterwards evaluate() and its kind may be called
   // on the path up to there.  moved() tells which of its points was taken.
-  double prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held);
+  double prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, double at_most = 1);
   void moved(const Vec3<Real>* x);
 
   // As in Contact.
@@ -80,6 +80,11 @@ class SelfContact {
   PairForceView<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
+
+  // For messages: the forces on vertices where evaluate() was called last [N], and the pair that limited the
+  // way of the last prepare().
+  std::vector<Vec3<Real>> forces() const;
+  SelfPair<Real> blocking_pair() const;
 
   double stored_energy(const Vec3<Real>* x);      // [J]
   double friction_loss() const { return loss_; }  // since the start [J]

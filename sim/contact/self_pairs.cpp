@@ -70,6 +70,13 @@ struct Candidates {  // what the loops need, by value
     pair.area = (edge_area[first] + edge_area[second]) / 8;
     return complete(pair, true);
   }
+
+  // Of a row and the rank of what it may meet in its tree.
+  HYST_HD bool pair_of(int row, int vertices, int rank, const BoxTreeView<Real>& triangles,
+                       SelfPair<Real>& pair) const {
+    return row < vertices ? vertex_on_triangle(row, triangles.item[rank], pair)
+                          : edge_on_edge(row - vertices, rank, pair);
+  }
 };
 
 }  // namespace
@@ -84,6 +91,7 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
       triangle_tree_(device, triangles_of(mesh), mesh.rest),
       edge_tree_(device, edges_of(mesh), mesh.rest),
       found_(device, rows_),
+      kept_(device, static_cast<std::size_t>(kKept) * rows_),
       start_(device, rows_ + 1),
       old_start_(device, rows_ + 1),
       pair_(device),
@@ -125,7 +133,8 @@ Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* way) {
   return (sum_.download()[0] / vertices_).template cast<Real>();
 }
 
-// Counts the pairs of each row, or writes them.
+// Counts the pairs of each row and keeps the first partners, or writes the pairs: by what was kept where that
+// is all, by a second walk where it is not.
 template <class Real, class Device>
 template <bool kWrite>
 void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach) {
@@ -133,30 +142,34 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
       rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_,
       reach,        sweep,        held};
   const BoxTreeView<Real> triangles = triangle_tree_.view(), edges = edge_tree_.view();
-  int* found = found_.data();
+  int *found = found_.data(), *kept = kept_.data();
   const int* start = start_.data();
   SelfPair<Real>* pairs = pair_.data();
-  const int vertices = vertices_;
+  const int vertices = vertices_, rows = rows_;
   for_each(
-      device_, "self-contact: pairs", rows_, HYST_KERNEL(int row) {
+      device_, "self-contact: pairs", rows, HYST_KERNEL(int row) {
         int n = 0;
         const int first = kWrite ? start[row] : 0;
-        SelfPair<Real> pair;
-        if (row < vertices) {
+        const auto visit = [&](int rank) {
+          SelfPair<Real> pair;
+          if (!candidates.pair_of(row, vertices, rank, triangles, pair)) return;
+          if (kWrite) {
+            pairs[first + n] = pair;
+          } else if (n < kKept) {
+            kept[n * rows + row] = rank;
+          }
+          ++n;
+        };
+        if (kWrite && start[row + 1] - first <= kKept) {
+          const int count = start[row + 1] - first;
+          for (int k = 0; k < count; ++k) visit(kept[k * rows + row]);
+        } else if (row < vertices) {
           Box<Real> box = Box<Real>::nothing();
           sweep.include(box, row);
-          triangles.find(box, 0, [&](int rank) {
-            if (!candidates.vertex_on_triangle(row, triangles.item[rank], pair)) return;
-            if (kWrite) pairs[first + n] = pair;
-            ++n;
-          });
+          triangles.find(box, 0, visit);
         } else {
           const int edge = row - vertices;
-          edges.find(edges.box[edges.leaves + edge], edge + 1, [&](int rank) {
-            if (!candidates.edge_on_edge(edge, rank, pair)) return;
-            if (kWrite) pairs[first + n] = pair;
-            ++n;
-          });
+          edges.find(edges.box[edges.leaves + edge], edge + 1, visit);
         }
         if (!kWrite) found[row] = n;
       });
@@ -181,7 +194,7 @@ void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, R
 template <class Real, class Device>
 std::size_t SelfPairs<Real, Device>::bytes() const {
   return rest_.bytes() + face_.bytes() + edge_.bytes() + vertex_area_.bytes() + edge_area_.bytes() +
-         triangle_tree_.bytes() + edge_tree_.bytes() + 3 * start_.bytes() + pair_.bytes() +
+         triangle_tree_.bytes() + edge_tree_.bytes() + kept_.bytes() + 3 * start_.bytes() + pair_.bytes() +
          old_pair_.bytes() + scratch_.bytes();
 }
 

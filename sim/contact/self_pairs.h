@@ -61,7 +61,8 @@ class SelfPairs {
   Buffer<int, Device> face_, edge_;  // 3 vertices a triangle, 2 an edge by rank
   Buffer<Real, Device> vertex_area_, edge_area_;
   BoxTree<Real, Device> triangle_tree_, edge_tree_;
-  Buffer<int, Device> found_, start_, old_start_;  // by row
+  static constexpr int kKept = 24;                        // partners of a row kept from counting to writing
+  Buffer<int, Device> found_, kept_, start_, old_start_;  // by row
   GrowingBuffer<SelfPair<Real>, Device> pair_, old_pair_;
   Scratch<Device> scratch_;
   Buffer<Vec3<double>, Device> sum_;

@@ -7,11 +7,12 @@
 
 namespace hysteron {
 
-inline constexpr double kHardest = 0.5;  // share of a shell that no pressure takes
+inline constexpr double kHardest = 0.5;  // share of a shell to which pressure can press it
+inline constexpr double kClosest = 0.1;  // share that no step goes below
 
 template <class Real>
 HYST_HD Real least_distance(const SelfPair<Real>& pair) {
-  return static_cast<Real>(kHardest) * pair.shell;
+  return static_cast<Real>(kClosest) * pair.shell;
 }
 
 template <class Real>
@@ -33,14 +34,12 @@ HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
   pair.gather(position, x);
   const ClosestPoints<Real> closest = pair.is_edges() ? edge_edge(x) : point_triangle(x);
   SelfTouch<Real> touch;
-  const Real distance = closest.offset.norm(), least = least_distance(pair);
+  const Real distance = closest.offset.norm(), hardest = static_cast<Real>(kHardest) * pair.shell;
   if (!(distance < pair.shell)) return touch;
   touch.touches = true;
   touch.normal = closest.offset / distance;
   touch.weight = closest.weight;
-  // An impossible gap, which paths that were checked do not have, is repelled as the smallest one.
-  const Real range = pair.shell - least, floor = Real(1e-3) * range, gap = distance - least;
-  const Barrier<Real> b = barrier(model.stiffness, gap > floor ? gap : floor, range);
+  const Barrier<Real> b = barrier(model.stiffness, distance - hardest, pair.shell - hardest);
   Fade<Real> fade{1, 0};
   if (pair.is_edges()) {
     touch.first = x[1] - x[0];

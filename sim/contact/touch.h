@@ -28,8 +28,7 @@ HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const Cont
   Touch<Real> t;
   for (int o = 0; o < set.count; ++o) {
     const Obstacle3<Real>& obstacle = set.item[o];
-    const Distance<Real> d =
-        signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
+    const Distance<Real> d = distance_to(obstacle, x);
     const Real depth = model.shell - d.value;
     if (!(depth > 0)) continue;
     const Vec3<Real> n = obstacle.rotation * d.normal;

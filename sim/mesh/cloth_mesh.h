@@ -87,6 +87,11 @@ ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily fami
 // triangles on).  About `triangles` triangles: within 5 % or 8 triangles.  Errors as make_rectangle.
 ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned seed);
 
+// Tube of this radius around the x axis from x = 0 to `length`, warp along x, front outside: the rectangle
+// [0, length] x [0, 2 pi radius] sewn along its length at z = -radius.  Its vertices lie on the cylinder.
+// Errors as make_rectangle, and where the sides of the seam have different vertices.
+ClothMesh make_tube(double length, double radius, int triangles, MeshFamily family, unsigned seed);
+
 // Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture
 // coordinates, where every corner has one, become the pattern, or face_warp if they have seams.
 // weld > 0 merges each vertex into the first one closer than that distance [m].

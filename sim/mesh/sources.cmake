@@ -7,5 +7,6 @@ set(HYSTERON_MESH_SOURCES
     sim/mesh/random_points.cpp
     sim/mesh/read_obj.cpp
     sim/mesh/topology.cpp
+    sim/mesh/tube.cpp
     sim/mesh/weld.cpp
     sim/mesh/write_mesh.cpp)

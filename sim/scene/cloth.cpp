@@ -18,6 +18,7 @@ ClothMesh rest_mesh(const Scene& scene) {
   if (c.shape == "file") return read_obj(c.file, c.weld);
   const MeshFamily family = mesh_family(scene.mesh);
   if (c.shape == "disc") return make_disc(c.radius, scene.triangles, family, scene.seed);
+  if (c.shape == "tube") return make_tube(c.length, c.radius, scene.triangles, family, scene.seed);
   const double width = c.shape == "square" ? c.length : c.width;
   return make_rectangle(c.length, width, scene.triangles, family, scene.seed);
 }

@@ -15,7 +15,7 @@ using F = Fabric;
 
 // clang-format off
 const KeyRow<Scene> kSceneRows[] = {
-    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | file", "outline of the cloth"},
+    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | tube | file", "outline of the cloth"},
     {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "", "along warp (square, strip)"},
     {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip)"},
     {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc"},
@@ -51,6 +51,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"solver-tolerance", at<&S::solver_tolerance>, "", {0, 0.1, true}, "", "relative residual of the implicit solve"},
     {"newton-residual", at<&S::newton_residual>, "", {0, 1, true}, "", "implicit, bdf2, quasi-static: unbalanced force over weight and reactions at which a step has converged"},
     {"newton-velocity", at<&S::newton_velocity>, "m/s", at_least(0), "", "implicit, bdf2: or the mean correction over the step's time"},
+    {"newton-iterations", at<&S::newton_iterations>, "", between(0, 1e6), "", "implicit, bdf2: at most, then the step is taken as it is and what is unbalanced is booked; 0: until it converges, in parts where it does not"},
     {"tolerance", at<&S::tolerance>, "m", at_least(0), "", "semi-implicit, implicit, bdf2: steps in parts, each with an estimated error of positions below this; 0: off"},
     {"ramp", at<&S::ramp>, "s", at_least(0), "", "quasi-static: time in which the weight grows to its full value"},
     {"unload", at<&S::unload>, "s", at_least(0), "", "quasi-static: time after the ramp in which the weight falls to none; 0: it stays"},
@@ -73,6 +74,7 @@ const KeyRow<Pin> kPinRows[] = {
     {"point", at<&Pin::point>, "m", any(), "", "the nearest vertex to this is held (nearest)"},
     {"from", at<&Pin::from>, "s", at_least(0), "", "taken at this time, where they then are"},
     {"until", at<&Pin::until>, "s", at_least(0), "", "released at this time"},
+    {"home", at<&Pin::home>, "s", at_least(0), "", "brings them back to where they were at the start within this time; 0: does not"},
     {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
     {"center", at<&Pin::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
 };
@@ -98,6 +100,11 @@ const KeyRow<Command> kCommandRows[] = {
     {"time", at<&Command::time>, "s", at_least(0), "", "when"},
     {"low", at<&Command::low>, "m", any(), "", "corner of the box that holds the elements, on the flat cloth"},
     {"high", at<&Command::high>, "m", any(), "", "opposite corner of the box, >= low"},
+};
+
+const KeyRow<Phase> kPhaseRows[] = {
+    {"name", at<&Phase::name>, "", any(), "", "for captions, and for times: \"hang\", \"hang + 0.2\""},
+    {"seconds", at<&Phase::seconds>, "s", positive(), "", "how long it lasts"},
 };
 
 const KeyRow<Keyframe> kKeyframeRows[] = {
@@ -167,6 +174,7 @@ Keys bind_scene(Scene& scene) {
 Keys bind_pin(Pin& pin) { return bind(kPinRows, pin); }
 Keys bind_obstacle(Obstacle& obstacle) { return bind(kObstacleRows, obstacle); }
 Keys bind_command(Command& command) { return bind(kCommandRows, command); }
+Keys bind_phase(Phase& phase) { return bind(kPhaseRows, phase); }
 Keys bind_keyframe(Keyframe& keyframe) { return bind(kKeyframeRows, keyframe); }
 
 std::vector<KeyDescription> scene_keys() {
@@ -209,6 +217,8 @@ Json to_json(const Scene& scene) {
   }
   tree["command"] = Json::array();
   for (Command& command : copy.command) tree["command"].push_back(to_json(bind_command(command)));
+  tree["phase"] = Json::array();
+  for (Phase& phase : copy.phase) tree["phase"].push_back(to_json(bind_phase(phase)));
   tree["origin"] = scene.origin;
   return tree;
 }

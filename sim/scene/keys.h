@@ -18,6 +18,7 @@ Keys bind_scene(Scene& scene);
 Keys bind_pin(Pin& pin);
 Keys bind_obstacle(Obstacle& obstacle);
 Keys bind_command(Command& command);
+Keys bind_phase(Phase& phase);
 Keys bind_keyframe(Keyframe& keyframe);
 
 // Sets one key from a flag's text and remembers `origin` ("--step").  "fabric" and "fabric.name" load a whole

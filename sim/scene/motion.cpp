@@ -1,5 +1,6 @@
 #include "sim/scene/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -44,6 +45,12 @@ Placement placement(const Motion& motion, double time) {
   for (int c = 0; c < 3; ++c)
     result.translation[c] += interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
   return result;
+}
+
+double home_share(const Pin& pin, double time) {
+  if (!(pin.home > 0)) return 0;
+  const double u = std::clamp((time - pin.from) / pin.home, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
 }
 
 }  // namespace hysteron

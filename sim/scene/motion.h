@@ -18,4 +18,7 @@ struct Placement {
 };
 Placement placement(const Motion& motion, double time);
 
+// Share of the way home that a pin has brought its vertices by then, smoothly from 0 to 1; 0 if it does not.
+double home_share(const Pin& pin, double time);
+
 }  // namespace hysteron

@@ -54,10 +54,10 @@ struct Fabric {
 };
 
 struct ClothShape {
-  std::string shape = "square";       // cloth.shape       square | strip | disc | file
-  double length = 0.5;                // cloth.length      along warp [m] (square, strip)
+  std::string shape = "square";       // cloth.shape       square | strip | disc | tube | file
+  double length = 0.5;                // cloth.length      along warp [m] (square, strip, tube)
   double width = 0.5;                 // cloth.width       along weft [m] (strip; a square takes length)
-  double radius = 0.15;               // cloth.radius      [m] (disc)
+  double radius = 0.15;               // cloth.radius      [m] (disc, tube)
   std::string file;                   // cloth.file        OBJ
   double weld = 0;                    // cloth.weld        merge vertices closer than this [m], 0 = off (file)
   Eigen::Vector3d position{0, 0, 0};  // cloth.position    of the builders' origin [m]
@@ -90,7 +90,8 @@ struct Pin {
   Eigen::Vector3d point{0, 0, 0};  // pin.point    for `nearest`
   double from = 0;                 // pin.from     taken at this time [s]
   double until = 1e30;             // pin.until    released at this time [s]
-  Motion motion;                   // pin.keys, pin.axis, pin.center
+  double home = 0;  // pin.home     time in which it brings them back to where they were at t = 0 [s]
+  Motion motion;    // pin.keys, pin.axis, pin.center
 };
 
 struct Obstacle {
@@ -117,6 +118,12 @@ struct Command {
   Eigen::Vector3d high{1e3, 1e3, 1e3};    // command.high
 };
 
+// Phases follow one another from t = 0 on; times in scene files may name them.
+struct Phase {
+  std::string name;    // phase.name
+  double seconds = 1;  // phase.seconds
+};
+
 struct Scene {
   ClothShape cloth;
   Fabric fabric;
@@ -135,6 +142,8 @@ struct Scene {
   double solver_tolerance = 1e-4;          // solver-tolerance  relative residual of the implicit solve
   double newton_residual = 1e-6;           // newton-residual   unbalanced force over the weight
   double newton_velocity = 1e-9;           // newton-velocity   or: correction over the step's time [m/s]
+  int newton_iterations =
+      0;                 // newton-iterations  at most, then the step is taken as it is; 0: until it converges
   double tolerance = 0;  // tolerance  of positions, per part of a step [m]; 0: steps as given
   std::string linear_solver = "multigrid";  // linear-solver     multigrid | block-jacobi
   double ramp = 0;                          // ramp      quasi-static: time in which the weight grows [s]
@@ -151,10 +160,13 @@ struct Scene {
   std::vector<Pin> pin;            // [[pin]]
   std::vector<Obstacle> obstacle;  // [[obstacle]]
   std::vector<Command> command;    // [[command]]
+  std::vector<Phase> phase;        // [[phase]]
   // Where each key that is no default was set, "scene.toml:7" or "--step", for messages: by key ("step",
   // "obstacle[0].radius"), and by table ("pin[1]").
   std::map<std::string, std::string> origin;
 
+  // Name of the phase at this time [s], the last one after all of them; "" without phases.
+  std::string phase_at(double time) const;
   // Bending as well: every force at the end of the step.
   bool is_implicit() const {
     return integrator == "implicit" || integrator == "bdf2" || integrator == "quasi-static";

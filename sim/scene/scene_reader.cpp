@@ -5,6 +5,7 @@
 
 #include "sim/error.h"
 #include "sim/scene/assets.h"
+#include "sim/scene/phases.h"
 #include "sim/scene/toml_file.h"
 
 namespace hysteron {
@@ -38,8 +39,8 @@ class SceneFile {
   void apply(const TomlNode& root) {
     std::vector<Setting> settings;
     flatten("", root, settings);
-    std::stable_partition(settings.begin(), settings.end(),
-                          [](const Setting& s) { return s.path == "fabric.name"; });
+    const auto come_first = [](const Setting& s) { return s.path == "fabric.name" || s.path == "phase"; };
+    std::stable_partition(settings.begin(), settings.end(), come_first);
     for (const Setting& setting : settings) apply(setting);
   }
 
@@ -48,6 +49,7 @@ class SceneFile {
     const TomlNode& node = *setting.node;
     const std::string origin = place(file_, node);
     if (setting.path == "pin") return read_tables(node, scene_.pin, bind_pin);
+    if (setting.path == "phase") return read_phases(node);
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
@@ -57,6 +59,19 @@ class SceneFile {
     }
     if (is_extra(setting.path)) return assign(key, node.value, origin);
     set_key(scene_, key, located(setting.path, node.value), origin);
+  }
+
+  // The scene lasts as long as its phases, unless it says otherwise.
+  void read_phases(const TomlNode& node) {
+    read_tables(node, scene_.phase, bind_phase);
+    scene_.seconds = phases_end(scene_.phase);
+  }
+
+  // Times may name a phase.
+  Value timed(const BoundKey& key, const Value& value, const std::string& origin) const {
+    const auto* text = std::get_if<std::string>(&value);
+    if (!text || key.description.unit != "s") return value;
+    return time_of(scene_.phase, *text, key.description.path + ", " + origin);
   }
 
   bool is_extra(const std::string& path) const {
@@ -112,7 +127,7 @@ class SceneFile {
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);
       if (child.kind != TomlNode::Kind::value)
         throw Error::request(path + "." + child.key + " must be one value (" + origin + ")");
-      assign(key, child.value, origin);
+      assign(key, timed(key, child.value, origin), origin);
       scene_.origin[path + "." + child.key] = origin;
     }
   }
@@ -124,7 +139,9 @@ class SceneFile {
       const std::string name = path + ".keys[" + std::to_string(i) + "]";
       for (BoundKey& key : keys) key.description.path = name + "." + key.description.path;
       for (const TomlNode& child : node.children[i].children) {
-        assign(find_key(keys, name + "." + child.key, place(file_, child)), child.value, place(file_, child));
+        const std::string origin = place(file_, child);
+        const BoundKey& key = find_key(keys, name + "." + child.key, origin);
+        assign(key, timed(key, child.value, origin), origin);
       }
       motion.keys.push_back(frame);
       scene_.origin[name] = place(file_, node.children[i]);

@@ -7,6 +7,7 @@ set(HYSTERON_SCENE_SOURCES
     sim/scene/fabric_reader.cpp
     sim/scene/key_table.cpp
     sim/scene/keys.cpp
+    sim/scene/phases.cpp
     sim/scene/scene_checks.cpp
     sim/scene/scene_reader.cpp
     sim/scene/toml_file.cpp)

@@ -42,31 +42,25 @@ NewtonOutcome Stepper<Real, Device>::try_step(double start, double h) {
   clock_.end(Stage::solve);
   newton_iterations_ += outcome.iterations;
   solver_iterations_ += outcome.linear_iterations;
+  unbalanced_steps_ += outcome.unbalanced;
   return outcome;
 }
 
 template <class Real, class Device>
-void Stepper<Real, Device>::take_step() {
+void Stepper<Real, Device>::take_step(double end) {
   clock_.begin(Stage::history);
   implicit_->accept(vertex_state(), ledger_.data());
   clock_.end(Stage::history);
   ++substeps_taken_;
   if (self_contact_) self_contact_->commit(x_.data(), before_.data());
-  if (!contact_) return;
-  clock_.begin(Stage::contact);
-  contact_->commit(x_.data(), before_.data());
-  clock_.end(Stage::contact);
+  if (contact_) commit_contact(end);
 }
 
 template <class Real, class Device>
 void Stepper<Real, Device>::implicit_interval(double start, double h, int halvings) {
   const NewtonOutcome outcome = try_step(start, h);
-  if (outcome.converged) return take_step();
-  if (halvings == kMostHalvings)
-    throw Error::run("no equilibrium of the step at t = " + std::to_string(start) + " s was found, even in " +
-                     std::to_string(1 << kMostHalvings) + " parts: an unbalanced force of " +
-                     std::to_string(outcome.residual) + " N remains (weight and handles carry " +
-                     std::to_string(outcome.load) + " N)");
+  if (outcome.converged) return take_step(start + h);
+  if (halvings == kMostHalvings) refuse_unbalanced(start, h, outcome);
   ++retried_steps_;
   implicit_interval(start, h / 2, halvings + 1);
   implicit_interval(start + h / 2, h / 2, halvings + 1);
@@ -85,7 +79,7 @@ void Stepper<Real, Device>::adaptive_interval(double start) {
         h * std::clamp(kAim * std::pow(scene_.tolerance / error, 1 / implicit_->error_order()), kFastestFall,
                        kFastestGrowth);
     if (outcome.converged && error <= scene_.tolerance) {
-      take_step();
+      take_step(now + h);
       now += h;
     } else if (wanted < least) {
       throw Error::run("tolerance = " + std::to_string(scene_.tolerance) + " m cannot be met at t = " +

@@ -31,6 +31,9 @@ NewtonLimits newton_limits(const Scene& scene) {
     limits.iterations = 400;
     limits.first_shift = 1e4;  // as in a step of 10 ms
     limits.least_shift = 1e-4;
+  } else if (scene.newton_iterations > 0) {
+    limits.iterations = scene.newton_iterations;
+    limits.take_unconverged = true;
   }
   return limits;
 }
@@ -88,7 +91,11 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
     begun = potential_of_guess(state, true);
     if (!(begun < steady)) begun = potential_of_guess(state, false);
   }
-  if (!std::isfinite(begun)) return {};  // the handles' way is not free, or the state not finite
+  if (!std::isfinite(begun)) {  // the handles' way is not free, or the state not finite
+    NewtonOutcome outcome;
+    outcome.blocked = potential_.has_self_contact() && !keep_apart(state);
+    return outcome;
+  }
   const double over = static_ ? 1.0 : formula_.over;
   return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, over);
 }
@@ -102,6 +109,24 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const char* he
   for (int i = 0; i < vertices_; ++i)
     if (!mask[i]) force[i].setZero();
   return force;
+}
+
+template <class Real, class Device>
+Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
+  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
+  std::vector<Vec3<Real>> gradient(vertices_);
+  device_download(device_, gradient.data(), potential_.gradient(), gradient.size() * sizeof(Vec3<Real>));
+  std::vector<char> mask(vertices_);
+  device_download(device_, mask.data(), held, mask.size());
+  Unbalanced result;
+  for (int i = 0; i < vertices_; ++i) {
+    const double force = static_cast<double>(gradient[i].norm());
+    if (mask[i] || !(force > result.force)) continue;
+    result.vertex = i;
+    result.force = force;
+  }
+  if (result.vertex >= 0) result.position = end_.download()[result.vertex].template cast<double>();
+  return result;
 }
 
 template <class Real, class Device>
@@ -154,7 +179,7 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
   double shorter = 1;
   for (int k = 0; k < kMostShortenings; ++k) {
     shorten_way(state, static_cast<Real>(shorter));
-    const double feasible = potential_.feasible_share(state.x, way_.data());
+    const double feasible = potential_.feasible_share(state.x, way_.data(), 1);
     if (feasible >= 1) {
       potential_.took(end_.data());
       return true;
@@ -241,6 +266,8 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
           sum.handle_work -= static_cast<double>((weight + support).dot(d) + (bend + rest).dot(way));
           return;
         }
+        // What Newton's method has left unbalanced acts like one more force on the masses.
+        sum.unbalanced -= static_cast<double>(gradient[i].dot(d));
         sum.air -= static_cast<double>(air.dot(d));
         const Vec3<Real> moved = drift[i] + rate * (end[i] - predicted[i]);
         sum.inertia +=

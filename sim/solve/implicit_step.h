@@ -20,6 +20,13 @@ struct VertexState {
   const Vec3<Real>* handle_way;
 };
 
+// The vertex that is farthest from equilibrium.
+struct Unbalanced {
+  int vertex = -1;
+  double force = 0;  // [N]
+  Eigen::Vector3d position{0, 0, 0};
+};
+
 template <class Real, class Device>
 class ImplicitStep {
  public:
@@ -39,6 +46,8 @@ class ImplicitStep {
   double error_order() const { return formula_.lag > 0 ? 3 : 2; }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const char* held) const;
+  // Where solve() has ended without success.
+  Unbalanced most_unbalanced(const char* held);
   std::size_t bytes() const;
 
   // The parts; public because nvcc allows no device lambda in a private member function.

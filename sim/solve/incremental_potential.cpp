@@ -33,8 +33,9 @@ void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
 }
 
 template <class Real, class Device>
-double IncrementalPotential<Real, Device>::feasible_share(const Vec3<Real>* x, const Vec3<Real>* way) {
-  return self_contact_ ? self_contact_->prepare(x, way, start_.held) : 1;
+double IncrementalPotential<Real, Device>::feasible_share(const Vec3<Real>* x, const Vec3<Real>* way,
+                                                          double at_most) {
+  return self_contact_ ? self_contact_->prepare(x, way, start_.held, at_most) : at_most;
 }
 
 template <class Real, class Device>

@@ -45,9 +45,9 @@ class IncrementalPotential {
                        SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass);
 
   void begin(const StepStart<Real>& start);
-  // Largest share of the way from x on which the cloth does not pass through itself, 1 without self-contact.
+  // Largest share of the way from x, up to `at_most`, on which the cloth does not pass through itself.
   // evaluate() then serves points up to there; took() tells which of them was taken.
-  double feasible_share(const Vec3<Real>* x, const Vec3<Real>* way);
+  double feasible_share(const Vec3<Real>* x, const Vec3<Real>* way, double at_most);
   void took(const Vec3<Real>* x);
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.

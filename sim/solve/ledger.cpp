@@ -30,6 +30,7 @@ std::vector<std::pair<std::string, double>> Ledger::rows() const {
           {"air", air},
           {"contact_friction", contact_friction},
           {"integrator_inertia", inertia},
+          {"integrator_unbalanced", unbalanced},
           {"integrator_bending", bending_gap},
           {"integrator_implicit", implicit_gap},
           {"integrator_gravity", gravity_gap},

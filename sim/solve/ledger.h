@@ -9,8 +9,8 @@ namespace hysteron {
 
 // All in joules.  Balance: (kinetic + gravitational + membrane + bending + contact) - initial
 //   = handle_work + obstacle_work - commands - bending_friction - viscous - air - contact_friction
-//     - inertia - bending_gap - implicit_gap - gravity_gap + remainder.
-// The four integrator terms come from their own formulas (header of semi_implicit.cpp), so the remainder is
+//     - inertia - unbalanced - bending_gap - implicit_gap - gravity_gap + remainder.
+// The five integrator terms come from their own formulas (header of semi_implicit.cpp), so the remainder is
 // the arithmetic's alone.
 struct Ledger {
   double kinetic = 0, gravitational = 0, membrane = 0, bending = 0,
@@ -18,8 +18,9 @@ struct Ledger {
   double initial = 0;                                                       // their sum at the start
   double handle_work = 0, obstacle_work = 0;                                // done on the cloth
   double bending_friction = 0, viscous = 0, air = 0, contact_friction = 0;  // lost to physics
-  double commands = 0;  // recoverable bending energy taken away by ironing and edits, less what they gave
-  double inertia = 0;   // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
+  double commands = 0;    // recoverable bending energy taken away by ironing and edits, less what they gave
+  double inertia = 0;     // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
+  double unbalanced = 0;  // lost to forces that an implicit solve has left unbalanced
   double bending_gap =
       0;  // lost by explicit bending: -(change of bending energy + losses + work of its forces)
   double implicit_gap = 0;  // lost by the implicit stage: the same for membrane and contact
@@ -27,7 +28,7 @@ struct Ledger {
   double remainder = 0;     // what no term explains
   double remainder_relative = 0;  // over the sum of the terms' magnitudes
 
-  double integrator() const { return inertia + bending_gap + implicit_gap + gravity_gap; }
+  double integrator() const { return inertia + unbalanced + bending_gap + implicit_gap + gravity_gap; }
   // Sets remainder from the other terms.
   void close();
   std::vector<std::pair<std::string, double>> rows() const;  // name, value, in the balance's order

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hysteron {
 
@@ -45,6 +46,10 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   potential_.lag_friction(x);
   PotentialValue value = potential_.evaluate(x, nullptr);
   const double first = value.residual;
+  // What a way may meet costs the more the longer it is: the next one is looked at as far as a few times the
+  // last.
+  constexpr double kLonger = 4;
+  double farthest = std::numeric_limits<double>::infinity();  // [m]
   double forcing = kLoosest, shift = limits_.first_shift;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
@@ -52,22 +57,30 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     // What is unbalanced is small beside the load, or would hardly move the cloth within the step.
     outcome.converged |= value.residual <= limits_.residual * outcome.load ||
                          value.residual * over * std::sqrt(vertices_) / total_mass <= limits_.velocity;
-    if (outcome.converged || outcome.iterations == limits_.iterations || !std::isfinite(value.energy)) break;
+    if (outcome.converged || !std::isfinite(value.energy)) break;
+    if (outcome.iterations == limits_.iterations) {
+      outcome.converged = outcome.unbalanced = limits_.take_unconverged;
+      break;
+    }
     outcome.linear_iterations +=
         find_direction(x, held, shift, value.residual < kNear * first, std::max(forcing, kTightest));
     const Correction correction = measure_correction(x, mass, held);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
-    const double share = search(x, value, correction.slope);
+    const double length = std::sqrt(correction.size2 / total_mass);
+    const double share = search(x, value, correction.slope, std::min(1.0, farthest / length));
+    if (potential_.has_self_contact()) farthest = kLonger * share * length;
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (share == 0) {
       outcome.converged =
           balanced && (unmoved || -correction.slope <= kRounding<Real> * value.size);  // no more to gain
+      outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
+      outcome.converged |= outcome.unbalanced;
       break;
     }
-    outcome.converged = balanced && shift <= limits_.least_shift &&
-                        (unmoved || std::sqrt(correction.size2 / total_mass) / over <= limits_.velocity);
+    outcome.converged =
+        balanced && shift <= limits_.least_shift && (unmoved || length / over <= limits_.velocity);
     shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
       potential_.lag_friction(x);
@@ -93,10 +106,10 @@ long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held,
 // and returns it; 0 if there is none.  Where the difference is within rounding, the slope must have become
 // flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope) {
+double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most) {
   if (!(slope < 0)) return 0;
   const double rounding = kRounding<Real> * value.size;
-  double share = potential_.feasible_share(x, direction_.data());
+  double share = potential_.feasible_share(x, direction_.data(), at_most);
   if (!(share > 0)) return 0;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
     try_share(x, static_cast<Real>(share));

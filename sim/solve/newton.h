@@ -12,13 +12,16 @@ struct NewtonLimits {
   double velocity = 1e-9;  // root mean square of a correction over the step's time, or of what the unbalanced
                            // force makes of free masses in it [m/s]
   int iterations = 60;
+  bool take_unconverged = false;  // what is reached by then is taken as it is
   // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift
   // falls with every full step and rises with every shortened one [1/s^2].
   double first_shift = 0, least_shift = 0;
 };
 
 struct NewtonOutcome {
-  bool converged = false;
+  bool converged = false;   // or taken as it is
+  bool unbalanced = false;  // taken as it is
+  bool blocked = false;     // the handles' own way leads the cloth through itself
   int iterations = 0;
   long linear_iterations = 0;
   double residual = 0;  // [N]
@@ -49,7 +52,7 @@ class Newton {
 
  private:
   long find_direction(const Vec3<Real>* x, const char* held, double shift, bool full, double tolerance);
-  double search(Vec3<Real>* x, PotentialValue& value, double slope);
+  double search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most);
 
   Device& device_;
   int vertices_;

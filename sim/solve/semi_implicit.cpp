@@ -93,11 +93,7 @@ void Stepper<Real, Device>::stage(double start, Real h) {
       explicit_ ? explicit_substep(h / limits_.substeps) : substep(h / limits_.substeps);
   }
   if (!explicit_) implicit_stage(h);
-  if (contact_) {
-    clock_.begin(Stage::contact);
-    contact_->commit(x_.data(), before_.data());
-    clock_.end(Stage::contact);
-  }
+  if (contact_) commit_contact(start + static_cast<double>(h));
 }
 
 template <class Real, class Device>
@@ -116,6 +112,7 @@ void Stepper<Real, Device>::grip(double time) {
   const std::vector<int> pins = cloth_.pins(scene_, time);
   std::vector<char> held;
   for (int p : pins) held.push_back(p >= 0);
+  if (contact_) refuse_release(held_.download(), held, time);
   held_.upload(held);
   if (moving_pins_) take_hold(pins, time);
 }
@@ -140,12 +137,16 @@ void Stepper<Real, Device>::take_hold(const std::vector<int>& pins, double time)
 template <class Real, class Device>
 void Stepper<Real, Device>::hold(double start, Real h) {
   if (start >= next_grip_) grip(start);
+  if (contact_ && start >= next_obstacle_) meet_obstacles(start);
   if (!moving_pins_) return;
   PinPlacements<Real> placements;
   for (std::size_t p = 0; p < scene_.pin.size(); ++p) {
     const Motion& motion = scene_.pin[p].motion;
     const Placement from = placement(motion, start), at = placement(motion, start + static_cast<double>(h));
     const Eigen::AngleAxisd turn(at.rotation * from.rotation.transpose());
+    const double home = home_share(scene_.pin[p], start + static_cast<double>(h));
+    placements.home[p] = static_cast<Real>(home);
+    placements.homewards[p] = static_cast<Real>(home - home_share(scene_.pin[p], start));
     placements.rotation[p] = (at.scale * at.rotation).template cast<Real>();
     placements.translation[p] = at.translation.template cast<Real>();
     placements.turn[p] = (turn.angle() * turn.axis()).template cast<Real>();
@@ -154,15 +155,20 @@ void Stepper<Real, Device>::hold(double start, Real h) {
   }
   const int* pin = pin_.data();
   const char* held = held_.data();
-  const Vec3<Real>*origin = start_.data(), *x = x_.data();
+  const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = x_.data();
   Vec3<Real>*v = v_.data(), *way = handle_way_.data();
   for_each(
       *device_, "handles", vertices_, HYST_KERNEL(int i) {
         if (!held[i]) return;
         const int p = pin[i];
-        const Vec3<Real> end = placements.rotation[p] * origin[i] + placements.translation[p];
+        Vec3<Real> from = origin[i], more = Vec3<Real>::Zero();
+        if (home) {
+          from += placements.home[p] * (home[i] - origin[i]);
+          more = placements.homewards[p] * (placements.rotation[p] * (home[i] - origin[i]));
+        }
+        const Vec3<Real> end = placements.rotation[p] * from + placements.translation[p];
         v[i] = (end - x[i]) / h;
-        if (way) way[i] = placements.turn[p].cross(end - placements.pivot[p]) + placements.shift[p];
+        if (way) way[i] = placements.turn[p].cross(end - placements.pivot[p]) + placements.shift[p] + more;
       });
 }
 

@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "sim/bending/bending.h"
+#include "sim/contact/obstacle_set.h"
 #include "sim/contact/penalty.h"
+#include "sim/contact/start_checks.h"
 #include "sim/error.h"
 #include "sim/membrane/membrane.h"
 #include "sim/solve/back_end.h"
@@ -105,6 +107,9 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
     throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
                          std::to_string(kMostMovingPins) + " are possible");
+  if (scene.obstacle.size() > static_cast<std::size_t>(kMostObstacles))
+    throw Error::request("obstacle: " + std::to_string(scene.obstacle.size()) + " obstacles, at most " +
+                         std::to_string(kMostObstacles) + " are possible");
   CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   if (!scene.fabric.bends_alike())
     stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
@@ -115,6 +120,7 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
                          scene.integrator);
   if (scene.self_contact && scene.integrator != "implicit" && scene.integrator != "bdf2")
     throw Error::request("self-contact needs integrator = implicit | bdf2, not " + scene.integrator);
+  check_start(scene, cloth);
   const StepLimits limits = choose_substeps(scene, cloth, op);
   return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)
                           : make_cpu_simulation(scene, cloth, op, limits);

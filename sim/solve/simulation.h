@@ -33,9 +33,10 @@ class Simulation {
  public:
   virtual ~Simulation() = default;
 
-  virtual void advance(int steps) = 0;  // Error::run when the state is no longer finite
-  virtual void wait() = 0;              // until the device has done what advance() ordered
-  virtual double time() const = 0;      // [s]
+  // Error::run when the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.
+  virtual void advance(int steps) = 0;
+  virtual void wait() = 0;          // until the device has done what advance() ordered
+  virtual double time() const = 0;  // [s]
   virtual long steps() const = 0;
 
   virtual std::vector<Eigen::Vector3d> positions() = 0;   // [m]
@@ -62,16 +63,20 @@ class Simulation {
   virtual double newton_iterations() const = 0;  // mean per step; 0 where there is no Newton solve
   virtual long parts_taken() const = 0;          // into which steps were divided, by retries or a tolerance
   virtual long retried_steps() const = 0;        // that were taken again in smaller parts
+  virtual long unbalanced_steps() const = 0;     // parts taken before Newton's method had converged
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;
   virtual double copy_bandwidth() = 0;     // of this device, bytes read plus written [byte/s], measured
   virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
   virtual int cuda_device() const = 0;     // -1: the CPU
+  // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
+  // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.
+  virtual long deep_steps() const = 0;
 };
 
-// Chooses device and precision as the scene asks.  Error::request for what cannot be simulated,
-// Error::machine for a missing GPU.
+// Chooses device and precision as the scene asks.  Error::request for what cannot be simulated, a start that
+// contact cannot go on from included (contact/start_checks.h), Error::machine for a missing GPU.
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth);
 
 // Names of the usable devices: the CPU, then the GPUs or the reason why there are none.

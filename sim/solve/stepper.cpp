@@ -67,14 +67,17 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     if (together_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
+  bool homing = false;
   for (const Pin& pin : scene.pin) {
     moving_pins_ |= !pin.motion.keys.empty() || pin.from > 0;
+    homing |= pin.home > 0;
     for (double time : {pin.from, pin.until})
       if (time > 0 && time < scene.seconds) grip_times_.push_back(time);
   }
   std::sort(grip_times_.begin(), grip_times_.end());
   if (moving_pins_) {
     start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
+    if (homing) home_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
     pin_ = Buffer<int, Device>(*device_, cloth.pins(scene, 0));
     if (all_implicit_) handle_way_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
@@ -162,6 +165,7 @@ Ledger Stepper<Real, Device>::ledger() {
     implicit_work += sum.implicit_work;
     ledger.air += sum.air;
     ledger.inertia += sum.inertia;
+    ledger.unbalanced += sum.unbalanced;
     ledger.handle_work += sum.handle_work;
   }
   ledger.bending_friction = bending_.dissipated_energy();
@@ -248,8 +252,8 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   add("commands", !scene_.command.empty(), 0, "bending command", "no command");
   add("viscous damping", scene_.fabric.damping > 0, 0, "bending rates, viscous loss", "fabric.damping = 0");
   add("air drag", scene_.air_drag > 0, 0, "substep", "air-drag = 0");
-  add("moving handles", moving_pins_, start_.bytes() + pin_.bytes() + handle_way_.bytes(), "handles",
-      "no pin moves");
+  add("moving handles", moving_pins_, start_.bytes() + home_.bytes() + pin_.bytes() + handle_way_.bytes(),
+      "handles", "no pin moves");
   add("obstacles", contact_.has_value(), contact_ ? contact_->bytes() + before_.bytes() : 0,
       "contact, contact history", "no obstacles");
   add("self-contact", self_contact_.has_value(), self_contact_ ? self_contact_->bytes() : 0,

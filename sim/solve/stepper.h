@@ -1,5 +1,5 @@
 // The simulation on one device in one precision.  stepper.cpp sets it up and measures, semi_implicit.cpp and
-// implicit_interval.cpp step.
+// implicit_interval.cpp step, refusals.cpp says why a run cannot go on.
 #pragma once
 
 #include <optional>
@@ -21,6 +21,8 @@ template <class Real>
 struct PinPlacements {
   Mat3<Real> rotation[kMostMovingPins];
   Vec3<Real> translation[kMostMovingPins];
+  // Share of the way home that is done at the end of the step, and in it.
+  Real home[kMostMovingPins], homewards[kMostMovingPins];
   // The way of a step as one screw: the pin turns by `turn` about a pivot that moves by `shift`.
   Vec3<Real> turn[kMostMovingPins], pivot[kMostMovingPins], shift[kMostMovingPins];  // [rad], at the end [m]
 };
@@ -54,11 +56,13 @@ class Stepper : public Simulation {
   double newton_iterations() const override;
   long parts_taken() const override { return substeps_taken_; }
   long retried_steps() const override { return retried_steps_; }
+  long unbalanced_steps() const override { return unbalanced_steps_; }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return device_->bytes; }
   std::string device() const override;
   int cuda_device() const override { return device_->cuda_device(); }
+  long deep_steps() const override { return deep_steps_; }
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
   void obey(double start, double end);  // commands that are due
@@ -77,11 +81,19 @@ class Stepper : public Simulation {
   void adaptive_interval(double start);  // a step of the scene in parts that keep its tolerance
   void adaptive_stages(double start);    // the same for `semi-implicit`
   NewtonOutcome try_step(double start, double h);
-  void take_step();
+  void take_step(double end);
   double change_size();
   void remember_positions();
   double load_share(double time) const;
-  void refuse_divergence();  // Error::run when a position or velocity is no longer finite
+  void commit_contact(double time);  // accepts positions at the end of a stage
+  // Error::run (refusals.cpp, but the first): a position or velocity is no longer finite; an obstacle appears
+  // where the cloth is; the cloth is crushed; a step has no solution.
+  void refuse_divergence();
+  void meet_obstacles(double time);
+  void refuse_release(const std::vector<char>& before, const std::vector<char>& held, double time);
+  void refuse_crushed(double time);
+  void refuse_unbalanced(double start, double h, const NewtonOutcome& outcome);
+  std::vector<std::string> pressing(int vertex, const Eigen::Vector3d& x, double time);
 
  private:
   void choose_substeps(const Cloth& cloth, const CurvatureOperator& op, const StepLimits& limits);
@@ -98,7 +110,8 @@ class Stepper : public Simulation {
   int vertices_;
   long step_count_ = 0;
   double part_ = 0;  // of adaptive steps: the coming one [s]
-  long substeps_taken_ = 0, newton_iterations_ = 0, solver_iterations_ = 0, retried_steps_ = 0;
+  long substeps_taken_ = 0, newton_iterations_ = 0, solver_iterations_ = 0, retried_steps_ = 0,
+       unbalanced_steps_ = 0, deep_steps_ = 0;
   StepLimits limits_;
   StageClock<Device> clock_;
   BlockRows<Real, Device> matrix_;
@@ -109,11 +122,13 @@ class Stepper : public Simulation {
   std::optional<SelfContact<Real, Device>> self_contact_;
   std::unique_ptr<ImplicitStep<Real, Device>> implicit_;
   bool moving_pins_ = false;
-  double next_grip_ = 0;            // when pins take hold or let go next [s]
-  std::vector<double> grip_times_;  // of all of them
+  double next_grip_ = 0;                 // when pins take hold or let go next [s]
+  std::vector<double> grip_times_;       // of all of them
+  double next_obstacle_ = 0, met_ = -1;  // when an obstacle appears next, and did last [s]
   Cloth cloth_;
   std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed
   Buffer<Vec3<Real>, Device> x_, v_, start_, before_, rhs_;
+  Buffer<Vec3<Real>, Device> home_;        // where vertices were at t = 0, if a pin brings them back there
   Buffer<Vec3<Real>, Device> handle_way_;  // of implicit steps with moving pins
   Buffer<Vec3<Real>, Device> impulse_;     // of the explicit forces over a stage [N s]
   Buffer<Vec3<Real>, Device> change_,

@@ -1,4 +1,5 @@
 // The program as a script meets it: exit codes, one line on stderr, results on stdout.
+#include <algorithm>
 #include <cstdio>
 
 #include "experiments/experiments.h"
@@ -6,6 +7,7 @@
 
 namespace hysteron::experiments {
 namespace {
+namespace fs = std::filesystem;
 
 struct Outcome {
   int exit_code;
@@ -76,6 +78,36 @@ TEST(Program, ComparesIntegratorsByErrorAndTime) {
   for (const char* method : {"chapter", "semi-implicit", "implicit", "bdf2"})
     EXPECT_NE(table.find(method), std::string::npos) << method;
   EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+}
+
+// A plate that comes down to below the ground, from 0.1 s to 0.4 s; nothing is left of the sheet's room near
+// the end.
+TEST(Program, ExitsWithThreeWhereTheClothIsCrushedAndKeepsWhatWasWritten) {
+  const Folder folder;
+  const fs::path out = folder.path() / "crushed", scene = folder.path() / "crush.toml";
+  std::ofstream(scene) << R"(integrator = "implicit"
+step = 0.004
+triangles = 60
+seconds = 0.5
+cloth = {length = 0.1, position = [0, 0, 0.0005]}
+[[pin]]
+select = "nearest"
+[[obstacle]]
+[[obstacle]]
+kind = "box"
+size = [0.2, 0.2, 0.01]
+center = [0.05, 0.05, 0.02]
+keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
+)";
+  const Outcome outcome =
+      program("swing --no-images --quiet --fps 50 --scene " + scene.string() + " --out " + out.string());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("hysteron swing: at t = 0.3"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the cloth is crushed: vertex "), std::string::npos) << outcome.err;
+  const Json manifest = Json::parse(text_of(out / "manifest.json"));
+  EXPECT_EQ(manifest["complete"], false);
+  const std::string table = text_of(out / "metrics.csv");
+  EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
 TEST(Program, DrivesALawThroughAFileOfCurvatures) {

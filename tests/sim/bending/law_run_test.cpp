@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/bending/prandtl_stack.h"
+#include "sim/bending/recovery.h"
 #include "sim/error.h"
 #include "tests/sim/bending/law_fixtures.h"
 
@@ -88,6 +91,41 @@ TEST(LawRun, ParametersChooseTheMemoryAndTheRecovery) {
   constexpr double kRounding = 1e-16;
   EXPECT_NEAR(run_law({"wong", c, {{"recovery", "reversible"}}}, path).moment[1], 0, kRounding);
   EXPECT_LT(run_law({"wong", c, {}}, path).moment[1], -0.1 * m0);
+}
+
+TEST(LawWalk, TakesTheStepsOfARunAndItsCopiesGoOnByThemselves) {
+  const VirginCurve c = cotton_broad();
+  const auto path = rows({c.k0, 3 * c.k0, -0.5 * c.k0, c.k0, 0.0});
+  for (const LawRequest& request :
+       {LawRequest{"wong", c, {}}, LawRequest{"prandtl", c, {{"fatigue.dc", "0.1"}}}}) {
+    const LawRun run = run_law(request, path);
+    LawWalk walk(request);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      LawWalk copy = walk;
+      copy.to({-5 * c.k0});
+      const LawPoint point = walk.to(path[i]);
+      ASSERT_EQ(point.moment, run.moment[i]);
+      ASSERT_EQ(point.stored, run.stored[i]);
+      ASSERT_EQ(point.dissipated, run.dissipated[i]);
+    }
+    EXPECT_EQ(walk.residual(), residual_after(request, path));
+  }
+}
+
+TEST(LawWalk, KnowsWhatFatigueHasLeft) {
+  const VirginCurve c = cotton_broad();
+  const double m0 = c.friction_moment();
+  LawWalk walk({"prandtl", c, {{"fatigue.dc", "0.1"}}}), sound({"prandtl", c, {}});
+  EXPECT_EQ(walk.friction_moment(), m0);
+  EXPECT_TRUE(std::isnan(sound.friction_moment()));
+  for (const LawRow& row : rows({3 * c.k0, 0.5 * c.k0, 3 * c.k0, 0.5 * c.k0})) {
+    walk.to(row);
+    sound.to(row);
+  }
+  EXPECT_LT(walk.friction_moment(), m0);
+  EXPECT_GT(walk.permanent_set(), 0);
+  EXPECT_LE(walk.permanent_set(), (m0 - walk.friction_moment()) / c.b2);
+  EXPECT_EQ(sound.permanent_set(), 0);
 }
 
 }  // namespace

@@ -8,51 +8,17 @@
 
 #include "sim/error.h"
 #include "sim/mesh/intersections.h"
-#include "tests/sim/solve/scenes.h"
+#include "tests/sim/contact/two_sheets.h"
 
 namespace hysteron {
 namespace {
 
 using Eigen::Vector3d;
 using test::Trial;
+using test::two_sheets;
+using test::upper_vertices;
 
-constexpr double kSide = 0.05;
-
-// Two sheets of one cloth, far apart at rest; the upper one starts `gap` above the lower one, which reaches
-// farther on all sides.
-Trial two_sheets(double gap, int triangles) {
-  Scene scene = test::free_square(triangles);
-  scene.law = "prandtl";
-  scene.self_contact = true;
-  scene.integrator = "implicit";
-  scene.step = 1.0 / 240;
-  const ClothMesh lower = make_rectangle(1.4 * kSide, 1.4 * kSide, triangles, MeshFamily::random, 1);
-  const ClothMesh upper = make_rectangle(kSide, kSide, triangles / 2, MeshFamily::random, 2);
-  ClothMesh both = lower;
-  for (const Vector3d& x : upper.rest) both.rest.push_back(x + Vector3d(1, 0, 0));
-  for (const auto& f : upper.face) both.face.push_back(f.array() + lower.vertices());
-  both.pattern.clear();
-  build_topology(both, "two sheets");
-  Trial trial(scene);
-  trial.cloth = place_cloth(scene, both);
-  for (int i = lower.vertices(); i < both.vertices(); ++i)
-    trial.cloth.start[i] += Vector3d(0.2 * kSide - 1, 0.2 * kSide, gap);
-  Pin hand;
-  trial.scene.pin = {hand};
-  trial.cloth.grip = {{}};
-  for (int i = 0; i < lower.vertices(); ++i) {
-    trial.cloth.pin[i] = 0;
-    trial.cloth.grip[0].push_back(i);
-  }
-  return trial;
-}
-
-std::vector<int> upper_vertices(const Trial& trial) {
-  std::vector<int> result;
-  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
-    if (trial.cloth.pin[i] < 0) result.push_back(i);
-  return result;
-}
+constexpr double kSide = test::kUpperSide;
 
 // What the list's areas are chosen for: the layers' force is that of the barrier times the upper one's area,
 // and of pairs beside those right above each other.
@@ -127,26 +93,6 @@ TEST(SelfContact, CarriesASheetThatLandsOnAnother) {
   const Ledger ledger = simulation->ledger();
   EXPECT_LT(ledger.remainder_relative, 1e-9);
   EXPECT_GT(ledger.contact_friction, -1e-12);
-}
-
-// Mean way down a slope that starts once the sheets lie on each other [m].
-double slid_on_cloth(double slope) {
-  Trial trial = two_sheets(Fabric{}.thickness * 0.999, 60);
-  trial.scene.gravity = 9.81 * Vector3d(std::sin(slope), 0, -std::cos(slope));
-  const auto simulation = trial.after(60);
-  const auto x = simulation->positions();
-  double sum = 0;
-  const std::vector<int> upper = upper_vertices(trial);
-  for (int i : upper) sum += x[i].x() - trial.cloth.start[i].x();
-  return sum / static_cast<double>(upper.size());
-}
-
-TEST(SelfContact, SlipsAtTheAngleOfFriction) {
-  const double angle = std::atan(Fabric{}.friction);
-  EXPECT_LT(slid_on_cloth(0.98 * angle), 2e-5);
-  const double slope = 1.02 * angle, time = 0.25;
-  const double free_way = 9.81 * (std::sin(slope) - Fabric{}.friction * std::cos(slope)) * time * time / 2;
-  EXPECT_NEAR(slid_on_cloth(slope) / free_way, 1, 0.25);
 }
 
 TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {

@@ -42,6 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "NegativeDensity", "[fabric]\ndensity = -0.1\n", 2, {"fabric.density = -0.1 kg/m^2 must be > 0"}},
         BadScene{"ZeroDensity", "[fabric]\ndensity = 0\n", 2, {"fabric.density = 0 kg/m^2 must be > 0"}},
+        BadScene{"ZeroThickness", "[fabric]\nthickness = 0\n", 2, {"fabric.thickness = 0 m must be > 0"}},
         BadScene{"NotANumber", "[fabric]\nk0 = nan\n", 2, {"fabric.k0 = nan 1/m must be finite"}},
         BadScene{"Infinite", "seconds = inf\n", 1, {"seconds = inf s must be finite"}},
         BadScene{

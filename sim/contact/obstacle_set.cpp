@@ -1,0 +1,115 @@
+#include "sim/contact/obstacle_set.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sim/scene/motion.h"
+
+namespace hysteron {
+
+namespace {
+
+ShapeKind kind_of(const std::string& kind) {
+  return kind == "ground"     ? ShapeKind::ground
+         : kind == "sphere"   ? ShapeKind::sphere
+         : kind == "hollow"   ? ShapeKind::hollow
+         : kind == "cylinder" ? ShapeKind::cylinder
+         : kind == "box"      ? ShapeKind::box
+                              : ShapeKind::capsule;
+}
+
+}  // namespace
+
+template <class Real>
+ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
+                                   double start, double end) {
+  ObstacleSet<Real> set;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Obstacle& o = obstacles[i];
+    if (start < o.from || start >= o.until) continue;
+    const Placement now = placement(o.motion, end), then = placement(o.motion, start);
+    const Eigen::Matrix3d own =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
+    const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
+    Obstacle3<Real>& item = set.item[set.count++];
+    item.shape.kind = kind_of(o.kind);
+    const Eigen::Vector3d half = o.kind == "box" ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
+    item.shape.half = (now.scale * half).cast<Real>();
+    item.shape.rim = static_cast<Real>(now.scale * o.rim);
+    item.rotation = (now.rotation * own).cast<Real>();
+    item.center = now(o.center).cast<Real>();
+    item.back_rotation = back.cast<Real>();
+    item.back_translation = (then.translation - back * now.translation).cast<Real>();
+    item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction : o.friction);
+    item.index = static_cast<int>(i);
+  }
+  return set;
+}
+
+std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
+                           double allowed) {
+  std::vector<char> result;
+  for (const Eigen::Vector3d& p : x) {
+    bool deep = false;
+    for (int o = 0; o < set.count; ++o) deep |= -distance_to<double>(set.item[o], p).value > allowed;
+    result.push_back(deep);
+  }
+  return result;
+}
+
+Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
+                  const std::vector<char>& spared, double allowed) {
+  Immersion result;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (spared[i]) continue;
+    bool counted = false;
+    for (int o = 0; o < set.count; ++o) {
+      const double depth = -distance_to<double>(set.item[o], x[i]).value;
+      if (!(depth > allowed)) continue;
+      result.count += !counted;
+      counted = true;
+      if (depth <= result.depth) continue;
+      result.vertex = static_cast<int>(i);
+      result.obstacle = set.item[o].index;
+      result.depth = depth;
+    }
+  }
+  return result;
+}
+
+bool is_squeezed(const ObstacleSet<double>& set, double shell, const Eigen::Vector3d& x,
+                 const Eigen::Vector3d& push) {
+  Distance<double> at[kMostObstacles];
+  for (int o = 0; o < set.count; ++o) {
+    at[o] = distance_to<double>(set.item[o], x);
+    at[o].normal = set.item[o].rotation * Eigen::Vector3d(at[o].normal);
+  }
+  for (int o = 0; o < set.count; ++o) {
+    if (!(-at[o].value > shell)) continue;
+    double against = std::max(0.0, -push.dot(at[o].normal));
+    for (int p = 0; p < set.count; ++p)
+      against += std::max(0.0, shell - at[p].value) * std::max(0.0, -at[p].normal.dot(at[o].normal));
+    if (against >= (shell - at[o].value) / 2) return true;
+  }
+  return false;
+}
+
+std::string vertex_text(int vertex, const Eigen::Vector3d& x) {
+  char text[120];
+  std::snprintf(text, sizeof text, "vertex %d at (%.4g, %.4g, %.4g) m", vertex, x.x(), x.y(), x.z());
+  return text;
+}
+
+std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,
+                           const std::vector<Eigen::Vector3d>& x) {
+  const std::string& kind = obstacles[immersion.obstacle].kind;
+  char depth[60];
+  std::snprintf(depth, sizeof depth, " lies %.3g mm %s obstacle[%d] (", 1e3 * immersion.depth,
+                kind == "hollow" ? "outside" : "inside", immersion.obstacle);
+  return vertex_text(immersion.vertex, x[immersion.vertex]) + depth + kind + ")";
+}
+
+template ObstacleSet<double> obstacles_during(const std::vector<Obstacle>&, double, double, double);
+template ObstacleSet<float> obstacles_during(const std::vector<Obstacle>&, double, double, double);
+
+}  // namespace hysteron

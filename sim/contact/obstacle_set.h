@@ -1,0 +1,70 @@
+// The obstacles of a scene as a step sees them, and how deep vertices are in them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/contact/signed_distance.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+inline constexpr int kMostObstacles = 12;  // they travel with each kernel launch by value
+
+template <class Real>
+struct Obstacle3 {
+  Shape<Real> shape;
+  Mat3<Real> rotation;  // own frame -> world, at the end of the step
+  Vec3<Real> center;
+  Mat3<Real> back_rotation;  // world point of the obstacle at the step's end -> at its start
+  Vec3<Real> back_translation;
+  Real friction;
+  int index;  // in the scene
+};
+
+template <class Real>
+struct ObstacleSet {
+  int count = 0;
+  Obstacle3<Real> item[kMostObstacles];
+};
+
+template <class Real>
+HYST_HD inline Distance<Real> distance_to(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
+  return signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
+}
+
+// Those that are there during the step from `start` to `end` [s].
+template <class Real>
+ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
+                                   double start, double end);
+
+// A vertex in a solid (of `hollow`: outside).  The cloth is a thickness t away from where it touches; one
+// that is deeper than t below a surface lies beyond what the contact's shell stands for: it started there,
+// was hit hard, or is crushed.
+struct Immersion {
+  int vertex = -1, obstacle = -1;  // -1: none
+  double depth = 0;                // below the surface [m]
+  int count = 0;                   // of vertices that are too deep
+};
+
+// Which vertices are deeper than `allowed` [m] in one of the obstacles.
+std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
+                           double allowed);
+
+// The deepest vertex of those that are not spared and are deeper than `allowed` [m] in one of the obstacles.
+Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
+                  const std::vector<char>& spared, double allowed);
+
+// Whether a vertex at x that is deeper than the shell in one obstacle is pressed from its other side by at
+// least half as much: by other obstacles, or by the `push` of other layers, a force over the penalty's
+// stiffness [m].
+bool is_squeezed(const ObstacleSet<double>& set, double shell, const Eigen::Vector3d& x,
+                 const Eigen::Vector3d& push);
+
+// "vertex 57 at (0.1, 0.2, 0) m lies 4.2 mm inside obstacle[1] (sphere)"; of `hollow`: "outside".
+std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,
+                           const std::vector<Eigen::Vector3d>& x);
+// "vertex 57 at (0.1, 0.2, 0) m"
+std::string vertex_text(int vertex, const Eigen::Vector3d& x);
+
+}  // namespace hysteron

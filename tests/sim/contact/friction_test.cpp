@@ -1,0 +1,108 @@
+// A sheet on a slope, of ground and of cloth: it slips where tan(slope) = mu, and beyond with Coulomb's
+// acceleration g (sin - mu cos).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/contact/two_sheets.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kGravity = 9.81, kFriction = 0.3;
+constexpr double kBelow = 0.98, kAbove = 1.02;  // tan(slope)/mu
+
+double slope_of(double ratio) { return std::atan(ratio * kFriction); }
+
+// How far those vertices have come in x, in the mean [m].
+double way_of(const Trial& trial, Simulation& simulation, const std::vector<int>& vertices) {
+  const auto x = simulation.positions();
+  double sum = 0;
+  for (int i : vertices) sum += x[i].x() - trial.cloth.start[i].x();
+  return sum / static_cast<double>(vertices.size());
+}
+
+double speed_of(Simulation& simulation, const std::vector<int>& vertices) {
+  const auto v = simulation.velocities();
+  double sum = 0;
+  for (int i : vertices) sum += v[i].x();
+  return sum / static_cast<double>(vertices.size());
+}
+
+// Gravity is tilted instead of the ground: down the slope is x.
+void tilt(Scene& scene, double slope) {
+  scene.gravity = kGravity * Vector3d(std::sin(slope), 0, -std::cos(slope));
+  scene.fabric.friction = kFriction;
+}
+
+// A sheet of 10 cm on the ground, sunk in as deep as its weight wants: 1e-4 of the thickness for all of g.
+Trial on_ground(double slope, const std::string& integrator) {
+  Scene scene = test::free_square(60);
+  scene.cloth.length = 0.1;
+  scene.law = "prandtl";
+  scene.integrator = integrator;
+  scene.step = 1.0 / 240;
+  tilt(scene, slope);
+  scene.cloth.position = {0, 0, (1 - 1e-4 * std::cos(slope)) * scene.fabric.thickness};
+  scene.obstacle = {Obstacle{}};
+  return Trial(scene);
+}
+
+// A sheet of 5 cm on a larger one that is held, just touching it.
+Trial on_cloth(double slope) {
+  Trial trial = test::two_sheets(0.999 * Fabric{}.thickness, 60);
+  tilt(trial.scene, slope);
+  return trial;
+}
+
+struct Slide {
+  double creep;         // way in the second half of the time [m]
+  double acceleration;  // over the second half [m/s^2]
+};
+
+Slide slide(const Trial& trial, double seconds) {
+  std::vector<int> vertices = test::upper_vertices(trial);
+  const int half = static_cast<int>(std::lround(seconds / trial.scene.step / 2));
+  const auto simulation = trial.after(half);
+  const double way = way_of(trial, *simulation, vertices), speed = speed_of(*simulation, vertices);
+  simulation->advance(half);
+  return {way_of(trial, *simulation, vertices) - way,
+          (speed_of(*simulation, vertices) - speed) / (half * trial.scene.step)};
+}
+
+double coulomb(double slope) { return kGravity * (std::sin(slope) - kFriction * std::cos(slope)); }
+
+constexpr double kHeld = 1e-10;  // [m] in half a second: what rounding and Newton's tolerance leave
+
+class SlopeOfGround : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, SlopeOfGround, testing::Values("implicit", "bdf2"));
+
+TEST_P(SlopeOfGround, HoldsASheetForGoodTwoPercentBelowTheTangentOfFriction) {
+  const Slide found = slide(on_ground(slope_of(kBelow), GetParam()), 1);
+  EXPECT_LT(std::abs(found.creep), kHeld);
+}
+
+TEST_P(SlopeOfGround, LetsItSlideByCoulombsLawTwoPercentAbove) {
+  constexpr double kNewton = 1e-3;  // of the acceleration: what Newton's tolerance leaves
+  const double slope = slope_of(kAbove);
+  EXPECT_GT(coulomb(slope), 0);
+  EXPECT_NEAR(slide(on_ground(slope, GetParam()), 1).acceleration / coulomb(slope), 1, kNewton);
+}
+
+TEST(SlopeOfCloth, HoldsASheetForGoodTwoPercentBelowTheTangentOfFriction) {
+  EXPECT_LT(std::abs(slide(on_cloth(slope_of(kBelow)), 0.5).creep), kHeld);
+}
+
+// The layers' meshes do not match: while it slides, the pairs that bear the sheet change, and with them, a
+// little, the pressure.
+TEST(SlopeOfCloth, LetsItSlideByCoulombsLawTwoPercentAbove) {
+  constexpr double kPairs = 0.02;
+  const double slope = slope_of(kAbove);
+  EXPECT_NEAR(slide(on_cloth(slope), 0.5).acceleration / coulomb(slope), 1, kPairs);
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,194 @@
+// Starts that contact cannot go on from are refused, with their place; others are not.
+#include "sim/contact/start_checks.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/contact/obstacle_set.h"
+#include "sim/contact/self_touch.h"
+#include "sim/mesh/intersections.h"
+#include "tests/sim/contact/two_sheets.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+// What make_simulation(), through which every experiment goes, says.
+Failure start_of(const Trial& trial) {
+  return failure_of([&] { trial.simulation(); });
+}
+
+void expect_naming(const Failure& failure, const std::vector<std::string>& parts) {
+  EXPECT_EQ(failure.message.find('\n'), std::string::npos) << failure.message;
+  for (const std::string& part : parts)
+    EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
+}
+
+TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
+  Trial trial = test::two_sheets(1e-3, 60);
+  for (int i : test::upper_vertices(trial))
+    trial.cloth.start[i].z() -= 0.1 * (trial.cloth.start[i].x() - 0.7 * test::kUpperSide);
+  const auto pairs = intersecting_triangles(trial.cloth.mesh.face, trial.cloth.start);
+  const Failure failure = start_of(trial);
+  EXPECT_EQ(failure.exit_code, 2);
+  expect_naming(failure, {"self-contact: the cloth passes through itself at the start: triangles " +
+                              std::to_string(pairs[0].first) + " and " + std::to_string(pairs[0].second),
+                          "(" + std::to_string(pairs.size()) + " pairs in all)"});
+  trial.scene.self_contact = false;  // then nothing keeps it apart later either
+  EXPECT_EQ(start_of(trial).exit_code, 0);
+}
+
+// Of pairs that are far apart at rest.
+double least_of(double thickness) {
+  SelfPair<double> pair{};
+  pair.shell = thickness;
+  return least_distance(pair);
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g mm", 1e3 * metres);
+  return text;
+}
+
+TEST(Start, WithLayersNearerThanAnyStepMayBringThemIsRefusedWithTheirDistance) {
+  const double least = least_of(Fabric{}.thickness);
+  constexpr double kJust = 1e-3;  // relative: beyond the rounding of the distance
+  EXPECT_EQ(start_of(test::two_sheets((1 + kJust) * least, 60)).exit_code, 0);
+  const Failure failure = start_of(test::two_sheets(0.8 * least, 60));
+  EXPECT_EQ(failure.exit_code, 2);
+  expect_naming(failure, {"self-contact: the cloth starts too near to itself",
+                          "are " + millimetres(0.8 * least) + " apart", "more than " + millimetres(least),
+                          "fabric.thickness = 0.497 mm"});
+  EXPECT_EQ(failure_of([&] { test::two_sheets((1 + kJust) * least, 60).after(2); }).exit_code, 0);
+}
+
+// Cloth that is thicker than its edges are long feels its neighbours from half their distance at rest on, so
+// that the flat cloth is at rest, and layers touch at their thickness or less.
+TEST(Start, OfAThicknessBeyondTheMeshIsAtRestOnTheFlatCloth) {
+  Scene scene = test::free_square(200);  // edges of 2 cm
+  scene.fabric.thickness = 0.05;
+  scene.self_contact = true;
+  scene.integrator = "implicit";
+  scene.gravity.setZero();
+  const Trial trial(scene);
+  Cpu cpu(1);
+  SelfContact<double, Cpu> contact(cpu, trial.cloth.mesh, scene);
+  const std::vector<Vector3d> still(trial.cloth.start.size(), Vector3d::Zero());
+  const std::vector<char> held(still.size());
+  EXPECT_EQ(contact.prepare(trial.cloth.start.data(), still.data(), held.data()), 1);
+  EXPECT_GT(contact.pairs(), 0);  // looked at, but none within its shell
+  EXPECT_EQ(contact.stored_energy(trial.cloth.start.data()), 0);
+  const auto x = trial.after(5)->positions();
+  constexpr double kRounding = 1e-12;  // [m]
+  EXPECT_LT(test::farthest(x, trial.cloth.start), kRounding);
+}
+
+// It still does what it stands for: a sheet that lands stays above the other one.
+TEST(Start, OfAThicknessBeyondTheMeshStillKeepsLayersApart) {
+  Trial trial = test::two_sheets(2e-2, 60);  // edges of 1 cm
+  trial.scene.fabric.thickness = 8e-3;
+  const auto simulation = trial.after(40);
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
+  for (int i : test::upper_vertices(trial)) EXPECT_GT(simulation->positions()[i].z(), 0);
+}
+
+struct Solid {
+  const char* kind;
+  Vector3d center;
+  double depth;  // of the cloth's deepest vertex below its surface [m]
+};
+
+// A flat sheet of 0.2 m whose middle vertex is the one at (0.1, 0.1, 0).
+Trial sheet_with(const Solid& solid) {
+  Scene scene = test::free_square(200);
+  scene.mesh = "aligned";
+  Obstacle o;
+  o.kind = solid.kind;
+  o.center = solid.center;
+  o.radius = 0.05;
+  o.height = 0.1;
+  o.size = {0.05, 0.05, 0.05};
+  o.rim = 0;
+  scene.obstacle = {Obstacle{}, o};
+  scene.obstacle[0].center.z() = -1;
+  return Trial(scene);
+}
+
+TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
+  const double t = Fabric{}.thickness;
+  for (const Solid& solid :
+       {Solid{"sphere", {0.1, 0.1, -0.03}, 0.02}, Solid{"box", {0.1, 0.1, -0.04}, 0.01},
+        Solid{"cylinder", {0.1, 0.1, -0.04}, 0.01}, Solid{"ground", {0, 0, 0.004}, 0.004},
+        Solid{"capsule", {0.1, 0.1, -0.09}, 0.01}}) {
+    const Trial trial = sheet_with(solid);
+    const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, 0, 0);
+    const Immersion found = deepest(set, trial.cloth.start, std::vector<char>(trial.cloth.start.size()), t);
+    EXPECT_NEAR(found.depth, solid.depth, 1e-12) << solid.kind;
+    const Failure failure = start_of(trial);
+    EXPECT_EQ(failure.exit_code, 2) << solid.kind;
+    char depth[32];
+    std::snprintf(depth, sizeof depth, "%.3g mm", 1e3 * solid.depth);
+    expect_naming(failure,
+                  {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]), depth,
+                   std::string("inside obstacle[1] (") + solid.kind + ")", "fabric.thickness = 0.497 mm",
+                   "of " + std::to_string(found.count) + " such vertices"});
+  }
+}
+
+// A hollow sphere of 5 cm about the middle of the sheet: its corners are 10 sqrt(2) cm away.
+TEST(Start, OutsideAHollowSphereIsRefused) {
+  const Failure failure = start_of(sheet_with({"hollow", {0.1, 0.1, 0}, 0}));
+  EXPECT_EQ(failure.exit_code, 2);
+  expect_naming(failure, {"91.4 mm outside obstacle[1] (hollow)", "vertex 0 at (0, 0, 0) m"});
+}
+
+TEST(Start, WithinTheShellOfAnObstacleIsFineAndOneThicknessDeeperIsTheLimit) {
+  const double t = Fabric{}.thickness;
+  for (double height : {0.0, 0.5, 1.0})  // of the cloth's middle surface above the ground, in thicknesses
+    EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, -height * t}, 0})).exit_code, 0) << height;
+  EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, 0.99 * t}, 0})).exit_code, 0);
+  EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, 1.01 * t}, 0})).exit_code, 2);
+}
+
+TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
+  Trial trial = sheet_with({"sphere", {0.1, 0.1, -0.03}, 0});
+  Pin pin;
+  pin.low = {0.055, 0.055, -1};
+  pin.high = {0.145, 0.145, 1};
+  trial.scene.pin = {pin};
+  trial = Trial(trial.scene);
+  EXPECT_EQ(failure_of([&] { trial.after(10); }).exit_code, 0);
+  trial.scene.pin[0].until = 0.005;  // let go where the sphere is
+  const Failure failure = failure_of([&] { trial.after(10); });
+  EXPECT_EQ(failure.exit_code, 3);
+  expect_naming(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin lets go of the cloth"});
+}
+
+// What comes later cannot be known at the start.
+TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
+  for (const char* integrator : {"semi-implicit", "implicit"}) {
+    Trial trial = sheet_with({"box", {0.1, 0.1, -0.04}, 0});
+    trial.scene.integrator = integrator;
+    trial.scene.gravity.setZero();
+    trial.scene.obstacle[1].from = 0.02;
+    const auto simulation = trial.simulation();
+    simulation->advance(20);
+    const Failure failure = failure_of([&] { simulation->advance(1); });
+    EXPECT_EQ(failure.exit_code, 3) << integrator;
+    expect_naming(failure, {"at t = 0.02 s", "10 mm inside obstacle[1] (box)", "vertex ", " at ("});
+  }
+}
+
+TEST(Obstacles, AreAtMostTwelve) {
+  Trial trial = sheet_with({"box", {0.1, 0.1, -0.1}, 0});
+  trial.scene.obstacle.resize(kMostObstacles + 1, trial.scene.obstacle[0]);
+  const Failure failure = start_of(trial);
+  EXPECT_EQ(failure.exit_code, 2);
+  expect_naming(failure, {"13 obstacles, at most 12"});
+}
+
+}  // namespace
+}  // namespace hysteron
