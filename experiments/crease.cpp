@@ -68,7 +68,8 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   Question question;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
-  question.bounds = {{-0.05f * length, 0, 0}, {length, width, 0.5f * length}};
+  question.bounds = {{-0.05f * length, 0, 0},
+                     {length, width, (crease.scene.obstacle.size() == 2 ? 0.5f : 0.7f) * length}};
   question.floor = 0.0f;
   question.columns = {"opening [degree]", "plate_force [N]"};
   question.measure = [&](const Moment& m) -> std::vector<double> {

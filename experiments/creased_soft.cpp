@@ -13,6 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 0.6, kSettle = 0.1;  // durations [s]
 constexpr int kKeys = 36;                     // of the hand's way around the rod
 constexpr double kGrip = 0.2;                 // of the specimen's length, at either end
+constexpr double kAbove = 2e-3;               // of the strip over the visible ground [m]
 constexpr double kSlack = 2e-4;               // of the way around the rod that is left loose
 constexpr double kPleatRadius = 1.5;          // of the pleat's line, in thicknesses
 
@@ -42,7 +43,7 @@ Motion unfolding(double begin, double radius, double turn) {
   const Eigen::Vector2d center = less.colPivHouseholderQr().solve(straight - back * folded);
   Motion motion;
   motion.axis = {0, 1, 0};
-  motion.center = {center.x(), 0, center.y()};
+  motion.center = {center.x(), 0, kAbove + center.y()};
   Keyframe rest, open;
   open.time = kTurn;
   open.angle = turn / kDegree;
@@ -63,6 +64,7 @@ Crease begun(const Scene& given, const CreaseChoice& choice) {
   Crease crease{given, {}, times_of(choice)};
   crease.scene.seconds = crease.times.end;
   crease.scene.cloth.shape = "strip";
+  crease.scene.cloth.position = {0, 0, kAbove};
   return crease;
 }
 
@@ -81,7 +83,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   scene.cloth.length = limbs + taken;
   crease.grip = kGrip * limbs / scene.cloth.length;
   const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
-  const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, shell};
+  const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
   Obstacle rod;
   rod.kind = "cylinder";
   rod.axis = {0, 1, 0};

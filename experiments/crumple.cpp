@@ -26,6 +26,7 @@ constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
 constexpr int kBins = 40;            // of the histogram of curvatures, up to two K0
 constexpr double kLines = 0.5;       // test lines for ridges, in mean edges
+constexpr float kHeadroom = 0.12f;   // of the picture above the cloth, for the caption
 constexpr double kMillimetre = 1e3;  // in a metre
 
 Setup defaults() {
@@ -71,6 +72,8 @@ render::Box box_of_start(const Cloth& cloth) {
 Question question_of(Session& session, const C& choice, Wrinkles& last) {
   Question question;
   question.bounds = box_of_start(session.cloth());
+  const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
+  question.bounds.high.z() += kHeadroom * size.z();
   question.columns = {"ridge_length [m]", "relief [mm]", "residual_curvature_rms [1/m]"};
   question.measure = [&](const Moment& m) -> std::vector<double> {
     last = wrinkles_of(session, choice, m.x);

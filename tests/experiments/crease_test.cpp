@@ -86,5 +86,50 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   EXPECT_LT(elastic["energy_remainder_relative"], 1e-4);
 }
 
+CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
+  CommandLine line{
+      "crease",
+      "hysteron crease",
+      {{"crease.fold", fold}, {"triangles", "200"}, {"crease.recovery", "1"}, {"out", out.string()}},
+      {}};
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  return line;
+}
+
+nlohmann::json metrics_in(const std::filesystem::path& out) {
+  return nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+}
+
+// Bent to 1/r everywhere, well beyond K0, a strip keeps at most M0/b2 over the arc; it opens as the law does.
+TEST(SoftFold, AroundARodOpensAsTheLawAlone) {
+  const Folder folder;
+  EXPECT_EQ(crease(soft_fold("rod", folder.path())), 0);
+  const auto metrics = metrics_in(folder.path());
+  EXPECT_EQ(metrics["intersections"], 0);
+  const double opening = metrics["recovery_angle_deg"];
+  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), 3);
+  EXPECT_GT(opening, 45);
+  EXPECT_LT(opening, 130);
+}
+
+// Pulled straight, it does not return to the angle that it was made with.
+TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) {
+  const Folder folder;
+  EXPECT_EQ(crease(soft_fold("pleat", folder.path())), 0);
+  const auto metrics = metrics_in(folder.path());
+  EXPECT_EQ(metrics["intersections"], 0);
+  const double opening = metrics["recovery_angle_deg"];
+  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), 5);
+  EXPECT_GT(opening, 65);
+  EXPECT_LT(opening, 120);
+}
+
+TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
+  CreaseChoice choice;
+  choice.pleat = 60;
+  const Crease crease = pleated(small_scene(), choice);
+  EXPECT_NEAR(crease.opening(crease.cloth.start), 60, 1e-6);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

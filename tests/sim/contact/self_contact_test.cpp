@@ -7,6 +7,7 @@
 #include <random>
 
 #include "sim/error.h"
+#include "sim/contact/barrier.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
 
@@ -42,6 +43,23 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressure) {
     const double expected = 4903.3 * pressure(u) / pressure(0.6) * kSide * kSide;
     EXPECT_GT(force / expected, 1) << share;
     EXPECT_LT(force / expected, 1.5) << share;
+  }
+}
+
+// Below its stiffest gap the barrier goes on as a parabola: energy, slope and stiffness without a jump, and each
+// the derivative of the one before it, to central differences' error.
+TEST(Barrier, GoesOnSmoothlyWhereNextToNothingOfTheGapIsLeft) {
+  const double k = 3, range = 2e-4, edge = kStiffest * range, h = 1e-4 * edge;
+  const Barrier<double> above = barrier(k, edge * (1 + 1e-9), range), below = barrier(k, edge * (1 - 1e-9), range);
+  EXPECT_NEAR(above.energy / below.energy, 1, 1e-7);
+  EXPECT_NEAR(above.slope / below.slope, 1, 1e-7);
+  EXPECT_NEAR(above.stiffness / below.stiffness, 1, 1e-7);
+  for (double gap : {0.5 * edge, -edge, 3 * edge}) {
+    const Barrier<double> at = barrier(k, gap, range), more = barrier(k, gap + h, range),
+                          less = barrier(k, gap - h, range);
+    EXPECT_LT(at.slope, 0);
+    EXPECT_NEAR((more.energy - less.energy) / (2 * h) / at.slope, 1, 1e-6);
+    EXPECT_NEAR((more.slope - less.slope) / (2 * h) / at.stiffness, 1, 1e-6);
   }
 }
 
