@@ -24,10 +24,9 @@ const KeyRow<C> kRows[] = {
 
 constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
-constexpr int kBins = 40;            // of the histogram of curvatures, up to two K0
-constexpr double kLines = 0.5;       // test lines for ridges, in mean edges
-constexpr float kHeadroom = 0.12f;   // of the picture above the cloth, for the caption
-constexpr double kMillimetre = 1e3;  // in a metre
+constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
+constexpr double kLines = 0.5;      // test lines for ridges, in mean edges
+constexpr float kHeadroom = 0.12f;  // of the picture above the cloth, for the caption
 
 Setup defaults() {
   Setup setup;
@@ -40,23 +39,28 @@ Setup defaults() {
 }
 
 struct Wrinkles {
-  double ridges = 0;    // length [m]
-  double relief = 0;    // [m]
-  double residual = 0;  // root mean square [1/m]
+  double ridges = 0;     // length [m]
+  double curvature = 0;  // of the shape, root mean square [1/m]
+  double residual = 0;   // what would be left without load, likewise [1/m]
 };
 
-Wrinkles wrinkles_of(Session& session, const C& choice, const std::vector<Eigen::Vector3d>& x) {
+double root_mean_square(const std::vector<double>& values) {
+  double square = 0;
+  for (double v : values) square += v * v;
+  return std::sqrt(square / static_cast<double>(values.size()));
+}
+
+Wrinkles wrinkles_of(Session& session, const C& choice) {
   const ClothMesh& mesh = session.cloth().mesh;
   Simulation& simulation = session.simulation();
   const int d = simulation.dimension();
   const std::vector<double> size = curvature_size(simulation.residual_curvature(), d);
-  double edges = 0, square = 0;
+  double edges = 0;
   for (const Edge& e : mesh.edge) edges += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
-  for (double k : size) square += k * k;
   const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
   return {ridge_length(mesh, unrolled(mesh, session.scene().cloth), vertex_average(session.cloth(), size, d),
                        choice.ridge, spacing),
-          relief(mesh, x), std::sqrt(square / static_cast<double>(size.size()))};
+          root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
 }
 
 render::Box box_of_start(const Cloth& cloth) {
@@ -74,10 +78,10 @@ Question question_of(Session& session, const C& choice, Wrinkles& last) {
   question.bounds = box_of_start(session.cloth());
   const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
   question.bounds.high.z() += kHeadroom * size.z();
-  question.columns = {"ridge_length [m]", "relief [mm]", "residual_curvature_rms [1/m]"};
-  question.measure = [&](const Moment& m) -> std::vector<double> {
-    last = wrinkles_of(session, choice, m.x);
-    return {last.ridges, kMillimetre * last.relief, last.residual};
+  question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
+  question.measure = [&](const Moment&) -> std::vector<double> {
+    last = wrinkles_of(session, choice);
+    return {last.ridges, last.curvature, last.residual};
   };
   question.progress = [&](const Moment& m) {
     char text[120];
@@ -111,14 +115,14 @@ render::Series histogram(const Session& session, const std::vector<double>& curv
 render::Plot histogram_plot(const std::string& title) {
   return {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}};
 }
-render::Plot relief_plot(const std::string& title) {
-  return {title, {"time [s]"}, {"relief, rms distance from a plane [mm]"}};
+render::Plot curvature_plot(const std::string& title) {
+  return {title, {"time [s]"}, {"curvature, root mean square [1/m]"}};
 }
 
 std::string caption_of(const std::string& law, const Wrinkles& w) {
   char text[160];
-  std::snprintf(text, sizeof text, "%s: relief %.1f mm, residual curvature %.1f 1/m", law.c_str(),
-                kMillimetre * w.relief, w.residual);
+  std::snprintf(text, sizeof text, "%s: curvature %.1f 1/m, residual %.1f 1/m", law.c_str(), w.curvature,
+                w.residual);
   return text;
 }
 
@@ -133,9 +137,9 @@ void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
   outcome.picture = pictures.picture("cloth", pictures.camera(), caption);
   render::write_png(session.run().path("raking.png"), *outcome.picture, render::PngEffort::best);
   for (std::size_t p = 0; p < outcome.series.size(); ++p) {
-    render::Plot plot = p == 0 ? histogram_plot(scene.fabric.name) : relief_plot(scene.fabric.name);
+    render::Plot plot = p == 0 ? histogram_plot(scene.fabric.name) : curvature_plot(scene.fabric.name);
     plot.series = {outcome.series[p]};
-    session.plot(p == 0 ? "plot_residual" : "plot_relief", plot);
+    session.plot(p == 0 ? "plot_residual" : "plot_curvature", plot);
   }
 }
 
@@ -156,12 +160,12 @@ LawOutcome crumple_once(const CommandLine& line) {
   outcome.caption = caption_of(law, wrinkles);
   outcome.numbers = {{"residual_curvature_rms_per_m", wrinkles.residual},
                      {"ridge_length_m", wrinkles.ridges},
-                     {"relief_mm", kMillimetre * wrinkles.relief},
+                     {"curvature_rms_per_m", wrinkles.curvature},
                      {"intersections", static_cast<double>(session.intersections())}};
   session.run().metric("ridge_length_m", wrinkles.ridges);
-  session.run().metric("relief_mm", kMillimetre * wrinkles.relief);
+  session.run().metric("curvature_rms_per_m", wrinkles.curvature);
   outcome.series = {histogram(session, simulation.residual_curvature(), simulation.dimension(), law),
-                    render::series_from_csv(session.run().path("metrics.csv"), "time", "relief", law)};
+                    render::series_from_csv(session.run().path("metrics.csv"), "time", "curvature_rms", law)};
   if (session.pictures()) draw(session, wrinkles, outcome);
   session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + law);
   return outcome;
@@ -173,7 +177,8 @@ int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   std::erase_if(first.flags, [](const Flag& f) { return f.path == "law"; });
   const Setup setup = set_up(first, defaults(), bind(kRows, choice));
   LawPage page{"Crumpled, " + setup.scene.fabric.name, laws, {}, crumple_once};
-  page.plots = {{"plot_residual", histogram_plot(page.title)}, {"plot_relief", relief_plot(page.title)}};
+  page.plots = {{"plot_residual", histogram_plot(page.title)},
+                {"plot_curvature", curvature_plot(page.title)}};
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 

@@ -1,6 +1,5 @@
 #include "experiments/wrinkles.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -110,20 +109,6 @@ std::vector<double> area_shares(const std::vector<double>& value, const std::vec
   }
   for (double& s : share) s /= sum;
   return share;
-}
-
-double relief(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  double area = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    middle += mesh.vertex_area[i] * x[i], area += mesh.vertex_area[i];
-  middle /= area;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const Eigen::Vector3d d = x[i] - middle;
-    spread += mesh.vertex_area[i] / area * d * d.transpose();
-  }
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues()[0]));
 }
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,4 @@
-// What a crumpled sheet keeps: lengths of its ridges, shares of its area by curvature, depth of its relief.
+// What a crumpled sheet keeps: lengths of its ridges, shares of its area by curvature.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,8 +25,5 @@ double ridge_length(const ClothMesh& mesh, const std::vector<Eigen::Vector2d>& a
 // Share of the area per bin of width `bin` from 0 on; values beyond the last bin are in it.
 std::vector<double> area_shares(const std::vector<double>& value, const std::vector<double>& area, double bin,
                                 int bins);
-
-// Root mean square distance of the vertices from the plane that fits them best, by area [m].
-double relief(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& x);
 
 }  // namespace hysteron::experiments

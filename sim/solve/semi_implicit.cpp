@@ -112,9 +112,24 @@ void Stepper<Real, Device>::grip(double time) {
   const std::vector<int> pins = cloth_.pins(scene_, time);
   std::vector<char> held;
   for (int p : pins) held.push_back(p >= 0);
+  book_grip(held);
   if (contact_) refuse_release(held_.download(), held, time);
   held_.upload(held);
   if (moving_pins_) take_hold(pins, time);
+}
+
+// A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
+// held vertices.
+template <class Real, class Device>
+void Stepper<Real, Device>::book_grip(const std::vector<char>& held) {
+  const std::vector<char> before = held_.download();
+  if (held == before) return;
+  const std::vector<Vec3<Real>> v = v_.download();
+  const std::vector<Real> mass = mass_.download();
+  for (int i = 0; i < vertices_; ++i) {
+    const double kinetic = static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
+    if (held[i] != before[i]) grip_work_ += held[i] ? -kinetic : kinetic;
+  }
 }
 
 // What a hand takes starts where it is.

@@ -168,6 +168,7 @@ Ledger Stepper<Real, Device>::ledger() {
     ledger.unbalanced += sum.unbalanced;
     ledger.handle_work += sum.handle_work;
   }
+  ledger.handle_work += grip_work_;
   ledger.bending_friction = bending_.dissipated_energy();
   const double viscous_bending = bending_.viscous_loss(), viscous_membrane = membrane_.viscous_loss();
   ledger.viscous = viscous_bending + viscous_membrane;

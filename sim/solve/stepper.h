@@ -68,6 +68,7 @@ class Stepper : public Simulation {
   void obey(double start, double end);  // commands that are due
   void stage(double start, Real h);     // one implicit solve and what leads to it
   void grip(double time);               // pins take hold and let go
+  void book_grip(const std::vector<char>& held);
   void take_hold(const std::vector<int>& pins, double time);
   void hold(double start, Real h);  // pins: which vertices are held, and their velocity in this stage
   void gather_impulses(Real h);  // bending and external forces, for a stage in which all forces act together
@@ -123,6 +124,7 @@ class Stepper : public Simulation {
   std::unique_ptr<ImplicitStep<Real, Device>> implicit_;
   bool moving_pins_ = false;
   double next_grip_ = 0;                 // when pins take hold or let go next [s]
+  double grip_work_ = 0;                 // done on the cloth by taking hold and letting go [J]
   std::vector<double> grip_times_;       // of all of them
   double next_obstacle_ = 0, met_ = -1;  // when an obstacle appears next, and did last [s]
   Cloth cloth_;

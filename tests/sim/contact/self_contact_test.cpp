@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "sim/error.h"
 #include "sim/contact/barrier.h"
+#include "sim/error.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
 
@@ -46,11 +46,12 @@ TEST(SelfContact, OfFlatLayersHasTheBarriersPressure) {
   }
 }
 
-// Below its stiffest gap the barrier goes on as a parabola: energy, slope and stiffness without a jump, and each
-// the derivative of the one before it, to central differences' error.
+// Below its stiffest gap the barrier goes on as a parabola: energy, slope and stiffness without a jump, and
+// each the derivative of the one before it, to central differences' error.
 TEST(Barrier, GoesOnSmoothlyWhereNextToNothingOfTheGapIsLeft) {
   const double k = 3, range = 2e-4, edge = kStiffest * range, h = 1e-4 * edge;
-  const Barrier<double> above = barrier(k, edge * (1 + 1e-9), range), below = barrier(k, edge * (1 - 1e-9), range);
+  const Barrier<double> above = barrier(k, edge * (1 + 1e-9), range),
+                        below = barrier(k, edge * (1 - 1e-9), range);
   EXPECT_NEAR(above.energy / below.energy, 1, 1e-7);
   EXPECT_NEAR(above.slope / below.slope, 1, 1e-7);
   EXPECT_NEAR(above.stiffness / below.stiffness, 1, 1e-7);

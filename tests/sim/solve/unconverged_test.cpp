@@ -48,7 +48,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   scene.air_drag = 1;
   Pin pin;
   pin.select = "nearest";
-  pin.point = {scene.cloth.length, scene.cloth.length, 0};
+  pin.point = {scene.cloth.length, 0, 0};
   pin.from = 0.1;
   pin.home = 0.2;
   scene.pin.push_back(pin);
