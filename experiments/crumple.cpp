@@ -119,17 +119,16 @@ render::Plot curvature_plot(const std::string& title) {
   return {title, {"time [s]"}, {"curvature, root mean square [1/m]"}};
 }
 
-std::string caption_of(const std::string& law, const Wrinkles& w) {
+std::string caption_of(const Wrinkles& w) {
   char text[160];
-  std::snprintf(text, sizeof text, "%s: curvature %.1f 1/m, residual %.1f 1/m", law.c_str(), w.curvature,
-                w.residual);
+  std::snprintf(text, sizeof text, "curvature %.1f 1/m, residual %.1f 1/m", w.curvature, w.residual);
   return text;
 }
 
 void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
   Pictures& pictures = *session.pictures();
   const Scene& scene = session.scene();
-  const std::string caption = caption_of(scene.fabric.name + ", law " + scene.law, wrinkles);
+  const std::string caption = scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles);
   for (const char* look : {"curvature", "residual"})
     render::write_png(session.run().path(std::string(look) + ".png"),
                       pictures.picture(look, pictures.camera(), caption), render::PngEffort::best);
@@ -157,7 +156,7 @@ LawOutcome crumple_once(const CommandLine& line) {
   session.simulate(question_of(session, choice, wrinkles));
   Simulation& simulation = session.simulation();
   const std::string& law = setup.scene.law;
-  outcome.caption = caption_of(law, wrinkles);
+  outcome.caption = caption_of(wrinkles);
   outcome.numbers = {{"residual_curvature_rms_per_m", wrinkles.residual},
                      {"ridge_length_m", wrinkles.ridges},
                      {"curvature_rms_per_m", wrinkles.curvature},
@@ -173,10 +172,9 @@ LawOutcome crumple_once(const CommandLine& line) {
 
 int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   C choice;
-  CommandLine first = line;
-  std::erase_if(first.flags, [](const Flag& f) { return f.path == "law"; });
+  const CommandLine first = without_lists(line);
   const Setup setup = set_up(first, defaults(), bind(kRows, choice));
-  LawPage page{"Crumpled, " + setup.scene.fabric.name, laws, {}, crumple_once};
+  LawPage page{page_title("Crumpled", line, setup), laws, {}, crumple_once};
   page.plots = {{"plot_residual", histogram_plot(page.title)},
                 {"plot_curvature", curvature_plot(page.title)}};
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
@@ -190,7 +188,7 @@ std::vector<KeyDescription> crumple_keys() {
 }
 
 int crumple(const CommandLine& line) {
-  const std::vector<LawVariant> laws = laws_of(line);
+  const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return crumple_laws(line, laws);
   crumple_once(line);
   return 0;

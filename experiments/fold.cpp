@@ -76,11 +76,10 @@ render::Axis cycles_axis() { return {"cycles", true}; }
 render::Axis friction_axis() { return {"2HB [mN]"}; }
 
 // The last cycle as metrics and for the page; the first number, with its `unit`, stands in the caption.
-LawOutcome note(Run& run, const Scene& scene, std::vector<std::pair<std::string, double>> numbers,
-                const char* unit) {
+LawOutcome note(Run& run, std::vector<std::pair<std::string, double>> numbers, const char* unit) {
   LawOutcome outcome;
   char text[80];
-  std::snprintf(text, sizeof text, "%s: %.3g %s", law_of(scene).c_str(), numbers[0].second, unit);
+  std::snprintf(text, sizeof text, "%.3g %s", numbers[0].second, unit);
   outcome.caption = text;
   for (const auto& [name, value] : numbers) run.metric(name, value);
   outcome.numbers = std::move(numbers);
@@ -129,7 +128,7 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
   session.simulate(question_of(fold, folding));
   folding.finish();
   const FoldReading& last = folding.reading();
-  LawOutcome outcome = note(run, fold.scene,
+  LawOutcome outcome = note(run,
                             {{"recovery_angle_deg", last.recovery_angle},
                              {"2HB_N", last.material.loop_width},
                              {"set_curvature_per_m", last.set},
@@ -193,7 +192,7 @@ LawOutcome fold_law(const CommandLine& line, const Request& request) {
   const std::vector<BendingCycle> all = bend_repeatedly(scene, request.choice);
   write_cycles(run, all);
   const BendingCycle& last = all.back();
-  LawOutcome outcome = note(run, scene,
+  LawOutcome outcome = note(run,
                             {{"2HB_N", last.material.loop_width},
                              {"set_curvature_per_m", last.set},
                              {"M0_N", last.material.friction},
@@ -221,10 +220,14 @@ LawOutcome fold_once(const CommandLine& line) {
 }
 
 // Laws that know fatigue come twice: without it, and with it as NAME-fatigue.
-std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& laws) {
+std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& laws,
+                                                 const std::string& usual) {
   std::vector<LawVariant> all;
   for (const LawVariant& law : laws) {
-    const std::vector<std::string> known = law_parameter_names(law.name);
+    std::string name = usual;
+    for (const Flag& flag : law.flags)
+      if (flag.path == "law") name = flag.text;
+    const std::vector<std::string> known = law_parameter_names(name);
     const bool tires = std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
     LawVariant sound = law;
     if (tires) sound.flags.push_back({"fold.fatigue", "0"});
@@ -235,11 +238,11 @@ std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& 
 }
 
 int fold_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
-  CommandLine first = line;
-  std::erase_if(first.flags, [](const Flag& f) { return f.path == "law"; });
+  const CommandLine first = without_lists(line);
   const Request request = read(first);
-  LawPage page{"Repeated folding, " + request.setup.scene.fabric.name,
-               request.own_fatigue || request.choice.fatigue == 0 ? laws : with_and_without_fatigue(laws),
+  const bool as_asked = request.own_fatigue || request.choice.fatigue == 0;
+  LawPage page{page_title("Repeated folding", line, request.setup),
+               as_asked ? laws : with_and_without_fatigue(laws, request.setup.scene.law),
                {},
                fold_once};
   const std::pair<std::string, render::Plot> width = {"plot_2HB",
@@ -259,7 +262,7 @@ std::vector<KeyDescription> fold_keys() {
 }
 
 int fold(const CommandLine& line) {
-  const std::vector<LawVariant> laws = laws_of(line);
+  const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return fold_laws(line, laws);
   fold_once(line);
   return 0;

@@ -1,5 +1,6 @@
 #include "experiments/law_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/comma_list.h"
@@ -10,6 +11,7 @@
 #include "sim/atomic_file.h"
 #include "sim/bending/law_parameters.h"
 #include "sim/error.h"
+#include "sim/scene/assets.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -19,15 +21,33 @@ struct Finding {
   LawOutcome outcome;
 };
 
-// The same line for one law, into a folder of its name.
+bool is_law(const Flag& flag) { return flag.path == "law"; }
+bool is_fabric(const Flag& flag) { return flag.path == "fabric" || flag.path == "fabric.name"; }
+bool is_list(const std::string& text) { return text == "all" || text.find(',') != std::string::npos; }
+
+// The same line for one variant, into a folder of its name.
 CommandLine line_of(const CommandLine& line, const LawVariant& law, const std::filesystem::path& folder) {
   CommandLine one = line;
-  std::erase_if(one.flags,
-                [](const Flag& f) { return f.path == "law" || f.path == "out" || f.path == "json"; });
+  std::erase_if(one.flags, [&](const Flag& f) {
+    const auto again = [&](const Flag& own) {
+      return own.path == f.path || (is_fabric(own) && is_fabric(f));
+    };
+    return f.path == "out" || f.path == "json" || std::any_of(law.flags.begin(), law.flags.end(), again);
+  });
   one.flags.insert(one.flags.end(), law.flags.begin(), law.flags.end());
   one.flags.push_back({"out", (folder / law.name).string()});
   one.command += " (" + law.name + ")";
   return one;
+}
+
+// The names of the last such flag, `all` being `every`; one empty name without the flag.
+std::vector<std::string> names_in(const CommandLine& line, bool (*is_it)(const Flag&),
+                                  const std::vector<std::string>& every) {
+  std::string text;
+  for (const Flag& flag : line.flags)
+    if (is_it(flag)) text = flag.text;
+  if (text.empty()) return {""};
+  return text == "all" ? every : split(text);
 }
 
 std::string cell(double value) {
@@ -60,39 +80,55 @@ void write_table(Run& run, const std::vector<Finding>& all) {
 void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
   std::vector<render::SheetEntry> entries;
   for (const Finding& f : all)
-    if (f.outcome.picture) entries.push_back({*f.outcome.picture, f.outcome.caption});
+    if (f.outcome.picture) entries.push_back({*f.outcome.picture, f.law + ": " + f.outcome.caption});
   if (!entries.empty())
     render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {page.title}),
                       render::PngEffort::best);
   for (std::size_t p = 0; p < page.plots.size(); ++p) {
     render::Plot plot = page.plots[p].second;
+    const std::size_t given = plot.series.size();
     for (const Finding& f : all) {
       if (p >= f.outcome.series.size()) continue;
       constexpr std::size_t kColors = 7;  // of the palette: then they come again, dashed
       render::Series series = f.outcome.series[p];
       series.label = f.law;
-      if (plot.series.size() >= kColors) series.style = render::Series::Style::dashed;
+      if (plot.series.size() - given >= kColors) series.style = render::Series::Style::dashed;
       plot.series.push_back(std::move(series));
     }
-    if (!plot.series.empty())
+    if (plot.series.size() > given)
       run.plot(page.plots[p].first, [&](const auto& base) { render::write_plot(base, plot); });
   }
 }
 
 }  // namespace
 
-std::vector<LawVariant> laws_of(const CommandLine& line) {
-  std::string text;
-  for (const Flag& flag : line.flags)
-    if (flag.path == "law") text = flag.text;
-  std::vector<std::string> names = split(text);
-  if (text == "all") {
-    names.clear();
-    for (const auto& law : law_catalogue()) names.push_back(law.name);
-  }
-  std::vector<LawVariant> laws;
-  for (const std::string& name : names) laws.push_back({name, {{"law", name}}});
-  return laws;
+std::vector<LawVariant> variants_of(const CommandLine& line) {
+  std::vector<std::string> every_law;
+  for (const auto& law : law_catalogue()) every_law.push_back(law.name);
+  const std::vector<std::string> laws = names_in(line, is_law, every_law),
+                                 fabrics = names_in(line, is_fabric, list_assets("fabrics"));
+  std::vector<LawVariant> variants;
+  for (const std::string& fabric : fabrics)
+    for (const std::string& law : laws) {
+      LawVariant variant{laws.size() == 1 && fabrics.size() > 1 ? fabric : law, {}};
+      if (laws.size() > 1 && fabrics.size() > 1) variant.name = fabric + "-" + law;
+      if (!law.empty()) variant.flags.push_back({"law", law});
+      if (!fabric.empty()) variant.flags.push_back({"fabric", fabric});
+      variants.push_back(variant);
+    }
+  return variants;
+}
+
+CommandLine without_lists(const CommandLine& line) {
+  CommandLine one = line;
+  std::erase_if(one.flags, [](const Flag& f) { return (is_law(f) || is_fabric(f)) && is_list(f.text); });
+  return one;
+}
+
+std::string page_title(const std::string& what, const CommandLine& line, const Setup& setup) {
+  const bool listed = std::any_of(line.flags.begin(), line.flags.end(),
+                                  [](const Flag& f) { return is_fabric(f) && is_list(f.text); });
+  return listed ? what : what + ", " + setup.scene.fabric.name;
 }
 
 int compare_laws(const CommandLine& line, const Setup& setup, const Json& keys, LawPage page) {
@@ -103,8 +139,8 @@ int compare_laws(const CommandLine& line, const Setup& setup, const Json& keys, 
   }
   if (options.out.empty()) options.out = "out/" + line.experiment;
   Json all_keys = keys;
-  all_keys["fabrics"] = setup.scene.fabric.name;
-  for (const LawVariant& law : page.laws) all_keys["laws"].push_back(law.name);
+  all_keys["fabric"] = to_json(setup.scene)["fabric"];  // of variants that name none
+  for (const LawVariant& law : page.laws) all_keys["variants"].push_back(law.name);
   Run run(line, options, all_keys);
   std::vector<Finding> all;
   for (const LawVariant& law : page.laws) {

@@ -1,4 +1,5 @@
-// A page that compares laws: one experiment under each of them, in folders of their names.
+// A page that compares: one experiment under each of several laws, with each of several fabrics, or both, in
+// folders of their names.
 #pragma once
 
 #include <functional>
@@ -13,15 +14,15 @@
 
 namespace hysteron::experiments {
 
-// What came of one law.
+// What came of one variant.
 struct LawOutcome {
-  std::string caption;                                  // its name and numbers, below its picture
+  std::string caption;                                  // its numbers, below its picture after its name
   std::vector<std::pair<std::string, double>> numbers;  // by metric; the same ones for every law
   std::vector<render::Series> series;                   // one for each of the page's plots
   std::optional<render::Image> picture;
 };
 
-// A law, or the law with further flags under a name of its own.
+// What differs from the line: a law, a fabric, further flags.
 struct LawVariant {
   std::string name;
   std::vector<Flag> flags;
@@ -34,8 +35,14 @@ struct LawPage {
   std::function<LawOutcome(const CommandLine&)> once;       // the experiment, under the line's law
 };
 
-// The laws that --law names: `all`, or names apart by commas; one name that is not `all` is one entry.
-std::vector<LawVariant> laws_of(const CommandLine& line);
+// What --law and --fabric name, each `all` or names apart by commas: every pair of them.  One variant, or
+// none, where neither is a list.
+std::vector<LawVariant> variants_of(const CommandLine& line);
+// The line without lists: what the page itself is set up with.
+CommandLine without_lists(const CommandLine& line);
+
+// "what, fabric", or "what" where fabrics are listed.
+std::string page_title(const std::string& what, const CommandLine& line, const Setup& setup);
 
 // Runs the page: OUT/<law>/ as the experiment alone would write it; table.csv, sheet.png and the plots for
 // all, each number as the metric <law>.<name>.  A law whose run cannot go on has its message in the table.

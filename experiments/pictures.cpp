@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "experiments/wrinkles.h"
 #include "render/caption.h"
 #include "render/shapes.h"
 #include "sim/scene/motion.h"
@@ -27,8 +28,13 @@ std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
   return xyz;
 }
 
-std::vector<float> pattern_of(const ClothMesh& mesh) {
+std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<float> uv;
+  if (shape.shape == "tube") {
+    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
+      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
+    return uv;
+  }
   const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
   for (int i = 0; i < mesh.vertices(); ++i) {
     const bool given = !mesh.pattern.empty();
@@ -97,7 +103,7 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
                                               render::PictureSize{options_.width(), options_.height()});
   std::vector<int> triangles;
   for (const auto& t : cloth.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
-  const std::vector<float> pattern = pattern_of(cloth.mesh);
+  const std::vector<float> pattern = pattern_of(cloth.mesh, setup.scene.cloth);
   view_->set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
   for (const Obstacle& o : scene_.obstacle) {
     const bool body = o.kind != "ground" && o.kind != "hollow" && o.visible;

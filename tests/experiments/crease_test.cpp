@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/law_page.h"
 #include "sim/contact/penalty.h"
 #include "tests/experiments/folder.h"
 
@@ -129,6 +130,27 @@ TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
   choice.pleat = 60;
   const Crease crease = pleated(small_scene(), choice);
   EXPECT_NEAR(crease.opening(crease.cloth.start), 60, 1e-6);
+}
+
+CommandLine naming(std::vector<Flag> flags) { return {"crease", "hysteron crease", std::move(flags), {}}; }
+
+TEST(LawPage, HasAVariantForEveryPairOfFabricAndLaw) {
+  const auto names = [](const CommandLine& line) {
+    std::vector<std::string> result;
+    for (const LawVariant& variant : variants_of(line)) result.push_back(variant.name);
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(naming({})).size(), 1u);
+  EXPECT_EQ(names(naming({{"law", "dahl"}, {"fabric", "wool-tropical"}})), Names{"dahl"});
+  EXPECT_EQ(names(naming({{"law", "linear,prandtl"}})), (Names{"linear", "prandtl"}));
+  EXPECT_EQ(names(naming({{"fabric", "cotton-broad,wool-tropical"}, {"law", "dahl"}})),
+            (Names{"cotton-broad", "wool-tropical"}));
+  EXPECT_EQ(
+      names(naming({{"fabric", "cotton-broad,wool-tropical"}, {"law", "linear,dahl"}})),
+      (Names{"cotton-broad-linear", "cotton-broad-dahl", "wool-tropical-linear", "wool-tropical-dahl"}));
+  EXPECT_GT(names(naming({{"fabric", "all"}})).size(), 10u);
+  EXPECT_EQ(without_lists(naming({{"law", "all"}, {"fabric", "wool-tropical"}})).flags.size(), 1u);
 }
 
 }  // namespace
