@@ -112,11 +112,11 @@ render::Series histogram(const Session& session, const std::vector<double>& curv
   return series;
 }
 
-render::Plot histogram_plot(const std::string& title) {
-  return {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}};
-}
-render::Plot curvature_plot(const std::string& title) {
-  return {title, {"time [s]"}, {"curvature, root mean square [1/m]"}};
+// One for each series of an outcome, still without it.
+std::vector<std::pair<std::string, render::Plot>> plots_of(const std::string& title) {
+  return {{"plot_residual",
+           {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}}},
+          {"plot_curvature", {title, {"time [s]"}, {"curvature, root mean square [1/m]"}}}};
 }
 
 std::string caption_of(const Wrinkles& w) {
@@ -135,10 +135,10 @@ void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
   pictures.set_light("raking");
   outcome.picture = pictures.picture("cloth", pictures.camera(), caption);
   render::write_png(session.run().path("raking.png"), *outcome.picture, render::PngEffort::best);
-  for (std::size_t p = 0; p < outcome.series.size(); ++p) {
-    render::Plot plot = p == 0 ? histogram_plot(scene.fabric.name) : curvature_plot(scene.fabric.name);
-    plot.series = {outcome.series[p]};
-    session.plot(p == 0 ? "plot_residual" : "plot_curvature", plot);
+  auto plots = plots_of(scene.fabric.name);
+  for (std::size_t p = 0; p < plots.size(); ++p) {
+    plots[p].second.series = {outcome.series[p]};
+    session.plot(plots[p].first, plots[p].second);
   }
 }
 
@@ -175,8 +175,7 @@ int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   const CommandLine first = without_lists(line);
   const Setup setup = set_up(first, defaults(), bind(kRows, choice));
   LawPage page{page_title("Crumpled", line, setup), laws, {}, crumple_once};
-  page.plots = {{"plot_residual", histogram_plot(page.title)},
-                {"plot_curvature", curvature_plot(page.title)}};
+  page.plots = plots_of(page.title);
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <string_view>
 
@@ -146,6 +147,12 @@ std::string row_of(const std::vector<std::string>& fields) {
   std::string row;
   for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + field(fields[i]);
   return row + "\n";
+}
+
+std::string number_field(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::isfinite(value) ? text : "";
 }
 
 }  // namespace hysteron::experiments

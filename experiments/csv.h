@@ -33,5 +33,7 @@ void write_csv(const std::filesystem::path& file, const Table& table);
 
 // A line of a table of words and numbers, its end included; fields are quoted where they need it.
 std::string row_of(const std::vector<std::string>& fields);
+// A field of it: six significant digits, empty unless the number is finite.
+std::string number_field(double value);
 
 }  // namespace hysteron::experiments

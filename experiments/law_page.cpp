@@ -50,12 +50,6 @@ std::vector<std::string> names_in(const CommandLine& line, bool (*is_it)(const F
   return text == "all" ? every : split(text);
 }
 
-std::string cell(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::isfinite(value) ? text : "";
-}
-
 void write_table(Run& run, const std::vector<Finding>& all) {
   std::vector<std::string> header = {"law"};
   for (const Finding& f : all)
@@ -68,7 +62,8 @@ void write_table(Run& run, const std::vector<Finding>& all) {
   for (const Finding& f : all) {
     std::vector<std::string> row(header.size(), "");
     row[0] = f.law;
-    for (std::size_t i = 0; i < f.outcome.numbers.size(); ++i) row[i + 1] = cell(f.outcome.numbers[i].second);
+    for (std::size_t i = 0; i < f.outcome.numbers.size(); ++i)
+      row[i + 1] = number_field(f.outcome.numbers[i].second);
     row.push_back(f.failed);
     file.stream() << row_of(row);
     for (const auto& [name, value] : f.outcome.numbers)

@@ -12,14 +12,6 @@
 namespace hysteron::experiments {
 namespace {
 
-std::string formatted(const char* format, double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string number(double value) { return std::isfinite(value) ? formatted("%.6g", value) : ""; }
-
 using Counts = std::map<Outcome, int>;
 
 Counts count(const std::vector<Cell>& cells, const std::string& integrator) {
@@ -58,17 +50,17 @@ void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<C
                              scene.law,
                              scene.element,
                              scene.precision,
-                             number(scene.step),
+                             number_field(scene.step),
                              name_of(f.outcome),
-                             if_ran(number(f.energy_growth)),
-                             if_ran(number(f.remainder)),
-                             if_ran(number(f.largest_stretch)),
-                             number(f.seconds_asked),
-                             if_ran(number(f.seconds_simulated)),
+                             if_ran(number_field(f.energy_growth)),
+                             if_ran(number_field(f.remainder)),
+                             if_ran(number_field(f.largest_stretch)),
+                             number_field(f.seconds_asked),
+                             if_ran(number_field(f.seconds_simulated)),
                              if_ran(std::to_string(f.steps)),
                              if_ran(std::to_string(f.substeps)),
                              if_ran(std::to_string(f.retried_steps)),
-                             number(f.wall_seconds),
+                             number_field(f.wall_seconds),
                              f.message});
   }
   file.commit();
@@ -115,8 +107,9 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     file.stream() << row_of({of.mesh, of.element, of.held ? "held" : "free", of.condition.law,
-                             number(of.condition.damping), number(of.condition.amplitudes.back()),
-                             number(limit.bound), number(limit.measured), number(limit.ratio())});
+                             number_field(of.condition.damping), number_field(of.condition.amplitudes.back()),
+                             number_field(limit.bound), number_field(limit.measured),
+                             number_field(limit.ratio())});
     if (of.condition.resonates() && of.condition.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;

@@ -61,12 +61,6 @@ struct Drape {
   }
 };
 
-std::string text_of(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::isfinite(value) ? text : "";
-}
-
 // Runs another subcommand into a folder of this one; its manifest.
 Json result_of(const std::string& name, const std::vector<Flag>& own, const F& flags, const Run& run,
                const std::string& folder, int (*subcommand)(const CommandLine&)) {
@@ -104,8 +98,8 @@ void run_drape(Drape& drape, const F& flags, Run& run) {
                                    {"law", drape.law},
                                    {"drape.release", drape.release},
                                    {"triangles", std::to_string(drape.triangles)},
-                                   {"step", text_of(drape.step)},
-                                   {"seconds", text_of(flags.seconds)},
+                                   {"step", number_field(drape.step)},
+                                   {"seconds", number_field(flags.seconds)},
                                    {"device", flags.device}},
                                   flags, run, drape.name(), experiments::drape);
   drape.metrics = manifest["metrics"];
@@ -124,12 +118,13 @@ void write_drapes(Run& run, const std::vector<Drape>& drapes) {
       << "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
          "coefficient [%],published nodes,sharp edges [%],computing [s]\n";
   for (const Drape& d : drapes)
-    file.stream() << row_of({d.fabric, d.law, d.release, std::to_string(d.triangles), text_of(d.step),
-                             text_of(d.number("drape_coefficient_percent")), text_of(d.number("node_count")),
+    file.stream() << row_of({d.fabric, d.law, d.release, std::to_string(d.triangles), number_field(d.step),
+                             number_field(d.number("drape_coefficient_percent")),
+                             number_field(d.number("node_count")),
                              d.metrics.value("settled", false) ? "yes" : "no",
-                             text_of(d.number("published_drape_coefficient_percent")),
-                             text_of(d.number("published_node_count")),
-                             text_of(d.number("sharp_edges_percent")), text_of(d.seconds)});
+                             number_field(d.number("published_drape_coefficient_percent")),
+                             number_field(d.number("published_node_count")),
+                             number_field(d.number("sharp_edges_percent")), number_field(d.seconds)});
   file.commit();
 }
 
@@ -168,10 +163,11 @@ void measure_bending_lengths(const F& flags, Run& run) {
       const Json metrics = result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}},
                                      flags, run, name, cantilever)["metrics"];
       const double cloth = metrics["bending_length_m"], curve = metrics["elastica_bending_length_m"];
-      file.stream() << row_of({fabric, law, text_of(cloth), text_of(curve),
-                               text_of(metrics["residual_drop_over_length"].get<double>())});
+      file.stream() << row_of({fabric, law, number_field(cloth), number_field(curve),
+                               number_field(metrics["residual_drop_over_length"].get<double>())});
       run.metric(name + ".bending_length_m", cloth);
-      run.progress(name + ": bending length " + text_of(cloth) + " m, elastica " + text_of(curve) + " m");
+      run.progress(name + ": bending length " + number_field(cloth) + " m, elastica " + number_field(curve) +
+                   " m");
     }
   file.commit();
 }

@@ -56,6 +56,10 @@ TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
   EXPECT_NEAR(crease.opening_of_law(largest), 180, 1e-9);
 }
 
+nlohmann::json metrics_in(const std::filesystem::path& out) {
+  return nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+}
+
 // Both laws by one command.
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const Folder folder;
@@ -71,12 +75,9 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
                    {}};
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
   EXPECT_EQ(crease(line), 0);
-  const auto metrics_of = [&](const char* law) {
-    return nlohmann::json::parse(text_of(out / law / "manifest.json"))["metrics"];
-  };
   const std::string table = text_of(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
-  const auto elastic = metrics_of("linear"), hysteretic = metrics_of("prandtl");
+  const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
   EXPECT_EQ(elastic["intersections"], 0);
   EXPECT_EQ(hysteretic["intersections"], 0);
   EXPECT_GT(elastic["recovery_angle_deg"], 178);
@@ -97,33 +98,23 @@ CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
   return line;
 }
 
-nlohmann::json metrics_in(const std::filesystem::path& out) {
-  return nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+// Opens to within `tolerance` of the law alone and between the limits [degree].
+void expect_opening(const char* fold, double tolerance, double least, double most) {
+  const Folder folder;
+  EXPECT_EQ(crease(soft_fold(fold, folder.path())), 0);
+  const auto metrics = metrics_in(folder.path());
+  EXPECT_EQ(metrics["intersections"], 0);
+  const double opening = metrics["recovery_angle_deg"];
+  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), tolerance);
+  EXPECT_GT(opening, least);
+  EXPECT_LT(opening, most);
 }
 
 // Bent to 1/r everywhere, well beyond K0, a strip keeps at most M0/b2 over the arc; it opens as the law does.
-TEST(SoftFold, AroundARodOpensAsTheLawAlone) {
-  const Folder folder;
-  EXPECT_EQ(crease(soft_fold("rod", folder.path())), 0);
-  const auto metrics = metrics_in(folder.path());
-  EXPECT_EQ(metrics["intersections"], 0);
-  const double opening = metrics["recovery_angle_deg"];
-  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), 3);
-  EXPECT_GT(opening, 45);
-  EXPECT_LT(opening, 130);
-}
+TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130); }
 
 // Pulled straight, it does not return to the angle that it was made with.
-TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) {
-  const Folder folder;
-  EXPECT_EQ(crease(soft_fold("pleat", folder.path())), 0);
-  const auto metrics = metrics_in(folder.path());
-  EXPECT_EQ(metrics["intersections"], 0);
-  const double opening = metrics["recovery_angle_deg"];
-  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), 5);
-  EXPECT_GT(opening, 65);
-  EXPECT_LT(opening, 120);
-}
+TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) { expect_opening("pleat", 5, 65, 120); }
 
 TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
   CreaseChoice choice;
