@@ -6,6 +6,7 @@
 #include "experiments/comma_list.h"
 #include "experiments/csv.h"
 #include "experiments/report.h"
+#include "render/color_map.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
 #include "sim/atomic_file.h"
@@ -23,6 +24,7 @@ struct Finding {
 
 bool is_law(const Flag& flag) { return flag.path == "law"; }
 bool is_fabric(const Flag& flag) { return flag.path == "fabric" || flag.path == "fabric.name"; }
+bool is_integrator(const Flag& flag) { return flag.path == "integrator"; }
 bool is_list(const std::string& text) { return text == "all" || text.find(',') != std::string::npos; }
 
 // The same line for one variant, into a folder of its name.
@@ -48,6 +50,20 @@ std::vector<std::string> names_in(const CommandLine& line, bool (*is_it)(const F
     if (is_it(flag)) text = flag.text;
   if (text.empty()) return {""};
   return text == "all" ? every : split(text);
+}
+
+// Each variant with each of the names, which stand in its own name where there are several.
+std::vector<LawVariant> multiplied(const std::vector<LawVariant>& variants, const std::string& path,
+                                   const std::vector<std::string>& names) {
+  std::vector<LawVariant> result;
+  for (const LawVariant& variant : variants)
+    for (const std::string& name : names) {
+      LawVariant one = variant;
+      if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + name;
+      if (!name.empty()) one.flags.push_back({path, name});
+      result.push_back(std::move(one));
+    }
+  return result;
 }
 
 void write_table(Run& run, const std::vector<Finding>& all) {
@@ -84,10 +100,10 @@ void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
     const std::size_t given = plot.series.size();
     for (const Finding& f : all) {
       if (p >= f.outcome.series.size()) continue;
-      constexpr std::size_t kColors = 7;  // of the palette: then they come again, dashed
       render::Series series = f.outcome.series[p];
       series.label = f.law;
-      if (plot.series.size() - given >= kColors) series.style = render::Series::Style::dashed;
+      const bool again = plot.series.size() - given >= render::kMethodColors;  // the same colours
+      if (again) series.style = render::Series::Style::dashed;
       plot.series.push_back(std::move(series));
     }
     if (plot.series.size() > given)
@@ -100,23 +116,20 @@ void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
 std::vector<LawVariant> variants_of(const CommandLine& line) {
   std::vector<std::string> every_law;
   for (const auto& law : law_catalogue()) every_law.push_back(law.name);
-  const std::vector<std::string> laws = names_in(line, is_law, every_law),
-                                 fabrics = names_in(line, is_fabric, list_assets("fabrics"));
-  std::vector<LawVariant> variants;
-  for (const std::string& fabric : fabrics)
-    for (const std::string& law : laws) {
-      LawVariant variant{laws.size() == 1 && fabrics.size() > 1 ? fabric : law, {}};
-      if (laws.size() > 1 && fabrics.size() > 1) variant.name = fabric + "-" + law;
-      if (!law.empty()) variant.flags.push_back({"law", law});
-      if (!fabric.empty()) variant.flags.push_back({"fabric", fabric});
-      variants.push_back(variant);
-    }
+  std::vector<LawVariant> variants = {{"", {}}};
+  variants = multiplied(variants, "fabric", names_in(line, is_fabric, list_assets("fabrics")));
+  variants = multiplied(variants, "law", names_in(line, is_law, every_law));
+  variants = multiplied(variants, "integrator",
+                        names_in(line, is_integrator, {"semi-implicit", "implicit", "bdf2"}));
+  if (variants.size() == 1) variants[0].name = names_in(line, is_law, every_law)[0];
   return variants;
 }
 
 CommandLine without_lists(const CommandLine& line) {
   CommandLine one = line;
-  std::erase_if(one.flags, [](const Flag& f) { return (is_law(f) || is_fabric(f)) && is_list(f.text); });
+  std::erase_if(one.flags, [](const Flag& f) {
+    return (is_law(f) || is_fabric(f) || is_integrator(f)) && is_list(f.text);
+  });
   return one;
 }
 

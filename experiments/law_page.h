@@ -1,5 +1,5 @@
-// A page that compares: one experiment under each of several laws, with each of several fabrics, or both, in
-// folders of their names.
+// A page that compares: one experiment under each of several laws, with each of several fabrics or
+// integrators, in folders of their names.
 #pragma once
 
 #include <functional>
@@ -35,8 +35,8 @@ struct LawPage {
   std::function<LawOutcome(const CommandLine&)> once;       // the experiment, under the line's law
 };
 
-// What --law and --fabric name, each `all` or names apart by commas: every pair of them.  One variant, or
-// none, where neither is a list.
+// What --fabric, --law and --integrator name, each `all` or names apart by commas: every combination of them.
+// One variant, without a name where nothing is named, where none is a list.
 std::vector<LawVariant> variants_of(const CommandLine& line);
 // The line without lists: what the page itself is set up with.
 CommandLine without_lists(const CommandLine& line);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "experiments/comma_list.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -19,7 +20,8 @@ const KeyRow<Options> kRows[] = {
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "no pictures"},
-    {"look", at<&O::look>, "", any(), "cloth | curvature | residual | friction | wireframe | silhouette", "what pictures show"},
+    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | friction | wireframe | silhouette; of several apart by commas, each but the first makes a sequence frames-LOOK/"},
+    {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without letters and bars"},
     {"light", at<&O::light>, "", any(), "studio | raking", "raking: almost along the picture, as wrinkles are photographed"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
@@ -36,6 +38,9 @@ const KeyRow<Options> kRows[] = {
 constexpr int kSmallestSide = 16;    // [pixels] captions need some room
 constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
 
+const std::vector<std::string> kLooks = {"cloth",    "curvature", "residual",
+                                         "friction", "wireframe", "silhouette"};
+
 // {0, 0} if the text is no WIDTHxHEIGHT.
 std::pair<int, int> sides(const std::string& size) {
   int width = 0, height = 0;
@@ -47,12 +52,20 @@ std::pair<int, int> sides(const std::string& size) {
   return {width, height};
 }
 
+void check_look(const std::string& look) {
+  if (std::find(kLooks.begin(), kLooks.end(), look) != kLooks.end()) return;
+  const std::string nearest = nearest_name(look, kLooks);
+  throw Error::request("look = " + look + " must be " + join(kLooks, " | ") +
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)");
+}
+
 bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; }
 
 }  // namespace
 
 int Options::width() const { return sides(size).first; }
 int Options::height() const { return sides(size).second; }
+std::vector<std::string> Options::looks() const { return split(look); }
 
 Keys bind_options(Options& options) { return bind(kRows, options); }
 
@@ -74,6 +87,8 @@ void check_options(const Options& options) {
   if (options.camera_direction.isZero(0)) {
     throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)");
   }
+  if (options.looks().empty()) check_look("");
+  for (const std::string& look : options.looks()) check_look(look);
   if (options.resume) throw Error::request("--resume is not built yet");
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "sim/scene/key_table.h"
 
@@ -15,7 +16,8 @@ struct Options {
   double fps = 30;                // fps        pictures per simulated second
   std::string renderer = "auto";  // renderer   auto | egl | osmesa
   bool no_images = false;         // no-images
-  std::string look = "cloth";     // look       what the pictures show
+  std::string look = "cloth";     // look       what the pictures show; several apart by commas
+  bool plain = false;             // plain      pictures of the sequence without letters
   std::string light = "studio";   // light      studio | raking
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
@@ -29,6 +31,7 @@ struct Options {
 
   int width() const;   // [pixels], of `size`
   int height() const;  // [pixels]
+  std::vector<std::string> looks() const;
 };
 
 Keys bind_options(Options& options);

@@ -166,8 +166,7 @@ std::string Pictures::caption(double time) const {
   return scene_.fabric.name + ", law " + scene_.law + "\n" + when(time);
 }
 
-render::Image Pictures::picture(const std::string& look_name, const render::Camera& camera,
-                                const std::string& text) {
+render::Image Pictures::drawn(const std::string& look_name, const render::Camera& camera) {
   const auto start = Clock::now();
   show(*view_, look_name);
   for (std::size_t i = 0; i < obstacle_.size(); ++i) {
@@ -177,29 +176,66 @@ render::Image Pictures::picture(const std::string& look_name, const render::Came
     view_->show_obstacle(obstacle_[i], o.from <= simulation_.time() && simulation_.time() < o.until);
   }
   render::Image image = view_->draw(camera);
-  render::draw_caption(image, text, render::Corner::top_left);
-  render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
-                         render::Corner::bottom_left, "at the cloth's middle");
-  const render::Look look = look_of(look_name);
-  if (look.show == render::Show::curvature) {
-    const char* what = look_name == "residual" ? "residual curvature" : "curvature";
-    render::draw_color_bar(image, {look.map, look.value_low, look.value_high, what, "1/m"},
-                           render::Corner::bottom_right);
-  } else if (look.show == render::Show::friction) {
-    render::draw_color_bar(image, {look.map, 0, 1, "friction moment / M0", ""}, render::Corner::bottom_right);
-  }
   render_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   return image;
 }
 
+std::optional<render::ColorBar> Pictures::color_bar(const std::string& look_name) const {
+  const render::Look look = look_of(look_name);
+  if (look.show == render::Show::curvature) {
+    const char* what = look_name == "residual" ? "residual curvature" : "curvature";
+    return render::ColorBar{look.map, look.value_low, look.value_high, what, "1/m"};
+  }
+  if (look.show == render::Show::friction)
+    return render::ColorBar{look.map, 0, 1, "friction moment / M0", ""};
+  return {};
+}
+
+void Pictures::letter(render::Image& image, const std::string& look, const render::Camera& camera,
+                      const std::string& text) const {
+  render::draw_caption(image, text, render::Corner::top_left);
+  render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
+                         render::Corner::bottom_left, "at the cloth's middle");
+  if (const auto bar = color_bar(look)) render::draw_color_bar(image, *bar, render::Corner::bottom_right);
+}
+
+render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
+                                const std::string& text) {
+  render::Image image = drawn(look, camera);
+  letter(image, look, camera, text);
+  return image;
+}
+
+// What a page that compares runs has to know of their pictures.
+void Pictures::note_frame(Run& run) {
+  moments_.push_back({{"s", simulation_.time()}, {"phase", scene_.phase_at(simulation_.time())}});
+  Json looks = Json::object();
+  for (const std::string& look : options_.looks()) {
+    looks[look] = nullptr;
+    if (const auto bar = color_bar(look))
+      looks[look] = {{"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
+  }
+  run.note("frames", {{"looks", looks},
+                      {"m_per_pixel", camera().metres_per_pixel(bounds_.center(), options_.height())},
+                      {"moments", moments_}});
+}
+
 void Pictures::frame(Run& run) {
-  render::Image image = picture(options_.look, camera(), caption(simulation_.time()));
-  char name[32];
-  std::snprintf(name, sizeof name, "frames/%04d.png", frames_++);
-  const int width = std::min(kThumbnailWidth, image.width());
-  thumbnails_.push_back({render::shrink(image, width, std::max(1, image.height() * width / image.width())),
-                         when(simulation_.time())});
-  writer_.write(run.path(name), std::move(image));
+  const std::vector<std::string> looks = options_.looks();
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    render::Image image = drawn(looks[i], camera());
+    if (!options_.plain) letter(image, looks[i], camera(), caption(simulation_.time()));
+    char name[32];
+    std::snprintf(name, sizeof name, "/%04d.png", frames_);
+    const int width = std::min(kThumbnailWidth, image.width());
+    if (i == 0)
+      thumbnails_.push_back(
+          {render::shrink(image, width, std::max(1, image.height() * width / image.width())),
+           when(simulation_.time())});
+    writer_.write(run.path((i == 0 ? "frames" : "frames-" + looks[i]) + name), std::move(image));
+  }
+  ++frames_;
+  note_frame(run);
 }
 
 render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {

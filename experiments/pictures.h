@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/run.h"
+#include "render/caption.h"
 #include "render/cloth_view.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
@@ -30,7 +31,8 @@ class Pictures {
   // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
   std::string positions_way() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
-  // Draws the present state as the next of frames/, captioned with what is simulated and the time.
+  // Draws the present state as the next of frames/, captioned with what is simulated and the time; in further
+  // looks as the next of frames-LOOK/.
   void frame(Run& run);
   // Draws the present state in a look of its own, with caption and colour bar.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
@@ -45,6 +47,11 @@ class Pictures {
 
  private:
   void show(render::ClothView& view, const std::string& look_name);
+  render::Image drawn(const std::string& look, const render::Camera& camera);  // without letters
+  void letter(render::Image& image, const std::string& look, const render::Camera& camera,
+              const std::string& text) const;
+  void note_frame(Run& run);
+  std::optional<render::ColorBar> color_bar(const std::string& look) const;
   render::Look look_of(const std::string& name) const;
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
@@ -61,6 +68,7 @@ class Pictures {
   render::PngWriter writer_;
   std::vector<render::SheetEntry> thumbnails_;
   int frames_ = 0;
+  Json moments_ = Json::array();  // of frames
   double render_seconds_ = 0;
 };
 

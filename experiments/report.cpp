@@ -10,6 +10,7 @@
 
 #include "experiments/csv.h"
 #include "experiments/experiments.h"
+#include "experiments/metric_name.h"
 #include "experiments/report_page.h"
 #include "render/image.h"
 #include "sim/atomic_file.h"
@@ -49,27 +50,6 @@ std::string shown(const Json& value) {
   text.precision(6);
   text << value.get<double>();
   return text.str();
-}
-
-struct NamedUnit {
-  std::string name, unit;
-};
-
-// "drape_coefficient_percent" is "drape coefficient" in %: results carry their unit at the end of their name.
-NamedUnit split_unit(std::string key) {
-  static const std::vector<std::pair<std::string, std::string>> kEndings = {
-      {"_J_per_m2", "J/m²"}, {"_percent", "%"}, {"_per_m", "1/m"}, {"_N_m", "N m"},
-      {"_deg", "°"},         {"_rad", "rad"},   {"_ms", "ms"},     {"_mm", "mm"},
-      {"_N", "N"},           {"_J", "J"},       {"_m", "m"},       {"_s", "s"}};
-  std::string unit;
-  for (const auto& [ending, symbol] : kEndings) {
-    if (!key.ends_with(ending) || key.size() == ending.size()) continue;
-    key.resize(key.size() - ending.size());
-    unit = symbol;
-    break;
-  }
-  std::replace(key.begin(), key.end(), '_', ' ');
-  return {key, unit};
 }
 
 // "" where a run has none, or several.

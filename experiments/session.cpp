@@ -154,6 +154,7 @@ bool Session::simulate(const Question& question) {
   const std::vector<std::string> energy = ledger_columns();
   columns.insert(columns.end(), energy.begin(), energy.end());
   Record record(run_->path("metrics.csv"), columns);
+  run_->note("series", question.columns);
 
   const int stride = steps_per_frame(setup_);
   const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
@@ -200,12 +201,12 @@ void Session::finish(const std::string& title) {
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
-  if (setup_.scene.is_implicit()) {
+  if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
     run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
     if (setup_.scene.newton_iterations > 0)
       run_->metric("unbalanced_steps_count", simulation_->unbalanced_steps());
   }
-  if (setup_.scene.is_implicit() || setup_.scene.tolerance > 0) {
+  if (setup_.scene.is_implicit() || setup_.scene.self_contact || setup_.scene.tolerance > 0) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }

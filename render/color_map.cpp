@@ -58,4 +58,10 @@ Rgb8 map_color8(ColorMap map, float t) {
   return {srgb8_of_linear(color.x()), srgb8_of_linear(color.y()), srgb8_of_linear(color.z())};
 }
 
+Rgb8 method_color(std::size_t index) {
+  static constexpr Rgb8 kColors[kMethodColors] = {
+      {0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {0, 0, 0}};
+  return kColors[index % kMethodColors];
+}
+
 }  // namespace hysteron::render

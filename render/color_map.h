@@ -24,4 +24,9 @@ Eigen::Vector3f map_color(ColorMap map, float t);
 // The same, sRGB-encoded.
 Rgb8 map_color8(ColorMap map, float t);
 
+// Colours of series and methods, which colour-blind eyes can tell apart (Okabe & Ito 2008); after the last
+// the first comes again.
+inline constexpr int kMethodColors = 7;
+Rgb8 method_color(std::size_t index);
+
 }  // namespace hysteron::render

@@ -1,10 +1,10 @@
 #include "render/gnuplot.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 
+#include "render/color_map.h"
 #include "render/process.h"
 #include "sim/atomic_file.h"
 #include "sim/error.h"
@@ -12,8 +12,11 @@
 namespace hysteron::render::gnuplot {
 namespace {
 
-// Okabe & Ito 2008, "Color universal design": apart under all common kinds of colour blindness.
-constexpr std::array kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"};
+std::string hex(const Rgb8& color) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", color[0], color[1], color[2]);
+  return text;
+}
 
 // A gnuplot string: single quotes are doubled, line ends become spaces.
 std::string single_quoted(const std::string& text) {
@@ -95,7 +98,7 @@ std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   std::string script = "plot ";
   for (size_t i = 0; i < series.size(); ++i) {
     const std::string name = series[i].label.empty() ? " notitle" : " title " + label_text(series[i].label);
-    const std::string color = series[i].color.empty() ? kPalette[i % kPalette.size()] : series[i].color;
+    const std::string color = series[i].color.empty() ? hex(method_color(i)) : series[i].color;
     script += std::string(i ? ", " : "") + "$series" + std::to_string(first + i) + " using 1:2" + name +
               " with " + style_words(series[i], color);
   }

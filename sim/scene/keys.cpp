@@ -62,7 +62,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
     {"gravity", at<&S::gravity>, "m/s^2", any(), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
-    {"self-contact", at<&S::self_contact>, "", any(), "", "implicit, bdf2: cloth cannot pass through itself"},
+    {"self-contact", at<&S::self_contact>, "", any(), "", "cloth cannot pass through itself"},
     {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "per area; 0: from weight and thickness"},
     {"seed", at<&S::seed>, "", at_least(0), "", "of random meshes"},
 };

@@ -154,7 +154,7 @@ struct Scene {
   double seconds = 1;                       // seconds    simulated time [s]
   Eigen::Vector3d gravity{0, 0, -9.81};     // gravity    [m/s^2]
   double air_drag = 0;                      // air-drag   linear drag per area [kg/(m^2 s)]
-  bool self_contact = false;                // self-contact  cloth cannot pass through itself (implicit, bdf2)
+  bool self_contact = false;                // self-contact  cloth cannot pass through itself
   double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
   unsigned seed = 1;               // seed
   std::vector<Pin> pin;            // [[pin]]

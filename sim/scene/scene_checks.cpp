@@ -65,21 +65,6 @@ void check_method(const Scene& scene) {
   }
 }
 
-void check_steps(const Scene& scene) {
-  if (scene.self_contact && scene.integrator != "implicit" && scene.integrator != "bdf2")
-    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
-                         ") needs integrator = implicit | bdf2, not " + scene.integrator + " (" +
-                         origin_of(scene, "integrator") + ")");
-  if (!(scene.tolerance > 0)) return;
-  if (scene.integrator == "explicit" || scene.integrator == "quasi-static")
-    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " + scene.integrator +
-                         " (" + origin_of(scene, "integrator") + ")");
-  if (scene.integrator == "semi-implicit" && scene.implicit_every == "step")
-    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
-}
-
 void check_motion(const Scene& scene, const std::string& path, const Motion& motion) {
   for (std::size_t i = 0; i < motion.keys.size(); ++i) {
     const std::string key = path + ".keys[" + std::to_string(i) + "]";
@@ -199,6 +184,29 @@ void check_command(const Scene& scene, const Command& command, const std::string
 }
 
 }  // namespace
+
+void check_steps(const Scene& scene) {
+  if (scene.self_contact && (scene.integrator == "explicit" || scene.integrator == "quasi-static"))
+    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
+                         ") needs integrator = implicit | bdf2 | semi-implicit, not " + scene.integrator +
+                         " (" + origin_of(scene, "integrator") + ")");
+  if (scene.self_contact && scene.integrator == "semi-implicit" && scene.implicit_every == "step")
+    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
+                         ") needs implicit-every = substep, not step (" + origin_of(scene, "implicit-every") +
+                         ")");
+  if (!(scene.tolerance > 0)) return;
+  if (scene.integrator == "explicit" || scene.integrator == "quasi-static")
+    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
+                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " + scene.integrator +
+                         " (" + origin_of(scene, "integrator") + ")");
+  if (scene.integrator == "semi-implicit" && scene.self_contact)
+    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
+                         " with self-contact needs integrator = bdf2 | implicit, not semi-implicit (" +
+                         origin_of(scene, "integrator") + ")");
+  if (scene.integrator == "semi-implicit" && scene.implicit_every == "step")
+    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
+                         " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
+}
 
 void check_scene(const Scene& scene) {
   check_fabric(scene);

@@ -49,13 +49,14 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
     : device_(device),
       two_step_(scene.integrator == "bdf2"),
       static_(scene.integrator == "quasi-static"),
+      bending_lags_(scene.integrator == "semi-implicit"),
       gravity_(scene.gravity.cast<Real>()),
       drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
       vertices_(static_cast<int>(mass.size())),
       total_mass_(sum_of(mass)),
       membrane_(membrane),
       bending_(bending),
-      potential_(device, matrix, membrane, bending, contact, self_contact, mass),
+      potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_),
       solver_(std::move(solver)),
       newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene)),
       size_(device, 1),
@@ -229,7 +230,7 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLedger* ledger) {
   potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
-  bending_.accept(end_.data());
+  if (!bending_lags_) bending_.accept(end_.data());
   book(state, ledger);
   membrane_.add_viscous_loss();
   move_on(state);

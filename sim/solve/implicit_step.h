@@ -1,4 +1,5 @@
-// One implicit step: backward Euler, two-step backward differences (bdf2), or equilibrium (quasi-static).
+// One implicit step: backward Euler, two-step backward differences (bdf2), or equilibrium (quasi-static).  In
+// `semi-implicit` with self-contact bending lags: its force is that of the state accepted last.
 #pragma once
 
 #include <memory>
@@ -63,7 +64,7 @@ class ImplicitStep {
   double potential_of_guess(const VertexState<Real>& state, bool accelerated);
 
   Device& device_;
-  bool two_step_, static_;
+  bool two_step_, static_, bending_lags_;
   Vec3<Real> gravity_;
   Real drag_;       // over mass [1/s]
   Real share_ = 1;  // of the weight

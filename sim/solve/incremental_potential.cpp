@@ -10,7 +10,7 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
                                                          Bending<Real, Device>& bending,
                                                          Contact<Real, Device>* contact,
                                                          SelfContact<Real, Device>* self_contact,
-                                                         const Buffer<Real, Device>& mass)
+                                                         const Buffer<Real, Device>& mass, bool bending_lags)
     : device_(device),
       matrix_(matrix),
       membrane_(membrane),
@@ -18,6 +18,7 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
       contact_(contact),
       self_contact_(self_contact),
       mass_(mass),
+      bending_lags_(bending_lags),
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
       rest_diagonal_(device, vertices_),
@@ -29,7 +30,7 @@ template <class Real, class Device>
 void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
   start_ = start;
   membrane_.begin_step(start.formula, start.now, start.before);
-  bending_.begin_step(start.formula);
+  if (!bending_lags_) bending_.begin_step(start.formula);
 }
 
 template <class Real, class Device>
@@ -53,7 +54,7 @@ template <class Real, class Device>
 PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
                                                             const Vec3<Real>* direction) {
   membrane_.evaluate(x);
-  bending_.evaluate(x);
+  if (!bending_lags_) bending_.evaluate(x);
   compute_gradient(x);
   if (contact_) {
     contact_->evaluate(x, start_.now, gradient_.data());
@@ -64,7 +65,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
     add_energies(self_contact_->energies(), self_contact_->pairs());
   }
   add_energies(membrane_.energies(), membrane_.faces());
-  add_energies(bending_.energies(), bending_.elements());
+  if (!bending_lags_) add_energies(bending_.energies(), bending_.elements());
   measure_gradient(direction);
   const Totals t = sums_.download()[0];
   return {t.energy, t.size, std::sqrt(t.residual2), std::sqrt(t.reaction2), std::sqrt(t.internal2), t.slope};
@@ -80,6 +81,7 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const MembraneForceView<Real> membrane = membrane_.forces();
   const BendingForceView<Real> bending = bending_.forces();
   const Real* mass = mass_.data();
+  const bool lags = bending_lags_;
   Vec3<Real>* gradient = gradient_.data();
   Totals* totals = sums_.data();
   for_each_sum<3>(
@@ -92,7 +94,9 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         if (s.held[i]) return;
         const double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
-        const double weight = static_cast<double>(mass[i] * g.dot(x[i] - s.now[i]));
+        Vec3<Real> given = mass[i] * g;
+        if (lags) given += bend;
+        const double weight = static_cast<double>(given.dot(x[i] - s.now[i]));
         sums.term[0] += kinetic - weight;
         sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
       },
@@ -143,7 +147,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   ScalarRowsView<Real> softening;
   if (full) softening = {softening_off_.data(), softening_diagonal_.data()};
   membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix, softening);
-  bending_.linearise();
+  if (!bending_lags_) bending_.linearise();
   const Real over = static_cast<Real>(start_.formula.over);
   const Real inertia = 1 / (over * over) + start_.drag / over + shift;
   const Real* mass = mass_.data();
@@ -154,12 +158,12 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
         rest[i].setZero();
       });
   if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal);
-  bending_.add_stiffness_diagonal(rest);
+  if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
     self_contact_->linearise(x, start_.now);
     self_contact_->add_stiffness_diagonal(rest);
   }
-  return {matrix, &bending_, rest, nullptr, softening, self_contact_};
+  return {matrix, bending_lags_ ? nullptr : &bending_, rest, nullptr, softening, self_contact_};
 }
 
 template <class Real, class Device>

@@ -4,6 +4,9 @@
 //   Phi(x) = sum m/2 |x - y|^2/over^2 + drag m/2 |x - r|^2/over - m g.(x - x_n)
 //            + membrane + bending law + viscosity + contact + friction [J]
 //
+// Lagged bending (of `semi-implicit`) is the force of the state accepted last: -f.(x - x_n) takes the place
+// of its energy.
+//
 // r = the formula's reference position, y = r + over * (the same combination of velocities).  Statics have
 // over = infinity: no inertia, drag or viscosity.
 #pragma once
@@ -42,7 +45,8 @@ class IncrementalPotential {
  public:
   IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
                        Bending<Real, Device>& bending, Contact<Real, Device>* contact,
-                       SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass);
+                       SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass,
+                       bool bending_lags);
 
   void begin(const StepStart<Real>& start);
   // Largest share of the way from x, up to `at_most`, on which the cloth does not pass through itself.
@@ -83,6 +87,7 @@ class IncrementalPotential {
   Contact<Real, Device>* contact_;
   SelfContact<Real, Device>* self_contact_;
   const Buffer<Real, Device>& mass_;
+  bool bending_lags_;
   int vertices_;
   StepStart<Real> start_{};
   Buffer<Vec3<Real>, Device> gradient_;

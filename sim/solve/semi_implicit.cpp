@@ -17,6 +17,9 @@
 // energy in; and bending waves whose period resonates with hi grow unless viscosity damps them.  Acting
 // together they rest exactly.
 //
+// With self-contact the implicit part is solved to the end, as a minimum problem whose line search and
+// collision detection keep layers apart (implicit_step.h); bending stays explicit.
+//
 // Ledger.  Each velocity change dv under a force F over a displacement d = dt v_new gives exactly
 //   change of kinetic energy = F.d - m |dv|^2/2,
 // so the integrator's own loss is the sum of m |dv|^2/2 plus, for each energy, the gap between its change and
@@ -81,6 +84,7 @@ void Stepper<Real, Device>::refuse_divergence() {
 
 template <class Real, class Device>
 void Stepper<Real, Device>::stage(double start, Real h) {
+  if (layers_) return stage_of_layers(start, h);
   hold(start, h);
   if (contact_) {
     contact_->move(start, start + static_cast<double>(h));
@@ -94,6 +98,16 @@ void Stepper<Real, Device>::stage(double start, Real h) {
   }
   if (!explicit_) implicit_stage(h);
   if (contact_) commit_contact(start + static_cast<double>(h));
+}
+
+// Bending's force is that at the start, also where the step is then taken in parts.
+template <class Real, class Device>
+void Stepper<Real, Device>::stage_of_layers(double start, Real h) {
+  hold(start, h);
+  clock_.begin(Stage::bending);
+  bending_.commit(x_.data(), v_.data(), h);
+  clock_.end(Stage::bending);
+  implicit_interval(start, static_cast<double>(h), 0);
 }
 
 template <class Real, class Device>

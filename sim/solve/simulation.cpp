@@ -10,6 +10,7 @@
 #include "sim/contact/start_checks.h"
 #include "sim/error.h"
 #include "sim/membrane/membrane.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/solve/back_end.h"
 
 namespace hysteron {
@@ -118,8 +119,7 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& clo
   if (scene.force == "chapter" && scene.is_implicit())
     throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
                          scene.integrator);
-  if (scene.self_contact && scene.integrator != "implicit" && scene.integrator != "bdf2")
-    throw Error::request("self-contact needs integrator = implicit | bdf2, not " + scene.integrator);
+  check_steps(scene);
   check_start(scene, cloth);
   const StepLimits limits = choose_substeps(scene, cloth, op);
   return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)

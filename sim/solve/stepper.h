@@ -67,7 +67,8 @@ class Stepper : public Simulation {
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
   void obey(double start, double end);  // commands that are due
   void stage(double start, Real h);     // one implicit solve and what leads to it
-  void grip(double time);               // pins take hold and let go
+  void stage_of_layers(double start, Real h);
+  void grip(double time);  // pins take hold and let go
   void book_grip(const std::vector<char>& held);
   void take_hold(const std::vector<int>& pins, double time);
   void hold(double start, Real h);  // pins: which vertices are held, and their velocity in this stage
@@ -107,6 +108,7 @@ class Stepper : public Simulation {
   Scene scene_;
   bool explicit_;
   bool all_implicit_;  // bending too
+  bool layers_;        // semi-implicit with self-contact: an implicit step whose bending lags
   bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;

@@ -100,8 +100,11 @@ TEST(SelfContact, GradientIsTheEnergys) {
     }
 }
 
-TEST(SelfContact, CarriesASheetThatLandsOnAnother) {
-  const Trial trial = two_sheets(2e-3, 200);
+class SelfContactOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SelfContactOf, CarriesASheetThatLandsOnAnother) {
+  Trial trial = two_sheets(2e-3, 200);
+  trial.scene.integrator = GetParam();
   const auto simulation = trial.after(60);
   const auto x = simulation->positions();
   for (int i : upper_vertices(trial)) {
@@ -114,10 +117,19 @@ TEST(SelfContact, CarriesASheetThatLandsOnAnother) {
   EXPECT_GT(ledger.contact_friction, -1e-12);
 }
 
+INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOf, ::testing::Values("implicit", "bdf2", "semi-implicit"),
+                         [](const auto& which) {
+                           return std::string(which.param == std::string("semi-implicit") ? "semi_implicit"
+                                                                                          : which.param);
+                         });
+
 TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {
   Scene scene = test::free_square(40);
   scene.self_contact = true;
   scene.integrator = "explicit";
+  EXPECT_THROW(Trial(scene).simulation(), Error);
+  scene.integrator = "semi-implicit";
+  scene.implicit_every = "step";
   EXPECT_THROW(Trial(scene).simulation(), Error);
 }
 

@@ -112,12 +112,12 @@ TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
 }
 
 // A strip whose end a hand takes over until it lies on the other one.
-Scene folding_strip() {
+Scene folding_strip(const std::string& integrator) {
   Scene scene = test::free_square(600);
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
-  scene.integrator = "implicit";
+  scene.integrator = integrator;
   scene.self_contact = true;
   scene.step = 5e-3;
   scene.law = "prandtl";
@@ -134,11 +134,18 @@ Scene folding_strip() {
   return scene;
 }
 
-TEST(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
+class SelfContactOnBothDevices : public ::testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOnBothDevices,
+                         ::testing::Values("implicit", "semi-implicit"), [](const auto& which) {
+                           return std::string(which.param == std::string("implicit") ? "implicit" : "semi");
+                         });
+
+TEST_P(SelfContactOnBothDevices, FoldsAlikeAndTwiceTheSame) {
   std::string reason;
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
   constexpr double kAgreement = 1e-6;  // [m]
-  const Scene scene = folding_strip();
+  const Scene scene = folding_strip(GetParam());
   const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene), again = run_on("cuda", scene);
   EXPECT_GT(cpu->ledger().contact, 0);
   const double distance = test::farthest(cpu->positions(), gpu->positions());

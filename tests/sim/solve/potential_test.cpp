@@ -76,7 +76,7 @@ struct Step {
                 ForceConvention::energy, trial.scene.fabric.damping * trial.scene.fabric.b1),
         contact(cpu, trial.cloth.mesh, trial.scene),
         mass(cpu, masses()),
-        potential(cpu, rows, membrane, bending, &contact, nullptr, mass),
+        potential(cpu, rows, membrane, bending, &contact, nullptr, mass, false),
         reference(trial.cloth.mesh.rest),
         predicted(trial.cloth.mesh.rest) {
     contact.move(0, 0);

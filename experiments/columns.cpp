@@ -1,0 +1,88 @@
+#include "experiments/columns.h"
+
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include "experiments/parallel.h"
+#include "experiments/version.h"
+#include "render/process.h"
+#include "sim/atomic_file.h"
+#include "sim/error.h"
+#include "sim/solve/back_end.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What was asked of a finished column, and of which program: it stands in its folder.
+constexpr const char* kAsked = "asked.json";
+
+Json asked(const ComparedColumn& column) {
+  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", column.words}};
+}
+
+Json read_json(const fs::path& file) {
+  std::ifstream stream(file);
+  return Json::parse(stream, nullptr, false);
+}
+
+bool is_finished(const ComparedColumn& column) {
+  const Json manifest = read_json(column.folder / "manifest.json");
+  return manifest.is_object() && manifest.value("complete", false) &&
+         read_json(column.folder / kAsked) == asked(column);
+}
+
+std::vector<std::string> command_of(const ComparedColumn& column, int threads, int gpu) {
+  std::vector<std::string> words = {"env"};
+  if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + std::to_string(gpu));
+  words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
+  words.push_back(fs::read_symlink("/proc/self/exe").string());
+  words.insert(words.end(), column.words.begin(), column.words.end());
+  words.push_back("--quiet=true");
+  words.push_back("--out=" + column.folder.string());
+  words.push_back("--threads=" + std::to_string(threads));
+  return words;
+}
+
+void run_column(ComparedColumn& column, int threads, int gpu) {
+  fs::remove(column.folder / kAsked);
+  const render::ProcessResult result = render::run_process(command_of(column, threads, gpu), "");
+  column.manifest = read_json(column.folder / "manifest.json");
+  if (!result.started) throw Error::machine("cannot start the run " + column.name);
+  if (result.exit_code == 2) throw Error::request(column.name + ": " + result.first_error_line);
+  if (result.exit_code != 0 && result.exit_code != 3)
+    throw Error::machine(column.name + ": " + result.first_error_line);
+  if (result.exit_code == 3) column.stopped = result.first_error_line;
+  AtomicFile file((column.folder / kAsked).string());
+  file.stream() << asked(column).dump(2) << "\n";
+  file.commit();
+}
+
+}  // namespace
+
+void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
+                 const std::function<void(const ComparedColumn&)>& said) {
+  std::string reason;
+  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int at_once = std::min(static_cast<int>(columns.size()),
+                               jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
+  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
+  std::mutex one_at_a_time;
+  in_parallel(columns.size(), at_once, [&](std::size_t i) {
+    ComparedColumn& column = columns[i];
+    column.kept = jobs.resume && is_finished(column);
+    if (column.kept)
+      column.manifest = read_json(column.folder / "manifest.json");
+    else
+      run_column(column, threads, gpus > 0 ? static_cast<int>(i) % gpus : -1);
+    const std::lock_guard lock(one_at_a_time);
+    said(column);
+  });
+}
+
+}  // namespace hysteron::experiments

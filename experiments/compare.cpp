@@ -1,0 +1,285 @@
+// One question under several laws, fabrics or integrators, on one page: a column each, a row for each moment.
+//
+//   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
+//   OUT/sheet.png
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "experiments/comma_list.h"
+#include "experiments/compared.h"
+#include "experiments/csv.h"
+#include "experiments/law_page.h"
+#include "experiments/matching.h"
+#include "experiments/report.h"
+#include "sim/atomic_file.h"
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct CompareChoice {
+  std::string laws, fabrics, integrators;
+  std::string to;  // column that pictures differ from; "": no such rows
+  int rows = 4;
+  bool no_outlines = false;
+  int jobs = 0;
+  std::string match = "fabric";
+  double match_curvature = 100;  // [1/m], the KES tester's reading point
+  std::string video = "none";
+};
+
+using C = CompareChoice;
+// clang-format off
+const KeyRow<CompareChoice> kRows[] = {
+    {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
+    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics apart by commas, or all"},
+    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators apart by commas, or all"},
+    {"compare.to", at<&C::to>, "", any(), "", "column that the others' pictures are subtracted from, in rows of their own"},
+    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "moments on the page"},
+    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
+    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
+    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "to which energy is matched"},
+    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, where ffmpeg is there"},
+};
+// clang-format on
+
+constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
+constexpr const char* kCompared[] = {"drape", "swing", "crease", "fold", "crumple"};
+
+// Flags that are the page's own; all others are the columns'.
+bool is_own(const std::string& path) {
+  static const std::vector<std::string> kNames = {"laws", "fabrics", "integrators", "out",
+                                                  "json", "quiet",   "resume",      "threads"};
+  return path.starts_with("compare.") || std::find(kNames.begin(), kNames.end(), path) != kNames.end();
+}
+
+std::string last_of(const CommandLine& line, const std::string& path, const std::string& otherwise) {
+  std::string text = otherwise;
+  for (const Flag& flag : line.flags)
+    if (flag.path == path) text = flag.text;
+  return text;
+}
+
+// The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
+CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
+  CommandLine inner = line;
+  inner.names.clear();
+  const std::string what = line.names.front();
+  inner.experiment =
+      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "swing";
+  std::erase_if(inner.flags, [](const Flag& f) { return is_own(f.path); });
+  if (inner.experiment != what) inner.flags.push_back({"scene", what});
+  if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
+  if (!choice.integrators.empty()) inner.flags.push_back({"integrator", choice.integrators});
+  const bool others = !choice.fabrics.empty() || !choice.integrators.empty();
+  const std::string laws = !choice.laws.empty() || others ? choice.laws : last_of(inner, "law", kLaws);
+  if (!laws.empty()) inner.flags.push_back({"law", laws});
+  return inner;
+}
+
+LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::string& law) {
+  LawRequest request{law, fabric.virgin_curve(), {}};
+  for (const Flag& flag : line.flags)
+    if (flag.path == "param")
+      request.parameters[flag.text.substr(0, flag.text.find('='))] =
+          flag.text.substr(flag.text.find('=') + 1);
+  return request;
+}
+
+std::string exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+// Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
+// goes with it.
+std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, const std::string& to,
+                          const CompareChoice& choice, double& scale) {
+  scale = 1;
+  const Match match = match_named(choice.match);
+  if (match == Match::fabric) return {};
+  CommandLine line = inner;
+  line.flags.insert(line.flags.end(), variant.flags.begin(), variant.flags.end());
+  Setup setup{default_scene(), {}};
+  const std::string file = last_of(line, "scene", "");
+  if (!file.empty()) apply_scene_file(setup.scene, file, {});
+  std::vector<Flag> of_fabric;
+  for (const Flag& flag : line.flags)
+    if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
+  apply_flags(setup.scene, of_fabric);
+  const Fabric& fabric = setup.scene.fabric;
+  const std::string law = last_of(line, "law", setup.scene.law);
+  scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
+  return {{"fabric.b1", exactly(scale * fabric.b1)}, {"fabric.b2", exactly(scale * fabric.b2)}};
+}
+
+bool overrides(const std::vector<Flag>& later, const Flag& flag) {
+  return std::any_of(later.begin(), later.end(), [&](const Flag& f) {
+    const bool fabric = (f.path == "fabric" || f.path == "fabric.name") &&
+                        (flag.path == "fabric" || flag.path == "fabric.name");
+    return f.path == flag.path || fabric;
+  });
+}
+
+std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own,
+                                  const CompareChoice& choice) {
+  std::vector<std::string> words = {inner.experiment};
+  std::string look = last_of(inner, "look", "cloth");
+  if (!choice.no_outlines) look += ",silhouette";
+  std::vector<Flag> flags = inner.flags;
+  std::erase_if(flags, [&](const Flag& f) { return f.path == "look" || overrides(own, f); });
+  flags.insert(flags.end(), own.begin(), own.end());
+  flags.insert(flags.end(), {{"look", look}, {"plain", "true"}});
+  if (last_of(inner, "size", "").empty()) flags.push_back({"size", "840x630"});
+  for (const Flag& flag : flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return words;
+}
+
+struct Plan {
+  std::vector<ComparedColumn> columns;
+  std::vector<double> scales;
+  std::string reference;  // law that stiffness is matched to
+};
+
+Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::filesystem::path& out) {
+  Plan plan;
+  const std::vector<LawVariant> variants = variants_of(inner);
+  for (const LawVariant& variant : variants) {
+    const std::string law = last_of({"", "", variant.flags, {}}, "law", "");
+    if (plan.reference != "prandtl") plan.reference = law;
+  }
+  for (const LawVariant& variant : variants) {
+    double scale = 1;
+    std::vector<Flag> own = variant.flags;
+    for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
+    ComparedColumn column;
+    column.name = variant.name.empty() ? inner.experiment : variant.name;
+    column.words = words_of(inner, own, choice);
+    column.folder = out / column.name;
+    plan.columns.push_back(std::move(column));
+    plan.scales.push_back(scale);
+  }
+  return plan;
+}
+
+// "Swing: cotton-broad, bdf2": what all columns share.
+std::string title_of(const CommandLine& line, const std::vector<ComparedColumn>& columns) {
+  std::string title = line.names[0];
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  const auto shared = [&](const auto& read) {
+    std::string text;
+    for (const ComparedColumn& c : columns) {
+      if (!c.manifest.is_object()) continue;
+      const std::string own = read(c.manifest.at("scene"));
+      if (!text.empty() && own != text) return std::string();
+      text = own;
+    }
+    return text;
+  };
+  std::string what;
+  for (const std::string& text : {shared([](const Json& s) { return s.at("fabric").value("name", ""); }),
+                                  shared([](const Json& s) { return s.value("law", ""); }),
+                                  shared([](const Json& s) { return s.value("integrator", ""); })})
+    if (!text.empty()) what += (what.empty() ? ": " : ", ") + text;
+  return title + what;
+}
+
+void write_table(Run& run, const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> keys;
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object() && c.manifest.contains("metrics"))
+      for (const auto& [key, value] : c.manifest["metrics"].items())
+        if (value.is_number() && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
+  AtomicFile file(run.path("table.csv").string());
+  std::vector<std::string> head = {"column"};
+  head.insert(head.end(), keys.begin(), keys.end());
+  head.push_back("stopped");
+  file.stream() << row_of(head);
+  for (const ComparedColumn& c : columns) {
+    const Json metrics =
+        c.manifest.is_object() ? c.manifest.value("metrics", Json::object()) : Json::object();
+    std::vector<std::string> row = {c.name};
+    for (const std::string& key : keys) {
+      const bool known = metrics.contains(key) && metrics[key].is_number();
+      row.push_back(known ? number_field(metrics[key].get<double>()) : "");
+      if (known) run.metric(c.name + "." + key, metrics[key]);
+    }
+    row.push_back(c.stopped);
+    file.stream() << row_of(row);
+  }
+  file.commit();
+}
+
+std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
+  if (choice.match == "fabric")
+    return {"Each law makes of the same fabric what its own definition says (no stiffness matched)."};
+  char text[120];
+  if (choice.match == "energy")
+    std::snprintf(text, sizeof text, "Matched to %s: equal work to bend from flat to %g 1/m; b1, b2 times",
+                  plan.reference.c_str(), choice.match_curvature);
+  else
+    std::snprintf(text, sizeof text, "Matched to %s: equal stiffness at rest; b1, b2 times",
+                  plan.reference.c_str());
+  std::string note = text;
+  for (std::size_t c = 0; c < plan.columns.size(); ++c) {
+    std::snprintf(text, sizeof text, "%s %.3g (%s)", c ? "," : "", plan.scales[c],
+                  plan.columns[c].name.c_str());
+    note += text;
+  }
+  return {note};
+}
+
+}  // namespace
+
+std::vector<KeyDescription> compare_keys() {
+  CompareChoice choice;
+  std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
+  for (const auto& more : {drape_keys(), crease_keys(), fold_keys(), crumple_keys()})
+    keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+int compare(const CommandLine& line) {
+  if (line.names.size() != 1)
+    throw Error::request("needs what to compare: drape, swing, crease, fold, crumple or a scene");
+  CompareChoice choice;
+  Options options;
+  const Keys own = bind(kRows, choice), general = bind_options(options);
+  for (const Flag& flag : line.flags)
+    for (const Keys* keys : {&own, &general})
+      for (const BoundKey& key : *keys)
+        if (key.description.path == flag.path)
+          assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+  if (options.out.empty())
+    options.out = "out/compare-" + std::filesystem::path(line.names[0]).stem().string();
+
+  const CommandLine inner = line_of_columns(line, choice);
+  Plan plan = plan_of(inner, choice, options.out);
+  ColumnJobs jobs{choice.jobs, std::stoi(last_of(line, "threads", "0")), options.resume,
+                  last_of(inner, "device", "auto") != "cpu"};
+  Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
+  for (std::size_t c = 0; c < plan.columns.size(); ++c)
+    keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
+  Run run(line, options, keys);
+  run_columns(plan.columns, jobs, [&](const ComparedColumn& c) {
+    run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
+  });
+  write_table(run, plan.columns);
+  if (!options.no_images) {
+    const ComparedPage page{
+        title_of(line, plan.columns), notes_of(choice, plan), choice.rows, options.looks().front(), choice.to,
+        !choice.no_outlines,          choice.video,           options.fps};
+    const auto stage = run.stage("render");
+    draw_compared(run, page, plan.columns);
+    plot_compared(run, page.title, plan.columns);
+  }
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
+  return 0;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,265 @@
+#include "experiments/compared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "experiments/metric_name.h"
+#include "render/color_map.h"
+#include "render/compare.h"
+#include "render/comparison_sheet.h"
+#include "render/look.h"
+#include "render/plot.h"
+#include "render/process.h"
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kCellWidth = 420;  // [pixels]
+constexpr std::size_t kMostNumbers = 4;
+constexpr int kDifferenceScale = 64;  // 8-bit steps at the end of the difference's colours
+
+const Json& moments(const ComparedColumn& column) { return column.manifest.at("frames").at("moments"); }
+double second(const ComparedColumn& column, std::size_t frame) {
+  return moments(column).at(frame).at("s").get<double>();
+}
+bool has_frames(const ComparedColumn& column) {
+  return column.manifest.is_object() && column.manifest.contains("frames") && !moments(column).empty();
+}
+
+// The picture nearest to a time, the last one where the run had ended before.
+std::size_t frame_at(const ComparedColumn& column, double time) {
+  std::size_t nearest = 0;
+  for (std::size_t f = 0; f < moments(column).size(); ++f)
+    if (std::abs(second(column, f) - time) < std::abs(second(column, nearest) - time)) nearest = f;
+  return nearest;
+}
+
+// The first look's pictures stand in frames/.
+fs::path picture_of(const ComparedColumn& column, const std::string& look, std::size_t frame) {
+  const Json& looks = column.manifest.at("frames").at("looks");
+  const std::string folder = looks.begin().key() == look ? "frames" : "frames-" + look;
+  char name[16];
+  std::snprintf(name, sizeof name, "%04zu.png", frame);
+  return column.folder / folder / name;
+}
+
+// Of the column that went on longest, spread evenly; the first picture is the same in all columns.
+std::vector<double> times_of(const std::vector<ComparedColumn>& columns, int rows) {
+  const ComparedColumn* longest = nullptr;
+  for (const ComparedColumn& c : columns)
+    if (has_frames(c) &&
+        (!longest || second(c, moments(c).size() - 1) > second(*longest, moments(*longest).size() - 1)))
+      longest = &c;
+  std::vector<double> times;
+  if (!longest) return times;
+  const int last = static_cast<int>(moments(*longest).size()) - 1, count = std::min(rows, std::max(1, last));
+  for (int r = 1; r <= count; ++r)
+    times.push_back(second(*longest, static_cast<std::size_t>(std::lround(1.0 * r * last / count))));
+  return times;
+}
+
+std::string text_of(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string moment_text(const std::vector<ComparedColumn>& columns, double time) {
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c)) continue;
+    const Json& moment = moments(c).at(frame_at(c, time));
+    if (std::abs(moment.at("s").get<double>() - time) > 1e-9) continue;
+    const std::string phase = moment.value("phase", "");
+    return text_of("t = %.2f s", time) + (phase.empty() ? "" : ", " + phase);
+  }
+  return text_of("t = %.2f s", time);
+}
+
+struct Drawn {
+  const ComparedPage& page;
+  const std::vector<ComparedColumn>& columns;
+  std::vector<double> times;
+
+  render::ComparisonRow pictures(double time) const {
+    render::ComparisonRow row{moment_text(columns, time), {}};
+    for (const ComparedColumn& c : columns) {
+      row.cells.emplace_back();
+      if (!has_frames(c)) continue;
+      const std::size_t frame = frame_at(c, time);
+      row.cells.back().image = render::read_png(picture_of(c, page.look, frame));
+      if (time - second(c, frame) > 1e-9)
+        row.cells.back().caption =
+            text_of(c.stopped.empty() ? "at rest since %.2f s" : "stopped at %.2f s", second(c, frame));
+    }
+    return row;
+  }
+
+  std::size_t reference() const {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (columns[c].name == page.to) return c;
+    throw Error::request("no column is called " + page.to);
+  }
+
+  render::ComparisonRow differences(const render::ComparisonRow& row) const {
+    render::ComparisonRow result{row.label + ": difference to " + page.to, {}};
+    const render::Image& to = row.cells[reference()].image;
+    for (std::size_t c = 0; c < row.cells.size(); ++c) {
+      result.cells.emplace_back();
+      const render::Image& image = row.cells[c].image;
+      if (c == reference() || image.empty() || to.empty()) continue;
+      result.cells.back().image = render::heat_map(image, to, kDifferenceScale);
+      result.cells.back().caption = text_of("%.2f %% of the pixels differ by more than 8",
+                                            render::compare(image, to).pixels_over_8_percent);
+    }
+    return result;
+  }
+
+  render::ComparisonRow outlines() const {
+    render::ComparisonRow row{"outlines of all", {}};
+    for (double time : times) {
+      render::Image over;
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!has_frames(columns[c])) continue;
+        const render::Image shape =
+            render::read_png(picture_of(columns[c], "silhouette", frame_at(columns[c], time)));
+        if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
+        render::draw_outline(over, shape, render::method_color(c), std::max(1, shape.width() / 320));
+      }
+      row.cells.push_back({std::move(over), moment_text(columns, time)});
+    }
+    return row;
+  }
+};
+
+std::optional<render::ColorBar> bar_of(const std::vector<ComparedColumn>& columns, const std::string& look) {
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c)) continue;
+    const Json bar = c.manifest.at("frames").at("looks").value(look, Json());
+    if (!bar.is_object()) return {};
+    render::ColorBar result{render::look_named(look == "residual" ? "curvature" : look).map,
+                            bar.at("low").get<double>(), bar.at("high").get<double>(),
+                            bar.at("label").get<std::string>(), bar.at("unit").get<std::string>()};
+    return result;
+  }
+  return {};
+}
+
+render::ComparisonSheet head_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  render::ComparisonSheet sheet;
+  sheet.title = page.title;
+  sheet.notes = page.notes;
+  sheet.cell_width = kCellWidth;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    sheet.columns.push_back({columns[c].name, numbers_of(columns[c]), render::method_color(c)});
+  for (const ComparedColumn& c : columns)
+    if (has_frames(c)) sheet.metres_per_pixel = c.manifest.at("frames").at("m_per_pixel").get<double>();
+  sheet.scale_note = "at the cloth's middle";
+  return sheet;
+}
+
+// A strip a frame, and from them a film where ffmpeg is there.
+void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::size_t frames = 0;
+  for (const ComparedColumn& c : columns)
+    if (has_frames(c)) frames = std::max(frames, moments(c).size());
+  for (std::size_t f = 0; f < frames; ++f) {
+    render::ComparisonSheet strip;
+    strip.cell_width = kCellWidth;
+    strip.rows.emplace_back();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      strip.columns.push_back({columns[c].name, {}, render::method_color(c)});
+      strip.rows[0].cells.emplace_back();
+      if (!has_frames(columns[c])) continue;
+      const std::size_t last = moments(columns[c]).size() - 1;
+      strip.rows[0].cells[c].image = render::read_png(picture_of(columns[c], page.look, std::min(f, last)));
+      if (f <= last) strip.rows[0].label = moment_text({columns[c]}, second(columns[c], f));
+    }
+    char name[32];
+    std::snprintf(name, sizeof name, "film/%04zu.png", f);
+    render::write_png(run.path(name), render::draw_comparison(strip));
+  }
+  const fs::path file = run.path("film." + page.video);
+  std::vector<std::string> words = {"ffmpeg",     "-y",
+                                    "-loglevel",  "error",
+                                    "-framerate", text_of("%g", page.frames_per_second),
+                                    "-i",         (run.folder() / "film" / "%04d.png").string()};
+  if (page.video == "mp4")
+    words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
+  words.push_back(file.string());
+  const render::ProcessResult result = render::run_process(words, "");
+  if (!result.started || result.exit_code != 0)
+    run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
+}
+
+// What each experiment is asked for; then what any run has.
+constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",    "node_count",
+                                         "recovery_angle_deg",           "2HB_N",
+                                         "set_curvature_per_m",          "turns",
+                                         "bending_friction_J",           "ridge_length_m",
+                                         "residual_curvature_rms_per_m", "max_stretch_percent"};
+
+}  // namespace
+
+std::vector<std::string> numbers_of(const ComparedColumn& column) {
+  std::vector<std::string> lines;
+  if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
+  if (!column.manifest.is_object()) return lines;
+  const Json metrics = column.manifest.value("metrics", Json::object());
+  for (const char* key : kFirstNumbers)
+    if (metrics.contains(key) && metrics[key].is_number() && lines.size() < kMostNumbers)
+      lines.push_back(metric_text(key, metrics[key].get<double>()));
+  const Json seconds = column.manifest.value("wall_seconds", Json::object());
+  const Json steps = column.manifest.value("steps", Json());
+  double stepping = 0;
+  for (const char* stage : {"membrane", "bending", "solve", "contact", "history"})
+    if (seconds.is_object() && seconds.contains(stage) && seconds[stage].is_number())
+      stepping += seconds[stage].get<double>();
+  if (steps.is_number() && steps.get<double>() > 0)
+    lines.push_back(text_of("%.3g ms per step", 1e3 * stepping / steps.get<double>()));
+  return lines;
+}
+
+void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  const Drawn drawn{page, columns, times_of(columns, page.rows)};
+  if (drawn.times.empty()) throw Error::run("no column has a picture");
+  render::ComparisonSheet sheet = head_of(page, columns);
+  for (double time : drawn.times) {
+    sheet.rows.push_back(drawn.pictures(time));
+    if (!page.to.empty()) sheet.rows.push_back(drawn.differences(sheet.rows.back()));
+  }
+  if (page.outlines) sheet.more = {drawn.outlines()};
+  if (const auto bar = bar_of(columns, page.look)) sheet.bars.push_back(*bar);
+  if (!page.to.empty())
+    sheet.bars.push_back(
+        {render::ColorMap::sequential, 0, kDifferenceScale, "difference of pictures", "8-bit steps", 5});
+  render::write_png(run.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);
+  if (page.video != "none") film(run, page, columns);
+}
+
+void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> names;
+  for (const ComparedColumn& c : columns)
+    if (names.empty() && c.manifest.is_object() && c.manifest.contains("series"))
+      for (const Json& name : c.manifest["series"]) names.push_back(name.get<std::string>());
+  for (const std::string& name : names) {
+    const std::string word = name.substr(0, name.find(" ["));
+    render::Plot plot{title, {"time [s]"}, {name}};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (!columns[c].manifest.is_object() || !fs::exists(columns[c].folder / "metrics.csv")) continue;
+      render::Series series =
+          render::series_from_csv(columns[c].folder / "metrics.csv", "time", word, columns[c].name);
+      if (c >= render::kMethodColors) series.style = render::Series::Style::dashed;
+      plot.series.push_back(std::move(series));
+    }
+    std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
+    if (!plot.series.empty())
+      run.plot("plot_" + word, [&](const auto& base) { render::write_plot(base, plot); });
+  }
+}
+
+}  // namespace hysteron::experiments

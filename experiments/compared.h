@@ -1,0 +1,33 @@
+// What finished columns of a comparison show, on one page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/columns.h"
+#include "experiments/run.h"
+
+namespace hysteron::experiments {
+
+struct ComparedPage {
+  std::string title;
+  std::vector<std::string> notes;
+  int rows = 4;              // moments
+  std::string look;          // of the pictures
+  std::string to;            // name of the column that others differ from; empty: no differences
+  bool outlines = true;      // of all columns, over each other
+  std::string video;         // none | mp4 | gif
+  double frames_per_second;  // of the video
+};
+
+// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
+// video where they are asked for.
+void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+
+// The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
+std::vector<std::string> numbers_of(const ComparedColumn& column);
+
+// Each of the experiment's own columns of metrics.csv against time, a line a column of the page.
+void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns);
+
+}  // namespace hysteron::experiments

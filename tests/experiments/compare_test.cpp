@@ -1,0 +1,123 @@
+// Methods side by side: what is made equal, what stands on the page, what is not run again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/matching.h"
+#include "render/color_map.h"
+#include "render/comparison_sheet.h"
+#include "sim/error.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const VirginCurve kCurve{2e-5, 5e-6, 40};  // b1, b2 [N m], k0 [1/m]
+
+LawRequest law_called(const std::string& name) { return {name, kCurve, {}}; }
+
+// Virgin curve: moment b1 K - (b1 - b2) K^2/(2 k0) to k0, then M0 + b2 K.
+TEST(Matching, OfEnergyGivesEqualWorkToTheCurvature) {
+  const double k = 100, m0 = (kCurve.b1 - kCurve.b2) * kCurve.k0 / 2;
+  const double work =
+      kCurve.b2 * k * k / 2 + m0 * (k - kCurve.k0) + (kCurve.b1 - kCurve.b2) * kCurve.k0 * kCurve.k0 / 3;
+  EXPECT_NEAR(bending_work(law_called("prandtl"), k) / work, 1, 1e-5);
+  const double scale = matching_scale(law_called("linear"), law_called("prandtl"), Match::energy, k);
+  EXPECT_NEAR(scale / (work / (kCurve.b2 * k * k / 2)), 1, 1e-5);
+  LawRequest stiffer = law_called("linear");
+  stiffer.curve.b1 *= scale;
+  stiffer.curve.b2 *= scale;
+  EXPECT_NEAR(bending_work(stiffer, k) / bending_work(law_called("prandtl"), k), 1, 1e-8);
+}
+
+TEST(Matching, OfSmallStrainGivesTheInitialSlope) {
+  EXPECT_NEAR(matching_scale(law_called("linear"), law_called("prandtl"), Match::small_strain, 1),
+              kCurve.b1 / kCurve.b2, 1e-4);
+  EXPECT_EQ(matching_scale(law_called("linear"), law_called("prandtl"), Match::fabric, 1), 1);
+  EXPECT_THROW(match_named("stiffness"), Error);
+}
+
+TEST(ComparisonSheet, WantsACellForEachColumn) {
+  render::ComparisonSheet sheet;
+  EXPECT_THROW(render::draw_comparison(sheet), Error);
+  sheet.columns = {{"a", {}}, {"b", {}}};
+  sheet.rows = {{"t = 1 s", {{render::Image(64, 48, render::Rgb8{9, 9, 9}), ""}}}};
+  EXPECT_THROW(render::draw_comparison(sheet), Error);
+}
+
+// A name, however long, stays in its column.
+TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
+  render::ComparisonSheet sheet;
+  sheet.cell_width = 200;
+  sheet.columns = {{std::string(300, 'W'), {std::string(300, 'M')}}, {"", {}}};
+  const render::Image page = render::draw_comparison(sheet);
+  const int right = page.width() - sheet.cell_width;
+  for (int y = 0; y < page.height(); ++y)
+    for (int x = right + sheet.cell_width / 10; x < page.width(); ++x)
+      EXPECT_EQ(page.at(x, y)[0] < 100, false);
+}
+
+TEST(Outline, IsTheEdgeOfTheSilhouetteOnly) {
+  render::Image shape(100, 100, render::Rgb8{255, 255, 255}), target = shape;
+  render::draw_rectangle(shape, 20, 30, 60, 70, {0, 0, 0});
+  const render::Rgb8 color = render::method_color(1);
+  render::draw_outline(target, shape, color, 1);
+  int colored = 0;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) colored += target.at(x, y)[1] == color[1];
+  EXPECT_EQ(colored, 4 * 40 - 4);
+  EXPECT_THROW(render::draw_outline(target, render::Image(10, 10), color, 1), Error);
+}
+
+const char* const kSmall =
+    " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quiet";
+
+TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  const std::string line = "compare swing --laws linear,prandtl --out " + out + kSmall;
+  ASSERT_EQ(program(line).exit_code, 0);
+  for (const char* name :
+       {"sheet.png", "table.csv", "plot_tip_height.png", "report.html", "linear/manifest.json",
+        "prandtl/frames/0003.png", "prandtl/frames-silhouette/0003.png"})
+    EXPECT_TRUE(fs::exists(fs::path(out) / name)) << name;
+  const auto metrics = nlohmann::json::parse(text_of(fs::path(out) / "manifest.json"))["metrics"];
+  EXPECT_EQ(metrics["linear.bending_friction_J"].get<double>(), 0);
+  EXPECT_GT(metrics["prandtl.bending_friction_J"].get<double>(), 0);
+
+  const auto first = fs::last_write_time(fs::path(out) / "linear/manifest.json");
+  ASSERT_EQ(program(line + " --resume").exit_code, 0);
+  EXPECT_EQ(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
+  ASSERT_EQ(program(line + " --resume --fabric wool-tropical").exit_code, 0);
+  EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
+}
+
+TEST(Compare, NamesTheColumnThatIsWrong) {
+  const Folder folder;
+  const std::string out = " --out " + (folder.path() / "out").string() + kSmall;
+  EXPECT_NE(program("compare swing --laws linear,prandle" + out).err.find("prandle"), std::string::npos);
+  EXPECT_EQ(program("compare swing --laws linear,prandle" + out).exit_code, 2);
+  EXPECT_EQ(program("compare" + out).exit_code, 2);
+  EXPECT_EQ(program("compare swing --laws linear --compare.to narain" + out).exit_code, 2);
+}
+
+TEST(Compare, StatesTheStiffnessThatItMatched) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.match small-strain --out " + out + kSmall)
+                .exit_code,
+            0);
+  const auto page = nlohmann::json::parse(text_of(fs::path(out) / "manifest.json"))["scene"]["columns"];
+  const auto fabric =
+      nlohmann::json::parse(text_of(fs::path(out) / "linear/manifest.json"))["scene"]["fabric"];
+  const auto other =
+      nlohmann::json::parse(text_of(fs::path(out) / "prandtl/manifest.json"))["scene"]["fabric"];
+  EXPECT_GT(page[0]["stiffness_times"].get<double>(), 1.5);
+  EXPECT_NEAR(fabric["b2"].get<double>() / other["b1"].get<double>(), 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
