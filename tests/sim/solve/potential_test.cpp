@@ -64,7 +64,7 @@ struct Step {
     return s;
   }
 
-  Step(const std::string& law, const std::string& element, double friction = 0.3)
+  Step(const std::string& law, const std::string& element, double friction = 0.3, bool bending_lags = false)
       : trial(scene(law, element, friction)),
         op(make_curvature_operator(element, trial.cloth.mesh, trial.cloth.held(trial.scene, 0))),
         held(trial.cloth.held(trial.scene, 0)),
@@ -76,7 +76,7 @@ struct Step {
                 ForceConvention::energy, trial.scene.fabric.damping * trial.scene.fabric.b1),
         contact(cpu, trial.cloth.mesh, trial.scene),
         mass(cpu, masses()),
-        potential(cpu, rows, membrane, bending, &contact, nullptr, mass, false),
+        potential(cpu, rows, membrane, bending, &contact, nullptr, mass, bending_lags),
         reference(trial.cloth.mesh.rest),
         predicted(trial.cloth.mesh.rest) {
     contact.move(0, 0);
@@ -141,8 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, OfACloth,
                                          Case{"kim", "shape"}, Case{"terzopoulos", "hinge"}),
                          [](const auto& c) { return c.param.law + "_" + c.param.element; });
 
-TEST_P(OfACloth, GradientIsTheDerivativeOfThePotentialToSecondOrder) {
-  Step step(GetParam().law, GetParam().element);
+void expect_gradient_of_second_order(Step& step) {
   step.give_it_a_past();
   step.begin();
   const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
@@ -156,6 +155,17 @@ TEST_P(OfACloth, GradientIsTheDerivativeOfThePotentialToSecondOrder) {
   };
   const double coarse = error(2e-5), fine = error(5e-6);
   EXPECT_GT(std::log(coarse / fine) / std::log(4), 1.7);
+}
+
+TEST_P(OfACloth, GradientIsTheDerivativeOfThePotentialToSecondOrder) {
+  Step step(GetParam().law, GetParam().element);
+  expect_gradient_of_second_order(step);
+}
+
+// Bending is then a given force, which a past has left.
+TEST_P(OfACloth, GradientIsThePotentialsWhereBendingLags) {
+  Step step(GetParam().law, GetParam().element, 0.3, true);
+  expect_gradient_of_second_order(step);
 }
 
 // Without stress the Gauss-Newton stiffness is the whole Hessian.
