@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/run.h"
+#include "render/caption.h"
 #include "render/cloth_view.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
@@ -13,11 +15,6 @@
 #include "sim/solve/simulation.h"
 
 namespace hysteron::experiments {
-
-// A scalar per vertex from the elements' curvature [1/m]: its trace (the sum of both principal curvatures).
-std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double>& element, int dimension);
-// The same average of one number per element.
-std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>& element, int dimension);
 
 class Pictures {
  public:
@@ -46,6 +43,7 @@ class Pictures {
  private:
   void show(render::ClothView& view, const std::string& look_name);
   render::Look look_of(const std::string& name) const;
+  std::optional<render::ColorBar> color_bar(const std::string& look) const;
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
 
