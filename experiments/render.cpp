@@ -205,6 +205,7 @@ render::Box framed(const F& flags, const render::Box& whole) {
 
 std::string joined_names(const std::vector<Column>& columns) {
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const Column& column : columns) names.push_back(column.name());
   return join(names, " | ");
 }

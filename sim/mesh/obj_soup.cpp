@@ -176,6 +176,7 @@ std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vect
     }
   }
   std::vector<Eigen::Vector2d> texture;
+  texture.reserve(vertices);
   for (const Uv& at : known) texture.push_back(at.value_or(Eigen::Vector2d::Zero()));
   return texture;
 }
