@@ -8,6 +8,7 @@
 #include "experiments/law_page.h"
 #include "experiments/session.h"
 #include "experiments/wrinkles.h"
+#include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -58,8 +59,8 @@ Wrinkles wrinkles_of(Session& session, const C& choice) {
   double edges = 0;
   for (const Edge& e : mesh.edge) edges += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
   const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
-  return {ridge_length(mesh, unrolled(mesh, session.scene().cloth), vertex_average(session.cloth(), size, d),
-                       choice.ridge, spacing),
+  return {ridge_length(mesh, unrolled(mesh, session.scene().cloth),
+                       vertex_average(session.cloth().mesh, size, d), choice.ridge, spacing),
           root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
 }
 

@@ -64,6 +64,7 @@ int figures(const CommandLine& line);
 int law(const CommandLine& line);
 int fit(const CommandLine& line);
 int list(const CommandLine& line);
+int render_files(const CommandLine& line);
 int report(const CommandLine& line);
 int stability(const CommandLine& line);
 int validate(const CommandLine& line);
@@ -81,6 +82,7 @@ std::vector<KeyDescription> fit_keys();
 std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();
 std::vector<KeyDescription> figures_keys();
+std::vector<KeyDescription> render_keys();
 std::vector<KeyDescription> stability_keys();
 std::vector<KeyDescription> validate_keys();
 

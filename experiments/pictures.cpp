@@ -3,9 +3,10 @@
 #include <chrono>
 #include <cstdio>
 
+#include "experiments/drawing.h"
 #include "experiments/wrinkles.h"
-#include "render/caption.h"
 #include "render/shapes.h"
+#include "sim/bending/vertex_curvature.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
@@ -13,20 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;                      // pictures on the contact sheet
-constexpr int kThumbnailWidth = 640;                 // kept in memory until then [pixels]
-constexpr double kCurvatureRange = 2;                // colours span this many K0 on either side
-constexpr double kResidualRange = 1;                 // the same for residual curvature
-const Eigen::Vector3f kRaking{0.94f, 0.22f, 0.25f};  // light from the left, a little from the front and above
-constexpr float kRakingRoom = 0.35f;                 // in a dim room
-
-std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<float> xyz;
-  xyz.reserve(3 * points.size());
-  for (const auto& p : points)
-    for (int k = 0; k < 3; ++k) xyz.push_back(static_cast<float>(p[k]));
-  return xyz;
-}
+constexpr int kSheetCells = 12;        // pictures on the contact sheet
+constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
+constexpr double kResidualRange = 1;   // the same for residual curvature
 
 std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<float> uv;
@@ -62,34 +52,6 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
 
 }  // namespace
 
-std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>& element, int dimension) {
-  const ClothMesh& mesh = cloth.mesh;
-  std::vector<float> sum(mesh.vertices(), 0), weight(mesh.vertices(), 0);
-  const auto add = [&](int vertex, double value, double area) {
-    sum[vertex] += static_cast<float>(area * value);
-    weight[vertex] += static_cast<float>(area);
-  };
-  for (std::size_t e = 0; e < element.size(); ++e) {
-    if (dimension == 3) {
-      for (int k = 0; k < 3; ++k) add(mesh.face[e][k], element[e], mesh.face_area[e]);
-    } else {
-      const Edge& edge = mesh.edge[e];
-      const double area = mesh.face_area[edge.face0] + mesh.face_area[edge.face1];
-      for (int vertex : {edge.p2, edge.p3}) add(vertex, element[e], area);
-    }
-  }
-  for (std::size_t i = 0; i < sum.size(); ++i)
-    if (weight[i] > 0) sum[i] /= weight[i];
-  return sum;
-}
-
-std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double>& element, int dimension) {
-  if (dimension == 1) return vertex_average(cloth, element, 1);
-  std::vector<double> trace(element.size() / 3);
-  for (std::size_t f = 0; f < trace.size(); ++f) trace[f] = element[3 * f] + element[3 * f + 1];
-  return vertex_average(cloth, trace, 3);
-}
-
 Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
                    std::optional<float> floor)
     : scene_(setup.scene),
@@ -101,8 +63,7 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
                                            simulation.cuda_device())) {
   view_ = std::make_unique<render::ClothView>(*offscreen_,
                                               render::PictureSize{options_.width(), options_.height()});
-  std::vector<int> triangles;
-  for (const auto& t : cloth.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
+  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
   const std::vector<float> pattern = pattern_of(cloth.mesh, setup.scene.cloth);
   view_->set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
   for (const Obstacle& o : scene_.obstacle) {
@@ -116,11 +77,7 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
       simulation.share_positions(view_->position_buffer(), offscreen_->cuda_device(), why_host_));
 }
 
-render::Camera Pictures::camera() const {
-  const float aspect = static_cast<float>(options_.width()) / static_cast<float>(options_.height());
-  return render::Camera::framing(bounds_, options_.camera_direction.cast<float>(),
-                                 static_cast<float>(options_.camera_fov), aspect);
-}
+render::Camera Pictures::camera() const { return camera_of(options_, bounds_); }
 
 // The look with its light and the ends of its colour map.  `residual` is the map of curvatures.
 render::Look Pictures::look_of(const std::string& name) const {
@@ -133,26 +90,20 @@ render::Look Pictures::look_of(const std::string& name) const {
     look.value_low = 0;
     look.value_high = 1;
   }
-  if (options_.light == "raking") {
-    const Eigen::Vector3f back = options_.camera_direction.cast<float>().normalized();
-    const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();
-    look.room = kRakingRoom;
-    look.to_light = kRaking.x() * left + kRaking.y() * back + kRaking.z() * Eigen::Vector3f::UnitZ();
-  }
-  return look;
+  return lit(look, options_);
 }
 
 void Pictures::show(render::ClothView& view, const std::string& look_name) {
   const render::Look look = look_of(look_name);
   if (look.show == render::Show::curvature) {
     view.set_values(vertex_curvature(
-        cloth_, look_name == "residual" ? simulation_.residual_curvature() : simulation_.curvature(),
+        cloth_.mesh, look_name == "residual" ? simulation_.residual_curvature() : simulation_.curvature(),
         simulation_.dimension()));
   } else if (look.show == render::Show::friction) {
-    view.set_values(vertex_average(cloth_, simulation_.friction_share(), simulation_.dimension()));
+    view.set_values(vertex_average(cloth_.mesh, simulation_.friction_share(), simulation_.dimension()));
   }
   view.set_look(look);
-  if (!view.write_positions(why_host_)) view.set_positions(flat(simulation_.positions()));
+  if (!view.write_positions(why_host_)) view.set_positions(flat_points(simulation_.positions()));
 }
 
 std::string Pictures::when(double time) const {
@@ -191,18 +142,10 @@ std::optional<render::ColorBar> Pictures::color_bar(const std::string& look_name
   return {};
 }
 
-void Pictures::letter(render::Image& image, const std::string& look, const render::Camera& camera,
-                      const std::string& text) const {
-  render::draw_caption(image, text, render::Corner::top_left);
-  render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
-                         render::Corner::bottom_left, "at the cloth's middle");
-  if (const auto bar = color_bar(look)) render::draw_color_bar(image, *bar, render::Corner::bottom_right);
-}
-
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
   render::Image image = drawn(look, camera);
-  letter(image, look, camera, text);
+  letter(image, camera, bounds_.center(), text, color_bar(look));
   return image;
 }
 
@@ -224,14 +167,11 @@ void Pictures::frame(Run& run) {
   const std::vector<std::string> looks = options_.looks();
   for (std::size_t i = 0; i < looks.size(); ++i) {
     render::Image image = drawn(looks[i], camera());
-    if (!options_.plain) letter(image, looks[i], camera(), caption(simulation_.time()));
+    if (!options_.plain)
+      letter(image, camera(), bounds_.center(), caption(simulation_.time()), color_bar(looks[i]));
     char name[32];
     std::snprintf(name, sizeof name, "/%04d.png", frames_);
-    const int width = std::min(kThumbnailWidth, image.width());
-    if (i == 0)
-      thumbnails_.push_back(
-          {render::shrink(image, width, std::max(1, image.height() * width / image.width())),
-           when(simulation_.time())});
+    if (i == 0) thumbnails_.push_back({thumbnail(image), when(simulation_.time())});
     writer_.write(run.path((i == 0 ? "frames" : "frames-" + looks[i]) + name), std::move(image));
   }
   ++frames_;
@@ -240,8 +180,7 @@ void Pictures::frame(Run& run) {
 
 render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {
   render::ClothView view(*offscreen_, {pixels, pixels});
-  std::vector<int> triangles;
-  for (const auto& t : cloth_.mesh.face) triangles.insert(triangles.end(), {t[0], t[1], t[2]});
+  const std::vector<int> triangles = flat_triangles(cloth_.mesh.face);
   view.set_cloth({static_cast<size_t>(cloth_.mesh.vertices()), triangles, {}});
   show(view, "silhouette");
   const float r = static_cast<float>(half_width);

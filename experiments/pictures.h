@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,6 @@
 #include "sim/solve/simulation.h"
 
 namespace hysteron::experiments {
-
-// A scalar per vertex from the elements' curvature [1/m]: its trace (the sum of both principal curvatures).
-std::vector<float> vertex_curvature(const Cloth& cloth, const std::vector<double>& element, int dimension);
-// The same average of one number per element.
-std::vector<float> vertex_average(const Cloth& cloth, const std::vector<double>& element, int dimension);
 
 class Pictures {
  public:
@@ -48,11 +44,9 @@ class Pictures {
  private:
   void show(render::ClothView& view, const std::string& look_name);
   render::Image drawn(const std::string& look, const render::Camera& camera);  // without letters
-  void letter(render::Image& image, const std::string& look, const render::Camera& camera,
-              const std::string& text) const;
   void note_frame(Run& run);
-  std::optional<render::ColorBar> color_bar(const std::string& look) const;
   render::Look look_of(const std::string& name) const;
+  std::optional<render::ColorBar> color_bar(const std::string& look) const;
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
 

@@ -8,6 +8,7 @@
 #include "experiments/report.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/recovery.h"
+#include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/intersections.h"
 
 namespace hysteron::experiments {
@@ -139,7 +140,8 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
   if (format == "obj") {
     write_obj(file, cloth_.mesh, x);
   } else {
-    const std::vector<float> k = vertex_curvature(cloth_, simulation_->curvature(), simulation_->dimension());
+    const std::vector<float> k =
+        vertex_curvature(cloth_.mesh, simulation_->curvature(), simulation_->dimension());
     write_ply(file, cloth_.mesh, x, {k.begin(), k.end()});
   }
 }

@@ -1,0 +1,28 @@
+// Curvature at the vertices, as pictures show it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// Average of one number per element over the elements at each vertex, weighted by their areas.  `dimension`:
+// of the elements' curvature, 1: hinges, 3: faces.
+std::vector<float> vertex_average(const ClothMesh& mesh, const std::vector<double>& element, int dimension);
+// A scalar per vertex from the elements' curvature [1/m], `dimension` components each: its trace (the sum of
+// both principal curvatures).
+std::vector<float> vertex_curvature(const ClothMesh& mesh, const std::vector<double>& element, int dimension);
+
+// The same of a surface whose shape at rest is unknown, taken as flat: the traces of the `shape` element
+// (curvature_operator.h) with the lengths that the surface has now.  Unfolding neighbouring faces into a
+// plane needs no rest shape, and cloth hardly stretches, so that this is what a run shows of the same
+// positions; like there, faces at a free edge carry no curvature across it.  1/R on a cylinder, 2/R on a
+// sphere, positive where the front side is concave.  `what` names the surface in messages. Throws
+// Error::request for what build_topology refuses.
+std::vector<float> surface_curvature(const std::vector<Eigen::Vector3d>& position,
+                                     const std::vector<Eigen::Vector3i>& face, const std::string& what);
+
+}  // namespace hysteron

@@ -1,0 +1,184 @@
+// tinyobjloader resolves faces, groups and relative indices; it reads a malformed number as 0 and may round
+// the last bit, so that the vertices' numbers are read, and refused, here.
+#include "sim/mesh/obj_soup.h"
+
+#include <tiny_obj_loader.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "sim/error.h"
+#include "sim/mesh/mesh_text.h"
+#include "sim/mesh/quad.h"
+
+namespace hysteron {
+namespace {
+
+// The file's own vertices, and the lines on which vertices and faces stand.
+struct Lines {
+  std::vector<Eigen::Vector3d> vertex;
+  std::vector<int> vertex_line, face_line;
+};
+
+Error bad_line(const std::string& what, int line, const std::string& problem) {
+  return Error::request(what + ": line " + std::to_string(line) + ": " + problem);
+}
+
+std::vector<std::string_view> words(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t";
+  std::vector<std::string_view> found;
+  for (std::size_t at = line.find_first_not_of(kBlanks); at != line.npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlanks, at), line.size());
+    found.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kBlanks, end);
+  }
+  return found;
+}
+
+double finite_number(std::string_view word, const std::string& what, int line) {
+  double value = 0;
+  const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (code != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw bad_line(what, line, "coordinate \"" + std::string(word) + "\" must be a finite number");
+  return value;
+}
+
+void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
+  if (word.empty()) return;
+  if (word[0] == "v") {
+    if (word.size() < 4) throw bad_line(what, line, "a vertex needs three coordinates");
+    lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
+                              finite_number(word[3], what, line));
+    lines.vertex_line.push_back(line);
+  } else if (word[0] == "vt") {
+    if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
+    for (int i = 1; i <= 2; ++i) finite_number(word[i], what, line);
+  } else if (word[0] == "f") {
+    if (word.size() != 4 && word.size() != 5)
+      throw bad_line(what, line,
+                     "a face of " + std::to_string(word.size() - 1) +
+                         " corners; allowed are triangles and quads, triangulate the mesh first");
+    lines.face_line.push_back(line);
+  }
+}
+
+Lines scan(const std::string& text, const std::string& what) {
+  Lines lines;
+  int number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    scan_line(words(std::string_view(text).substr(at, end - at)), what, ++number, lines);
+    at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+  }
+  return lines;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+// Faces of three or four corners in the file's order, which the loader keeps.
+class Faces {
+ public:
+  Faces(const std::string& text, const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
+    std::vector<tinyobj::shape_t> shapes;
+    std::vector<tinyobj::material_t> materials;
+    std::string warning, error;
+    std::istringstream in(text);
+    if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
+      throw Error::request(what + ": " + one_line(error));
+    for (const auto& shape : shapes) {
+      auto corner = shape.mesh.indices.begin();
+      for (const int corners : shape.mesh.num_face_vertices) {
+        add_face({corner, corner + corners});
+        corner += corners;
+      }
+    }
+  }
+
+  ObjSoup take_soup() { return std::move(soup_); }
+
+ private:
+  void add_face(const std::vector<tinyobj::index_t>& corner) {
+    const int line = lines_.face_line.at(faces_++);
+    for (const auto& c : corner) check_index(c.vertex_index, lines_.vertex.size(), "vertex", line);
+    if (corner.size() == 3) return add_triangle(corner[0], corner[1], corner[2], line);
+    const auto at = [&](int i) { return lines_.vertex[corner[i].vertex_index]; };
+    if (is_cut_from_first(at(0), at(1), at(2), at(3))) {
+      add_triangle(corner[0], corner[1], corner[2], line);
+      add_triangle(corner[0], corner[2], corner[3], line);
+    } else {
+      add_triangle(corner[0], corner[1], corner[3], line);
+      add_triangle(corner[1], corner[2], corner[3], line);
+    }
+  }
+
+  void add_triangle(const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c,
+                    int line) {
+    soup_.face.emplace_back(a.vertex_index, b.vertex_index, c.vertex_index);
+    soup_.uv.push_back({uv(a, line), uv(b, line), uv(c, line)});
+    soup_.face_line.push_back(line);
+  }
+
+  Uv uv(const tinyobj::index_t& corner, int line) const {
+    if (corner.texcoord_index == -1) return {};
+    check_index(corner.texcoord_index, attributes_.texcoords.size() / 2, "texture coordinate", line);
+    return Eigen::Vector2d(attributes_.texcoords[2 * corner.texcoord_index],
+                           attributes_.texcoords[2 * corner.texcoord_index + 1]);
+  }
+
+  void check_index(int index, std::size_t count, const std::string& of, int line) const {
+    if (index >= 0 && index < static_cast<int>(count)) return;
+    const std::string which =
+        index < 0 ? "a " + of + " before the first" : of + " " + std::to_string(index + 1);
+    throw bad_line(what_, line, "the face uses " + which + "; the file has " + std::to_string(count));
+  }
+
+  const std::string& what_;
+  const Lines& lines_;
+  tinyobj::attrib_t attributes_;
+  ObjSoup soup_;
+  std::size_t faces_ = 0;
+};
+
+}  // namespace
+
+ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
+  const std::string text = read_mesh_text(file);
+  Lines lines = scan(text, what);
+  ObjSoup soup = Faces(text, what, lines).take_soup();
+  soup.vertex = std::move(lines.vertex);
+  soup.vertex_line = std::move(lines.vertex_line);
+  return soup;
+}
+
+bool has_texture(const ObjSoup& soup) {
+  for (const auto& corners : soup.uv)
+    for (const Uv& at : corners)
+      if (!at) return false;
+  return true;
+}
+
+std::vector<Eigen::Vector2d> vertex_texture(const ObjSoup& soup, const std::vector<Eigen::Vector3i>& face,
+                                            std::size_t vertices) {
+  std::vector<Uv> known(vertices);
+  for (std::size_t f = 0; f < face.size(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      Uv& at = known[face[f][i]];
+      if (at && *at != *soup.uv[f][i]) return {};
+      at = soup.uv[f][i];
+    }
+  }
+  std::vector<Eigen::Vector2d> texture;
+  texture.reserve(vertices);
+  for (const Uv& at : known) texture.push_back(at.value_or(Eigen::Vector2d::Zero()));
+  return texture;
+}
+
+}  // namespace hysteron

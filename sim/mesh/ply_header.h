@@ -1,0 +1,54 @@
+// What a PLY file announces, and whether it can hold it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hysteron {
+
+struct PlyProperty {
+  std::string name, type;
+  std::string count_type;  // of a list; empty: a single number
+  bool is_list() const { return !count_type.empty(); }
+  bool is_real() const {
+    return !is_list() && (type == "float" || type == "float32" || type == "double" || type == "float64");
+  }
+  bool is_list_of_indices() const {
+    return is_list() && (type == "int" || type == "int32" || type == "uint" || type == "uint32");
+  }
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  int line = 0;  // of the file
+  std::vector<PlyProperty> property;
+
+  // Null if there is none of that name.
+  const PlyProperty* find(std::string_view property_name) const {
+    for (const PlyProperty& p : property)
+      if (p.name == property_name) return &p;
+    return nullptr;
+  }
+};
+
+struct PlyHeader {
+  bool ascii = false;
+  std::vector<PlyElement> element;
+  std::size_t bytes = 0;  // of the header itself
+
+  // Elements are named in singular or plural.
+  const PlyElement* find(std::string_view one_name, std::string_view other_name) const {
+    for (const PlyElement& e : element)
+      if (e.name == one_name || e.name == other_name) return &e;
+    return nullptr;
+  }
+};
+
+// Throws Error::request, beginning with `what` and naming the line, unless `text` starts with a header whose
+// types are PLY's own and is long enough for the elements it announces.
+PlyHeader read_ply_header(std::string_view text, const std::string& what);
+
+}  // namespace hysteron

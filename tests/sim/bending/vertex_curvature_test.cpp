@@ -1,0 +1,157 @@
+// Curvature of surfaces without a shape at rest, against the shapes that have a formula.
+#include "sim/bending/vertex_curvature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "sim/bending/curvature_operator.h"
+#include "sim/error.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr MeshFamily kFamilies[] = {MeshFamily::aligned,   MeshFamily::aligned45,   MeshFamily::flipped,
+                                    MeshFamily::unionjack, MeshFamily::equilateral, MeshFamily::random};
+constexpr double kRadius = 0.03;  // [m]
+// Edges of 1.6 to 2.2 mm: the error is below (edge/R)^2/4 of the curvature and falls with the edge squared.
+constexpr double kCoarse = 6.5e-4;
+constexpr double kOrder = 0.25;  // random meshes are not refinements of each other
+
+// A sheet of 60 x 40 mm rolled around an axis along y below it or, with a positive sign, above it.
+std::vector<Vector3d> rolled(const ClothMesh& flat, double radius) {
+  std::vector<Vector3d> x;
+  for (const Vector3d& p : flat.rest)
+    x.emplace_back(radius * std::sin(p.x() / radius), p.y(), radius * (1 - std::cos(p.x() / radius)));
+  return x;
+}
+
+// A disc laid over a sphere that touches it from above: distances from the middle are kept.
+std::vector<Vector3d> over_a_sphere(const ClothMesh& disc, double radius) {
+  std::vector<Vector3d> x;
+  for (const Vector3d& p : disc.rest) {
+    const double r = std::hypot(p.x(), p.y()), a = r / radius;
+    const double across = r > 0 ? radius * std::sin(a) / r : 1;
+    x.emplace_back(across * p.x(), across * p.y(), radius * (1 - std::cos(a)));
+  }
+  return x;
+}
+
+// Vertices whose triangles have no free edge, which would carry no curvature across it.
+std::set<int> inner_vertices(const ClothMesh& mesh) {
+  std::set<int> inner;
+  for (int v = 0; v < mesh.vertices(); ++v) inner.insert(v);
+  for (int f = 0; f < mesh.faces(); ++f)
+    for (const int e : mesh.face_edge[f])
+      if (e >= mesh.interior_edges)
+        for (const int v : mesh.face[f]) inner.erase(v);
+  return inner;
+}
+
+// Largest error of the curvature over the inner vertices, relative to `expected`.
+double error_of(const ClothMesh& mesh, const std::vector<Vector3d>& x, double expected) {
+  const std::vector<float> k = surface_curvature(x, mesh.face, "test");
+  double worst = 0;
+  for (const int v : inner_vertices(mesh)) worst = std::max(worst, std::abs(k[v] / expected - 1));
+  return worst;
+}
+
+ClothMesh sheet(MeshFamily family, int triangles) { return make_rectangle(0.06, 0.04, triangles, family, 3); }
+
+class EveryFamily : public testing::TestWithParam<MeshFamily> {};
+INSTANTIATE_TEST_SUITE_P(SurfaceCurvature, EveryFamily, testing::ValuesIn(kFamilies),
+                         [](const auto& info) { return "n" + std::to_string(info.index); });
+
+TEST_P(EveryFamily, OfAPlaneIsZeroHoweverItLies) {
+  const ClothMesh mesh = sheet(GetParam(), 400);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Vector3d> x;
+  for (const Vector3d& p : mesh.rest) x.push_back(turn * p + Vector3d(1, 2, 3));
+  // Rounding of coordinates of some metres over triangles of millimetres.
+  for (const float k : surface_curvature(x, mesh.face, "plane")) EXPECT_NEAR(k, 0, 1e-7);
+}
+
+TEST_P(EveryFamily, OfACylinderIsItsReciprocalRadius) {
+  const ClothMesh coarse = sheet(GetParam(), 1000), fine = sheet(GetParam(), 16000);
+  const double e1 = error_of(coarse, rolled(coarse, kRadius), 1 / kRadius),
+               e2 = error_of(fine, rolled(fine, kRadius), 1 / kRadius);
+  EXPECT_LT(e1, kCoarse);
+  EXPECT_NEAR(std::log(e1 / e2) / std::log(4.0), 2, kOrder) << e1 << " then " << e2;
+}
+
+TEST_P(EveryFamily, OfASphereIsTwiceItsReciprocalRadius) {
+  const ClothMesh coarse = make_disc(0.02, 1000, GetParam(), 3), fine = make_disc(0.02, 16000, GetParam(), 3);
+  const double e1 = error_of(coarse, over_a_sphere(coarse, kRadius), 2 / kRadius),
+               e2 = error_of(fine, over_a_sphere(fine, kRadius), 2 / kRadius);
+  EXPECT_LT(e1, kCoarse);
+  EXPECT_NEAR(std::log(e1 / e2) / std::log(4.0), 2, kOrder) << e1 << " then " << e2;
+}
+
+TEST_P(EveryFamily, ChangesItsSignWithTheOrientation) {
+  const ClothMesh mesh = sheet(GetParam(), 400);
+  const std::vector<Vector3d> x = rolled(mesh, kRadius);
+  std::vector<Eigen::Vector3i> turned;
+  for (const Eigen::Vector3i& f : mesh.face) turned.emplace_back(f[0], f[2], f[1]);
+  const std::vector<float> front = surface_curvature(x, mesh.face, "front"),
+                           back = surface_curvature(x, turned, "back");
+  for (const int v : inner_vertices(mesh)) {
+    EXPECT_GT(front[v], 0) << "the front of z = x^2/2R is concave";
+    EXPECT_NEAR(back[v], -front[v], 1e-4f * front[v]);  // sums of floats in another order
+  }
+}
+
+// What a run's pictures show: the element's curvature over the shape at rest.
+TEST_P(EveryFamily, IsThatOfTheShapeElementOnUnstretchedCloth) {
+  const ClothMesh mesh = sheet(GetParam(), 4000);
+  const std::vector<Vector3d> x = rolled(mesh, kRadius);
+  const CurvatureOperator op = make_shape_operator(mesh, std::vector<char>(mesh.vertices()));
+  const std::vector<double> angle = hinge_angles(mesh, x);
+  std::vector<double> curvature(3 * mesh.faces(), 0);
+  for (int f = 0; f < mesh.faces(); ++f)
+    for (int j = op.hinge.start[f]; j < op.hinge.start[f + 1]; ++j)
+      for (int k = 0; k < 3; ++k) curvature[3 * f + k] += op.coefficient[3 * j + k] * angle[op.hinge.item[j]];
+  const std::vector<float> shown = vertex_curvature(mesh, curvature, 3),
+                           found = surface_curvature(x, mesh.face, "rolled");
+  // Chords of the mesh are shorter than arcs by (edge/R)^2/24, 1e-4 here.
+  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_NEAR(found[v], shown[v], 2e-3 / kRadius) << v;
+}
+
+// A free edge carries no curvature across it, and all that runs along it.
+TEST(SurfaceCurvature, AtFreeEdgesIsWholeAlongThemAndPartAcrossThem) {
+  const ClothMesh mesh = sheet(MeshFamily::unionjack, 4000);
+  const std::vector<float> k = surface_curvature(rolled(mesh, kRadius), mesh.face, "rolled");
+  int along = 0, across = 0;
+  for (int v = 0; v < mesh.vertices(); ++v) {
+    const double x = mesh.rest[v].x(), y = mesh.rest[v].y();
+    const bool at_arc = y < 1e-9 || y > 0.04 - 1e-9, at_end = x < 1e-9 || x > 0.06 - 1e-9;
+    if (at_arc && x > 0.005 && x < 0.055) {
+      EXPECT_NEAR(k[v] * kRadius, 1, 0.01);
+      ++along;
+    } else if (at_end && !at_arc) {
+      EXPECT_GT(k[v] * kRadius, -1e-6);  // rounding
+      EXPECT_LT(k[v] * kRadius, 0.8);
+      ++across;
+    }
+  }
+  EXPECT_GT(along, 50);
+  EXPECT_GT(across, 20);
+}
+
+TEST(SurfaceCurvature, NeedsASurfaceWithAFront) {
+  const std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  try {
+    surface_curvature(x, {{0, 1, 2}, {0, 1, 3}}, "mesh turned.obj");
+    FAIL() << "neighbours of opposite orientation have no common front";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_TRUE(
+        std::string(error.what()).starts_with("mesh turned.obj: triangle 0 and triangle 1 have opposite"));
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
