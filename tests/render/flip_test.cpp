@@ -12,8 +12,8 @@
 namespace hysteron::render {
 namespace {
 
-// The authors' program, flip-evaluator 1.7, has single precision.  It leaves some 1e-8 of an edge where there
-// is none, and the square root of that acts on the error.
+// The authors' program, flip-evaluator 1.7, has single precision.  It sees some 1e-7 of the luminance as an
+// edge where there is none, and the square root of that acts on the error.
 constexpr double kSinglePrecision = 3e-6, kSinglePrecisionUniform = 5e-5;
 constexpr double kTableWhite = 5e-5;  // tables of L*a*b* have a white with other digits
 
