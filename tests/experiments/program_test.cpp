@@ -4,22 +4,11 @@
 
 #include "experiments/experiments.h"
 #include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-
-struct Outcome {
-  int exit_code;
-  std::string out, err;
-};
-
-Outcome program(const std::string& arguments) {
-  const Folder folder;
-  const std::string out = folder.path() / "out", err = folder.path() / "err";
-  const int status = std::system((HYSTERON_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
-  return {WEXITSTATUS(status), text_of(out), text_of(err)};
-}
 
 TEST(Program, RefusesEverySubcommandThatIsNotBuiltAndSaysSo) {
   for (const Experiment& experiment : experiments()) {

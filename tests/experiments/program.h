@@ -1,0 +1,24 @@
+// The program as a script meets it.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+
+struct Outcome {
+  int exit_code;
+  std::string out, err;
+};
+
+// HYSTERON_PROGRAM is defined by the build.
+inline Outcome program(const std::string& arguments) {
+  const Folder folder;
+  const std::string out = folder.path() / "out", err = folder.path() / "err";
+  const int status = std::system((HYSTERON_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
+  return {WEXITSTATUS(status), text_of(out), text_of(err)};
+}
+
+}  // namespace hysteron::experiments
