@@ -17,17 +17,17 @@ std::string size_text(const Image& image) {
   return std::to_string(image.width()) + " x " + std::to_string(image.height());
 }
 
-void require_same_size(const Image& a, const Image& b) {
-  if (a.width() != b.width() || a.height() != b.height() || a.empty())
-    throw Error::request("comparing pictures of " + size_text(a) + " and " + size_text(b) +
-                         " pixels: sizes must be equal and not zero");
-}
-
 int largest_step(const std::uint8_t* a, const std::uint8_t* b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
 }  // namespace
+
+void require_same_size(const Image& a, const Image& b) {
+  if (a.width() != b.width() || a.height() != b.height() || a.empty())
+    throw Error::request("comparing pictures of " + size_text(a) + " and " + size_text(b) +
+                         " pixels: sizes must be equal and not zero");
+}
 
 Difference compare(const Image& a, const Image& b) {
   require_same_size(a, b);

@@ -1,4 +1,5 @@
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <csetjmp>
@@ -59,6 +60,26 @@ bool encode(png_structp png, png_infop header, const Image& image, PngEffort eff
   return true;
 }
 
+std::uint32_t big_endian(const std::uint8_t* bytes) {
+  return static_cast<std::uint32_t>(bytes[0]) << 24 | bytes[1] << 16 | bytes[2] << 8 | bytes[3];
+}
+
+// What the chunks' check sums say, which stb_image does not read: "" if all is well.
+std::string damage_of(std::span<const std::uint8_t> bytes) {
+  constexpr size_t kSignature = 8, kAround = 12;  // [bytes]; of a chunk: length, type, check sum
+  size_t at = kSignature;
+  while (at + kAround <= bytes.size()) {
+    const size_t length = big_endian(&bytes[at]);
+    const std::string type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
+    if (length > bytes.size() - at - kAround) break;
+    const uLong sum = crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
+    if (sum != big_endian(&bytes[at + 8 + length])) return "chunk " + type + " is damaged";
+    if (type == "IEND") return "";
+    at += length + kAround;
+  }
+  return "the file ends too early";
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort) {
@@ -84,11 +105,13 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
 Image read_png(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error::request("reading " + path.string() + ": the file cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-  const auto* begin = reinterpret_cast<const stbi_uc*>(bytes.data());
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  const stbi_uc* begin = bytes.data();
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   const bool known = stbi_info_from_memory(begin, size, &width, &height, &channels) != 0;
+  const std::string damage = known ? damage_of(bytes) : "";
+  if (!damage.empty()) throw Error::request("reading " + path.string() + ": a broken PNG picture: " + damage);
   const int kept = channels == 2 || channels == 4 ? 4 : 3;
   stbi_uc* pixels = known ? stbi_load_from_memory(begin, size, &width, &height, &channels, kept) : nullptr;
   if (!pixels)

@@ -107,6 +107,21 @@ TEST(Png, ATruncatedPictureIsRefused) {
   EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
 }
 
+// A bit in the header's size, in the compressed rows, in a check sum.
+TEST(Png, AWrongBitIsFound) {
+  const ScratchFolder folder;
+  const auto whole = encode_png(gradient(60, 60, 3));
+  for (const size_t at : {size_t{19}, whole.size() / 2, whole.size() - 1}) {
+    auto wrong = whole;
+    wrong[at] ^= 1;
+    std::ofstream(folder.file("wrong.png"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(wrong.data()), static_cast<std::streamsize>(wrong.size()));
+    const Error error = error_of([&] { read_png(folder.file("wrong.png")); });
+    EXPECT_EQ(error.exit_code(), 2) << at;
+    EXPECT_NE(std::string(error.what()).find("is damaged"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Image, SizesBelowOneAreRefused) {
   EXPECT_EQ(error_of([] { Image(0, 10); }).exit_code(), 2);
   EXPECT_EQ(error_of([] { Image(10, -1); }).exit_code(), 2);

@@ -1,0 +1,242 @@
+#include "render/flip.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "render/color_map.h"
+#include "render/compare.h"
+#include "render/srgb.h"
+#include "sim/error.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kColorExponent = 0.7;            // q_c
+constexpr double kKnee = 0.4;                     // p_c, share of the largest colour difference
+constexpr double kKneeError = 0.95;               // p_t, error that this share is mapped to
+constexpr double kFeatureWidth = 0.082;           // w [degree], of the edges and points that are looked for
+constexpr double kFeatureExponent = 0.5;          // q_f
+constexpr double kLeastPpd = 1, kMostPpd = 1000;  // [pixels/degree]: filters of 3 to 273 pixels
+
+constexpr int kSerialRows = 64;  // pictures this small are done before threads have started
+
+// ------------------------------------------------------------------------------------------- colour spaces
+
+// XYZ of a colour of unit luminance.
+Eigen::Vector3d xyz_of_chromaticity(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
+
+// Linear sRGB to X/Xn, Y/Yn, Z/Zn, from the primaries of IEC 61966-2-1 and the white D65 (CIE 15:2004): full
+// red, green and blue together are that white.
+Eigen::Matrix3d relative_xyz_of_rgb() {
+  const Eigen::Vector3d white = xyz_of_chromaticity(0.31271, 0.32902);
+  Eigen::Matrix3d primaries;
+  primaries << xyz_of_chromaticity(0.64, 0.33), xyz_of_chromaticity(0.30, 0.60),
+      xyz_of_chromaticity(0.15, 0.06);
+  const Eigen::Vector3d shares = primaries.inverse() * white;
+  return white.cwiseInverse().asDiagonal() * primaries * shares.asDiagonal();
+}
+
+// Relative XYZ to luminance, red-green and blue-yellow: YyCxCz (CIE 1976 without its roots, Flohr et al.
+// 1993) with Y/Yn in place of Yy = 116 Y/Yn - 16, because filters that keep constants commute with both.
+const Eigen::Matrix3d kOpponent{{0, 1, 0}, {500, -500, 0}, {0, 200, -200}};
+
+// L*a*b* of relative XYZ (CIE 15:2004).
+Eigen::Vector3d lab_of(const Eigen::Vector3d& xyz) {
+  constexpr double kDelta = 6.0 / 29;
+  const auto root = [](double t) {
+    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+  };
+  const double x = root(xyz.x()), y = root(xyz.y()), z = root(xyz.z());
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+// Chroma counts less in the dark (Hunt 1952).
+Eigen::Vector3d hunt_adjusted(const Eigen::Vector3d& lab) {
+  return {lab.x(), 0.01 * lab.x() * lab.y(), 0.01 * lab.x() * lab.z()};
+}
+
+// Abasi, Tehran, Fairchild 2020: city-block in lightness, Euclidean in the plane of a* and b*.
+double hyab(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::abs(a.x() - b.x()) + std::hypot(a.y() - b.y(), a.z() - b.z());
+}
+
+// ---------------------------------------------------------------------------------------- what an eye sees
+
+// A contrast sensitivity as a sum of Gaussians, weight a sqrt(pi / b) exp(-pi^2 d^2 / b) at the angle d
+// [degree] (Andersson et al. 2020, Eq. 4 and Table 1).
+struct Sensitivity {
+  struct Term {
+    double a, b;  // b [degree^2]
+  };
+  std::vector<Term> terms;
+};
+const std::array<Sensitivity, 3> kSensitivities = {
+    Sensitivity{{{1, 0.0047}}},                 // luminance
+    Sensitivity{{{1, 0.0053}}},                 // red-green
+    Sensitivity{{{34.1, 0.04}, {13.5, 0.025}}}  // blue-yellow
+};
+constexpr double kWidest = 0.04;  // the largest b: one radius serves all filters
+
+double sigma_of(double b, double ppd) { return ppd * std::sqrt(b / (2 * kPi * kPi)); }
+
+Plane seen(const Plane& plane, const Sensitivity& sensitivity, double ppd) {
+  const int radius = static_cast<int>(std::ceil(3 * sigma_of(kWidest, ppd)));
+  Plane sum(plane.width, plane.height);
+  double total = 0;
+  for (const Sensitivity::Term& term : sensitivity.terms) {
+    const Kernel kernel = gaussian_kernel(sigma_of(term.b, ppd), radius);
+    const double height = 1 / kernel[static_cast<size_t>(radius)];  // its unscaled weights sum to this
+    const double weight = term.a * std::sqrt(kPi / term.b) * height * height;
+    const Plane part = filtered(plane, kernel, kernel);
+    for (size_t i = 0; i < sum.values.size(); ++i) sum.values[i] += weight * part.values[i];
+    total += weight;
+  }
+  for (double& value : sum.values) value /= total;
+  return sum;
+}
+
+// Luminance, red-green, blue-yellow of a picture.
+using Opponent = std::array<Plane, 3>;
+
+Opponent opponent_of(const Image& image) {
+  const Eigen::Matrix3d m = kOpponent * relative_xyz_of_rgb();
+  const auto& linear = linear_of_srgb8();
+  Opponent planes;
+  planes.fill(Plane(image.width(), image.height()));
+#pragma omp parallel for schedule(static) if (image.height() > kSerialRows)
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const std::uint8_t* p = image.at(x, y);
+      const Eigen::Vector3d color = m * Eigen::Vector3d(linear[p[0]], linear[p[1]], linear[p[2]]);
+      for (int c = 0; c < 3; ++c) planes[c].row(y)[x] = color[c];
+    }
+  return planes;
+}
+
+// Hunt-adjusted L*a*b* of what is seen of each pixel.
+Opponent perceived(const Opponent& picture, double ppd) {
+  Opponent planes;
+  for (int c = 0; c < 3; ++c) planes[c] = seen(picture[c], kSensitivities[c], ppd);
+  const Eigen::Matrix3d xyz_of = relative_xyz_of_rgb(), rgb_of = (kOpponent * xyz_of).inverse();
+#pragma omp parallel for schedule(static) if (planes[0].height > kSerialRows)
+  for (int y = 0; y < planes[0].height; ++y)
+    for (int x = 0; x < planes[0].width; ++x) {
+      const Eigen::Vector3d opponent(planes[0].row(y)[x], planes[1].row(y)[x], planes[2].row(y)[x]);
+      const Eigen::Vector3d rgb = (rgb_of * opponent).cwiseMax(0.0).cwiseMin(1.0);
+      const Eigen::Vector3d lab = hunt_adjusted(lab_of(xyz_of * rgb));
+      for (int c = 0; c < 3; ++c) planes[c].row(y)[x] = lab[c];
+    }
+  return planes;
+}
+
+// The largest HyAB^q_c in the gamut, between green and blue.
+double largest_color_difference() {
+  const auto of = [](const Eigen::Vector3d& rgb) {
+    return hunt_adjusted(lab_of(relative_xyz_of_rgb() * rgb));
+  };
+  return std::pow(hyab(of({0, 1, 0}), of({0, 0, 1})), kColorExponent);
+}
+
+// Two straight pieces: the small differences get most of the range.
+double redistributed(double difference, double largest) {
+  const double knee = kKnee * largest;
+  return difference < knee ? kKneeError / knee * difference
+                           : kKneeError + (difference - knee) / (largest - knee) * (1 - kKneeError);
+}
+
+// ------------------------------------------------------------------------------------------ edges, points
+
+// Weights whose positive ones sum to 1 and whose negative ones sum to -1.
+Kernel balanced(Kernel kernel) {
+  double positive = 0, negative = 0;
+  for (double weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
+  for (double& weight : kernel) weight /= weight > 0 ? positive : negative;
+  return kernel;
+}
+
+struct FeatureKernels {
+  Kernel smooth, edge, point;  // a Gaussian, its first and its second derivative
+};
+
+FeatureKernels feature_kernels(double ppd) {
+  const double sigma = 0.5 * kFeatureWidth * ppd;
+  const int radius = static_cast<int>(std::ceil(3 * sigma));
+  FeatureKernels kernels{gaussian_kernel(sigma, radius), {}, {}};
+  for (int d = -radius; d <= radius; ++d) {
+    const double height = std::exp(-0.5 * d * d / (sigma * sigma));
+    kernels.edge.push_back(-d * height);
+    kernels.point.push_back((d * d / (sigma * sigma) - 1) * height);
+  }
+  kernels.edge = balanced(std::move(kernels.edge));
+  kernels.point = balanced(std::move(kernels.point));
+  return kernels;
+}
+
+Plane length(Plane x, const Plane& y) {
+  for (size_t i = 0; i < x.values.size(); ++i)
+    x.values[i] = std::sqrt(x.values[i] * x.values[i] + y.values[i] * y.values[i]);
+  return x;
+}
+
+// How much of an edge, and of a point, there is at each pixel.
+struct Features {
+  Plane edges, points;
+};
+
+Features features_of(const Plane& luminance, const FeatureKernels& kernels) {
+  const auto [smooth, edge, point] = kernels;
+  return {length(filtered(luminance, edge, smooth), filtered(luminance, smooth, edge)),
+          length(filtered(luminance, point, smooth), filtered(luminance, smooth, point))};
+}
+
+void require_ppd(double ppd) {
+  if (!(ppd >= kLeastPpd && ppd <= kMostPpd))
+    throw Error::request("FLIP: " + std::to_string(ppd) + " pixels per degree must be in [1, 1000]");
+}
+
+}  // namespace
+
+Plane flip_map(const Image& a, const Image& b, double pixels_per_degree) {
+  require_same_size(a, b);
+  require_ppd(pixels_per_degree);
+  const Opponent opponent_a = opponent_of(a), opponent_b = opponent_of(b);
+  const Opponent color_a = perceived(opponent_a, pixels_per_degree),
+                 color_b = perceived(opponent_b, pixels_per_degree);
+  const FeatureKernels kernels = feature_kernels(pixels_per_degree);
+  const Features features_a = features_of(opponent_a[0], kernels),
+                 features_b = features_of(opponent_b[0], kernels);
+  const double largest = largest_color_difference();
+  Plane result(a.width(), a.height());
+#pragma omp parallel for schedule(static) if (result.height > kSerialRows)
+  for (size_t i = 0; i < result.values.size(); ++i) {
+    const auto color = [i](const Opponent& planes) {
+      return Eigen::Vector3d(planes[0].values[i], planes[1].values[i], planes[2].values[i]);
+    };
+    const double color_error =
+        redistributed(std::pow(hyab(color(color_a), color(color_b)), kColorExponent), largest);
+    const double feature = std::max(std::abs(features_a.edges.values[i] - features_b.edges.values[i]),
+                                    std::abs(features_a.points.values[i] - features_b.points.values[i]));
+    const double feature_error = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
+    result.values[i] = std::pow(color_error, 1 - feature_error);
+  }
+  return result;
+}
+
+Image heat_map(const Plane& errors) {
+  std::array<Rgb8, 256> colors;
+  for (int i = 0; i < 256; ++i) colors[i] = map_color8(ColorMap::sequential, static_cast<float>(i) / 255);
+  Image result(errors.width, errors.height);
+  for (int y = 0; y < errors.height; ++y)
+    for (int x = 0; x < errors.width; ++x) {
+      const double error = std::clamp(errors.row(y)[x], 0.0, 1.0);
+      std::copy_n(colors[static_cast<size_t>(255 * error + 0.5)].data(), 3, result.at(x, y));
+    }
+  return result;
+}
+
+}  // namespace hysteron::render

@@ -1,0 +1,17 @@
+# shellcheck shell=bash disable=SC2034  (read by the scripts that source this)
+# Sourced by check.sh and accept.sh: the runs whose last picture is kept, NAME.png in this folder.
+
+golden_folder=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)
+
+# Early moments, in which neighbouring solutions stay together (single precision in place of double moves at most
+# 0.001 % of the pixels), of coarse meshes, so that all of them take seconds: folds that begin, a strip's first
+# swing, a pleat that was pulled straight and let go.
+declare -A golden_runs=(
+  [drape]="drape --triangles 2000 --seconds 0.2 --fps 5 --integrator semi-implicit --step 0.0041666666666666666"
+  [swing]="swing --triangles 400 --seconds 0.3 --fps 10 --look friction"
+  [crease]="crease --crease.fold pleat --crease.recovery 0.1 --triangles 200 --fps 5"
+)
+golden_size=480x270
+# Last bits differ between processors, and edges between releases of Mesa: a few pixels.  Another light, view or
+# fabric moves thousands by tens of steps.
+golden_limits=(--max-mean 0.2 --max-pixels-over-8 0.3 --max-flip 0.01)
