@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRows = 40, kMostColumns = 16;  // of a table that is shown; larger ones are linked
-constexpr std::size_t kOpenRows = 16;                     // longer ones are folded away
+constexpr std::size_t kOpenRows = 24;                     // longer ones are folded away
 constexpr std::size_t kMostCards = 8;
 
 std::string file_name(const fs::path& file) { return file.filename().string(); }

@@ -80,7 +80,7 @@ nav div { break-inside: avoid; }
   figure, .card, tr, svg, pre { break-inside: avoid; } .controls, dialog { display: none; }
   img { max-height: 17cm; width: auto; } a.zoom img { width: auto; } .scroll { overflow: visible; } table { font-size: .8em; }
   a { color: inherit; text-decoration: none; } nav { columns: 3; }
-  .grid, .grid.wide { grid-template-columns: repeat(2, 1fr); } .charts { grid-template-columns: repeat(3, 1fr); } }
+  .grid img { max-height: 9cm; } .grid.wide { grid-template-columns: repeat(2, 1fr); } .grid:not(.wide), .charts { grid-template-columns: repeat(3, 1fr); } }
 )css";
 
 constexpr const char* kScript = R"js(
@@ -134,7 +134,6 @@ pictures.forEach((link, i) => link.addEventListener('click', event => {
   event.preventDefault();
   enlarge(i);
 }));
-addEventListener('beforeprint', () => document.querySelectorAll('details').forEach(d => { d.open = true; }));
 )js";
 
 }  // namespace

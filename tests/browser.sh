@@ -93,6 +93,7 @@ EOF
 # The console of a page until it says DONE, one message a line.  Chromium's own --dump-dom does not wait for frames.
 console_of() {
   local browser_id
+  : >"$scratch/log"
   "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
     --user-data-dir="$scratch/profile" --host-resolver-rules="MAP * ~NOTFOUND" --enable-logging=stderr --v=0 \
     --remote-debugging-port=0 "$1" >/dev/null 2>"$scratch/log" &

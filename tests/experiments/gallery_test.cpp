@@ -1,5 +1,6 @@
 #include "experiments/gallery.h"
 
+#include "experiments/gallery_about.h"
 #include "experiments/gallery_folders.h"
 #include "experiments/record.h"
 #include "experiments/report.h"
@@ -104,6 +105,21 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
                            "href=\"z-drape/manifest.json\"", "Cusick"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
+}
+
+TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
+  EXPECT_EQ(count_of(page(), ">incomplete<"), 0);
+  { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }
+  EXPECT_EQ(count_of(page(), ">incomplete<"), 1);
+}
+
+TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
+  const auto subject = [](const char* scene) { return subject_of({{"scene", Json::parse(scene)}}); };
+  EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
+  EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
+  EXPECT_EQ(subject(R"({"fabrics": "wool", "laws": ["a", "b", "c", "d", "e"]})"), "wool, 5 laws");
+  EXPECT_EQ(subject(R"({"fabrics": "a,b,c,d,e", "laws": "linear"})"), "5 fabrics, law linear");
+  EXPECT_EQ(subject("{}"), "");
 }
 
 TEST_F(Gallery, EmbedsPicturesShrunkAndLeadsToTheFiles) {
