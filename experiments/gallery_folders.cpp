@@ -61,7 +61,7 @@ Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<
 bool holds_anything(const Exhibit& exhibit) {
   const auto any = [&](const char* ending) { return !files_ending(exhibit.folder, ending).empty(); };
   return !exhibit.manifest.is_null() || !exhibit.lists.empty() || any(".png") || any(".svg") || any(".csv") ||
-         fs::exists(exhibit.folder / "frames");
+         !files_ending(exhibit.folder / "frames", ".png").empty();
 }
 
 void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {

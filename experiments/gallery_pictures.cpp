@@ -86,9 +86,12 @@ std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& pref
   std::vector<Picture> pictures;
   for (const fs::path& file : files) {
     const std::string name = file.filename().string(), written = captions[name];
-    std::string caption = written.empty() ? prefix + words_of(file.stem().string()) : written;
-    if (file.stem() == "sheet" && !exhibit.manifest.is_null()) caption += subject_words(exhibit.manifest);
-    if (written.empty()) caption[0] = static_cast<char>(std::toupper(caption[0]));
+    std::string caption = written;
+    if (written.empty()) {
+      caption = prefix + words_of(file.stem().string());
+      caption[0] = static_cast<char>(std::toupper(caption[0]));
+      if (file.stem() == "sheet" && !exhibit.manifest.is_null()) caption += subject_words(exhibit.manifest);
+    }
     pictures.push_back({file, exhibit.name + "/" + name, caption});
   }
   for (const Exhibit& part : exhibit.parts) {

@@ -46,6 +46,7 @@ async function probe() {
   }
   const seen = player => [...player.querySelectorAll('figure')].filter(f => f.offsetHeight).map(f => f.innerText).join();
   for (const player of document.querySelectorAll('.player')) {
+    if (player.querySelectorAll('figure').length < 2) continue;
     const before = seen(player);
     player.querySelector('button').click();
     await wait(250);
@@ -138,7 +139,8 @@ report_with_frames() {
   mkdir -p "$run/frames"
   cp "$results"/drape-*/manifest.json "$run/"
   for picture in "$results"/drape-*/*.png; do
-    cp "$picture" "$run/frames/$(printf '%04d' "$((number++))").png"
+    cp "$picture" "$run/frames/$(printf '%04d' "$number").png"
+    number=$((number + 1))
   done
   "$program" report "$run" >&2
   echo "$run/report.html"
