@@ -22,7 +22,7 @@ struct PaletteImage {
 // Error::request if the picture is empty or `count` is not in [1, 256].
 PaletteImage in_few_colors(const Image& image, int count);
 
-// PNG file in memory, with zlib's best effort.  Error::request if the picture is empty.
+// PNG file in memory.  Error::request if the picture is empty.
 std::vector<std::uint8_t> encode_png(const PaletteImage& image);
 
 }  // namespace hysteron::render

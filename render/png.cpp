@@ -66,6 +66,7 @@ bool encode(png_structp png, png_infop header, const Pixels& pixels, PngEffort e
     png_set_PLTE(png, header, reinterpret_cast<const png_color*>(pixels.palette.data()),
                  static_cast<int>(pixels.palette.size()));
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);  // differences of colour numbers say nothing
+    png_set_compression_level(png, 6);  // on long runs of one number, 9 takes 4 times as long for 5 % less
   }
   png_write_info(png, header);
   for (int y = 0; y < pixels.height; ++y) png_write_row(png, pixels.first + y * pixels.row_bytes);
