@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "experiments/metric_name.h"
+#include "experiments/report_manifest.h"
 #include "render/color_map.h"
 #include "render/compare.h"
 #include "render/comparison_sheet.h"

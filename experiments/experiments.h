@@ -85,6 +85,7 @@ std::vector<KeyDescription> law_keys();
 std::vector<KeyDescription> kes_keys();
 std::vector<KeyDescription> figures_keys();
 std::vector<KeyDescription> render_keys();
+std::vector<KeyDescription> report_keys();
 std::vector<KeyDescription> stability_keys();
 std::vector<KeyDescription> validate_keys();
 

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace hysteron::experiments {
 
-// Writes FOLDER/report.html from manifest.json, metrics.csv and the pictures that are there; nothing is
-// computed again.  The page needs no other file: pictures are embedded, frames of a sequence as thumbnails.
-// Returns its path.  Throws Error::request if the folder holds no run, Error::machine if the page cannot be
-// written.
+// HTML from manifest.json, metrics.csv and the pictures that are there; nothing is computed again.  The page
+// needs no other file: pictures are embedded, frames of a sequence as thumbnails.  The same folder gives the
+// same bytes.  Throws Error::request if the folder holds no run, or a picture of it is broken.
+std::string report_page(const std::filesystem::path& folder);
+
+// Writes it as FOLDER/report.html and returns that path.  Throws Error::machine if it cannot be written.
 std::filesystem::path write_report(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

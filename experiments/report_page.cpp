@@ -1,48 +1,17 @@
 #include "experiments/report_page.h"
 
 #include <algorithm>
+#include <cctype>
 #include <iomanip>
 #include <sstream>
+#include <string_view>
+
+#include "experiments/report_style.h"
 
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kStyle = R"css(
-:root { color-scheme: light dark; --ink: #1b1f24; --soft: #5d6670; --line: #d9dde2; --paper: #fff; --panel: #f5f6f8;
-  --accent: #2f5d8c; --good: #1e7a46; --bad: #b3401f; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6e8eb; --soft: #9aa3ad; --line: #333a42; --paper: #14171b;
-  --panel: #1d2126; --accent: #8ab6e6; --good: #6fcf97; --bad: #f2936b; } }
-* { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1080px; padding: 1.5rem 1rem 4rem; background: var(--paper); color: var(--ink);
-  font: 16px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; }
-h2 { font-size: 1.1rem; margin: 2.2rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid var(--line); }
-p.about { color: var(--soft); margin: 0 0 1rem; }
-pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: .7rem .9rem; margin: 0;
-  overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .85rem; }
-.state { display: inline-block; border-radius: 99px; padding: .05rem .7rem; font-size: .8rem; color: var(--paper);
-  vertical-align: middle; background: var(--good); } .state.bad { background: var(--bad); }
-.cards { display: grid; gap: .7rem; grid-template-columns: repeat(auto-fill, minmax(170px, 1fr)); }
-.card { background: var(--panel); border: 1px solid var(--line); border-radius: 10px; padding: .7rem .9rem; }
-.card b { display: block; font-size: 1.35rem; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
-.card b small { font-size: .8rem; font-weight: 500; color: var(--soft); }
-.card span { color: var(--soft); font-size: .82rem; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-size: .88rem; }
-th { text-align: left; color: var(--soft); font-weight: 600; }
-th, td { padding: .32rem .7rem .32rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
-th.n, td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-figure { margin: 0 0 1rem; } figcaption { color: var(--soft); font-size: .82rem; margin-top: .25rem; }
-img { max-width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); display: block; }
-.plot img { background: #fff; }
-.thumbs { display: grid; gap: .6rem; grid-template-columns: repeat(auto-fill, minmax(200px, 1fr)); }
-.charts { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(300px, 1fr)); }
-svg { width: 100%; height: auto; display: block; background: var(--panel); border-radius: 8px; }
-svg polyline { fill: none; stroke: var(--accent); stroke-width: 1.6; stroke-linejoin: round; }
-svg text { fill: var(--soft); font-size: 11px; } svg text.title { fill: var(--ink); font-size: 12.5px; }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } h2 { break-after: avoid; }
-  figure, .card, tr, svg { break-inside: avoid; } }
-)css";
+constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 std::string short_number(double x) {
   std::ostringstream text;
@@ -81,7 +50,6 @@ std::string escaped(const std::string& text) {
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {
-  static const char* const kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -93,26 +61,77 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
+std::vector<std::uint8_t> from_base64(const std::string& text) {
+  std::vector<std::uint8_t> bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const std::size_t value = kLetters.find(c);
+    if (value == kLetters.npos) break;
+    group = group << 6 | static_cast<std::uint32_t>(value);
+    if ((bits += 6) < 8) continue;
+    bits -= 8;
+    bytes.push_back(static_cast<std::uint8_t>(group >> bits));
+  }
+  return bytes;
+}
+
+std::string embedded_image(std::span<const std::uint8_t> bytes, const std::string& type,
+                           const std::string& words) {
+  return "<img alt=\"" + escaped(words) + "\" src=\"data:" + type + ";base64," + base64(bytes) + "\">";
+}
+
 std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
                              const std::string& caption) {
-  return "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:" + type + ";base64," + base64(bytes) +
-         "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+  return "<figure>" + embedded_image(bytes, type, caption) + "<figcaption>" + escaped(caption) +
+         "</figcaption></figure>\n";
 }
 
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric) {
-  const auto cells = [&](const std::vector<std::string>& texts, const std::string& tag) {
+  std::vector<std::vector<std::string>> cells = rows;
+  for (auto& row : cells) std::transform(row.begin(), row.end(), row.begin(), escaped);
+  return html_table_of_html(head, cells, numeric);
+}
+
+std::string html_table_of_html(const std::vector<std::string>& head,
+                               const std::vector<std::vector<std::string>>& rows,
+                               const std::vector<std::size_t>& numeric) {
+  const auto line = [&](const std::vector<std::string>& cells, const std::string& tag) {
     std::string row = "<tr>";
-    for (std::size_t i = 0; i < texts.size(); ++i) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool right = std::count(numeric.begin(), numeric.end(), i) > 0;
-      row += "<" + tag + (right ? " class=\"n\">" : ">") + escaped(texts[i]) + "</" + tag + ">";
+      row += "<" + tag + (right ? " class=\"n\">" : ">") + cells[i] + "</" + tag + ">";
     }
     return row + "</tr>\n";
   };
-  std::string table = "<div class=\"scroll\"><table>\n<thead>" + cells(head, "th") + "</thead>\n<tbody>";
-  for (const auto& row : rows) table += cells(row, "td");
+  std::vector<std::string> names = head;
+  std::transform(names.begin(), names.end(), names.begin(), escaped);
+  std::string table = "<div class=\"scroll\"><table>\n<thead>" + line(names, "th") + "</thead>\n<tbody>";
+  for (const auto& row : rows) table += line(row, "td");
   return table + "</tbody></table></div>\n";
+}
+
+std::string url_of(const std::string& path) {
+  static const char* const kDigits = "0123456789ABCDEF";
+  std::string url;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain =
+        byte < 128 && (std::isalnum(byte) || std::string("/-_.~").find(c) != std::string::npos);
+    url += plain ? std::string(1, c) : std::string("%") + kDigits[byte >> 4] + kDigits[byte & 15];
+  }
+  return url;
+}
+
+std::string html_link(const std::string& target, const std::string& text) {
+  return "<a href=\"" + url_of(target) + "\">" + escaped(text) + "</a>";
+}
+
+std::string html_details(const std::string& summary, const std::string& body, bool open) {
+  return "<details" + std::string(open ? " open" : "") + "><summary>" + escaped(summary) + "</summary>\n" +
+         body + "</details>\n";
 }
 
 std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
@@ -145,11 +164,13 @@ std::string html_section(const std::string& title, const std::string& body) {
   return body.empty() ? "" : "<section><h2>" + escaped(title) + "</h2>\n" + body + "</section>\n";
 }
 
-std::string html_page(const std::string& title, const std::string& body) {
+std::string html_page(const std::string& title, const std::string& body, const std::string& kind) {
+  const bool moves = body.find("class=\"player\"") != body.npos || body.find("class=\"zoom\"") != body.npos;
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(title) + "</title>\n<style>" + kStyle + "</style></head>\n<body>\n" + body +
-         "</body></html>\n";
+         escaped(title) + "</title>\n<style>" + page_style() + "</style></head>\n<body" +
+         (kind.empty() ? "" : " class=\"" + kind + "\"") + ">\n" + body +
+         (moves ? std::string("<script>") + page_script() + "</script>\n" : "") + "</body></html>\n";
 }
 
 }  // namespace hysteron::experiments

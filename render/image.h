@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace hysteron::render {
@@ -58,6 +59,9 @@ std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort = PngE
 // Writes a temporary file beside `path` and renames it, so that `path` is either whole or not there.
 // Error::machine if the folder cannot be written or the disk is full.
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::fast);
+
+// A PNG file in memory; `name` stands for it in errors.  Otherwise as read_png.
+Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
 // RGB or RGBA as in the file (grey becomes RGB).  Error::request if the file is missing or not a picture.
 Image read_png(const std::filesystem::path& path);

@@ -5,7 +5,8 @@ set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../experiments/setup.sh"
 
 test_packages=("${program_packages[@]}" "libgtest-dev|GoogleTest")
-optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|checks the style")
+optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|checks the style"
+  "chromium|opens pages of results, without a display")
 
 install_missing test_packages optional_test_packages
 configure -DHYSTERON_TESTS=ON

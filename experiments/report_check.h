@@ -1,0 +1,25 @@
+// Whether pages still say what their folders say.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hysteron::experiments {
+
+// Whether two pages are the same: byte by byte, embedded PNG pictures pixel by pixel, since other versions of
+// zlib pack the same pixels into other bytes.
+bool same_page(const std::string& a, const std::string& b);
+
+// A page that is missing or stale.
+struct StalePage {
+  std::filesystem::path page;
+  std::filesystem::path folder;  // `hysteron report FOLDER` writes it
+  bool missing = false;
+};
+
+// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares.
+// Throws what making them throws.
+std::vector<StalePage> stale_pages(const std::filesystem::path& folder);
+
+}  // namespace hysteron::experiments

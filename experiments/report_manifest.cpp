@@ -1,0 +1,116 @@
+#include "experiments/report_manifest.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "experiments/report_page.h"
+#include "sim/error.h"
+
+namespace hysteron::experiments {
+
+bool is_manifest(const Json& json) {
+  if (!json.is_object() || !json.contains("hysteron") || !json.contains("scene")) return false;
+  const Json& program = json["hysteron"];
+  return program.is_object() && program.contains("version") && program.contains("commit") &&
+         json["scene"].is_object();
+}
+
+Json read_manifest(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw Error::machine("cannot read " + file.string());
+  Json manifest = Json::parse(stream, nullptr, false);
+  if (!is_manifest(manifest)) throw Error::request(file.string() + " is no manifest of hysteron");
+  return manifest;
+}
+
+std::string shown(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_null()) return "–";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (!value.is_number_float()) return value.dump();
+  std::ostringstream text;
+  text.precision(6);
+  text << value.get<double>();
+  return text.str();
+}
+
+NamedUnit split_unit(std::string key) {
+  static const std::vector<std::pair<std::string, std::string>> kEndings = {
+      {"_J_per_m2", "J/m²"}, {"_m_per_s", "m/s"}, {"_percent", "%"}, {"_per_m", "1/m"}, {"_N_m", "N m"},
+      {"_deg", "°"},         {"_rad", "rad"},     {"_ms", "ms"},     {"_mm", "mm"},     {"_N", "N"},
+      {"_J", "J"},           {"_m", "m"},         {"_s", "s"}};
+  std::string unit;
+  for (const auto& [ending, symbol] : kEndings) {
+    if (!key.ends_with(ending) || key.size() == ending.size()) continue;
+    key.resize(key.size() - ending.size());
+    unit = symbol;
+    break;
+  }
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return {key, unit};
+}
+
+std::string metric_text(const std::string& key, double value) {
+  const NamedUnit what = split_unit(key);
+  char text[40];
+  std::snprintf(text, sizeof text, " %.4g", value);
+  return what.name + text + (what.unit.empty() ? "" : " " + what.unit);
+}
+
+std::string fabric_name(const Json& manifest) {
+  return manifest.at("scene").value("fabric", Json::object()).value("name", "");
+}
+
+std::string state_badge(const Json& manifest) {
+  const bool complete = manifest.value("complete", false);
+  return complete ? "<span class=\"state\">complete</span>" : "<span class=\"state bad\">incomplete</span>";
+}
+
+std::string program_of(const Json& manifest) {
+  const Json& program = manifest.at("hysteron");
+  return "hysteron " + shown(program.at("version")) + ", commit " +
+         shown(program.at("commit")).substr(0, 12) + (program.value("dirty", false) ? ", modified" : "");
+}
+
+std::string metric_cards(const Json& metrics) {
+  std::string cards;
+  for (const auto& [key, value] : metrics.items()) {
+    if (key.find('.') != key.npos) continue;
+    const NamedUnit what = split_unit(key);
+    cards += "<div class=\"card\"><b>" + escaped(shown(value)) + " <small>" + escaped(what.unit) +
+             "</small></b><span>" + escaped(what.name) + "</span></div>\n";
+  }
+  return cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n";
+}
+
+std::string metric_table(const Json& metrics) {
+  std::vector<std::string> names, keys;
+  const auto once = [](std::vector<std::string>& known, const std::string& word) {
+    if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
+    return word;
+  };
+  std::map<std::pair<std::string, std::string>, std::string> cells;
+  for (const auto& [key, value] : metrics.items()) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    cells[{once(names, key.substr(0, dot)), once(keys, key.substr(dot + 1))}] = shown(value);
+  }
+  if (names.empty()) return "";
+  std::vector<std::string> head = {""};
+  std::vector<std::size_t> numeric;
+  for (const std::string& key : keys) {
+    numeric.push_back(head.size());
+    head.push_back(split_unit(key).text());
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& name : names) {
+    rows.push_back({name});
+    for (const std::string& key : keys) rows.back().push_back(cells[{name, key}]);
+  }
+  return html_table(head, rows, numeric);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,158 @@
+#!/usr/bin/env bash
+# Opens pages of results from disk in headless Chromium, on a phone's width and on a desk's, and checks that they
+# work there: a title, every picture loaded, nothing wider than the window, sequences that play, pictures that
+# enlarge, links that lead to files, and not a word on the console.
+#   tests/browser.sh [--hysteron PROGRAM] PAGE.html...
+# With --hysteron a run with frames is made of the first page's folder, and its report is checked too.
+# 77 (skipped) without Chromium.
+set -euo pipefail
+
+for browser in "${CHROMIUM:-chromium}" chromium-browser google-chrome none; do
+  command -v "$browser" >/dev/null && break
+done
+if [[ $browser == none ]]; then
+  echo "chromium is not installed: pages not looked at"
+  exit 77
+fi
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# url_of PATH: file:// URL; spaces are all that needs care in folders of a build.
+url_of() { printf 'file://%s' "${1// /%20}"; }
+
+# Writes the copy of a page that reports on itself to the window that frames it.  Links still lead to the page's
+# own folder.
+probed_copy() {
+  local page=$1 copy=$2 base
+  base=$(url_of "$(dirname "$(readlink -f "$page")")")/
+  {
+    sed "0,/<head>/s||<head><base href=\"$base\"><script>window.faults = []; addEventListener('error', e => faults.push(e.message \|\| 'a file is missing'), true);</script>|" "$page"
+    cat <<'EOF'
+<script>
+const wait = ms => new Promise(done => setTimeout(done, ms));
+const wrong = (fault, is) => { if (is) faults.push(fault); };
+async function probe() {
+  wrong('no title', !document.title);
+  wrong('no viewport', !document.querySelector('meta[name=viewport]'));
+  const images = [...document.images];
+  await Promise.all(images.map(image => image.decode().catch(() => 0)));
+  for (const image of images) wrong('not loaded: ' + image.alt, !image.naturalWidth);
+  const width = document.documentElement.clientWidth;
+  wrong('wider than the window by ' + (document.documentElement.scrollWidth - width),
+        document.documentElement.scrollWidth > width);
+  for (const link of document.querySelectorAll('a[href^="#"]')) {
+    wrong('no place ' + link.hash, !document.getElementById(decodeURIComponent(link.hash.slice(1))));
+  }
+  const seen = player => [...player.querySelectorAll('figure')].filter(f => f.offsetHeight).map(f => f.innerText).join();
+  for (const player of document.querySelectorAll('.player')) {
+    if (player.querySelectorAll('figure').length < 2) continue;
+    const before = seen(player);
+    player.querySelector('button').click();
+    await wait(250);
+    wrong('does not play', seen(player) === before);
+    player.querySelector('button').click();
+  }
+  const zoom = document.querySelector('a.zoom');
+  if (zoom && innerWidth >= 700) {
+    const small = zoom.querySelector('img').src;
+    zoom.querySelector('img').click();
+    for (let i = 0; i < 50 && document.querySelector('dialog[open] img')?.src === small; ++i) await wait(100);
+    const large = document.querySelector('dialog[open] img');
+    wrong('does not enlarge', !large || large.src === small || !large.naturalWidth);
+    document.querySelector('dialog[open]')?.click();
+    await wait(100);
+    wrong('does not close', document.querySelector('dialog[open]'));
+  }
+  return {images: images.length, players: document.querySelectorAll('.player').length, title: document.title, width};
+}
+addEventListener('load', () => probe().then(found => parent.postMessage({...found, faults}, '*'),
+                                            error => parent.postMessage({faults: [String(error)]}, '*')));
+</script>
+EOF
+  } >"$copy"
+}
+
+# A page that frames the copy at both widths and says on the console what they report.
+write_frame() {
+  cat >"$2" <<EOF
+<!doctype html><title>frame</title>
+<script>
+let missing = 2;
+addEventListener('message', event => {
+  const found = event.data, at = ' at ' + found.width + ' px: ';
+  for (const fault of found.faults) console.log('FAULT' + at + fault);
+  console.log('SEEN' + at + found.images + ' pictures, ' + found.players + ' players, ' + found.title);
+  if (--missing === 0) console.log('DONE');
+});
+</script>
+<iframe src="$1" style="width: 390px; height: 844px; border: 0"></iframe>
+<iframe src="$1" style="width: 1280px; height: 800px; border: 0"></iframe>
+EOF
+}
+
+# The console of a page until it says DONE, one message a line.  Chromium's own --dump-dom does not wait for frames.
+console_of() {
+  local browser_id
+  : >"$scratch/log"
+  "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
+    --user-data-dir="$scratch/profile" --host-resolver-rules="MAP * ~NOTFOUND" --enable-logging=stderr --v=0 \
+    --remote-debugging-port=0 "$1" >/dev/null 2>"$scratch/log" &
+  browser_id=$!
+  for ((tenths = 0; tenths < 600; ++tenths)); do
+    grep -q 'CONSOLE.*"DONE"' "$scratch/log" && break
+    kill -0 "$browser_id" 2>/dev/null || break
+    sleep 0.1
+  done
+  kill "$browser_id" 2>/dev/null || true
+  wait "$browser_id" 2>/dev/null || true
+  sed -nE 's/^.*CONSOLE[^"]*"(.*)", source: .*$/\1/p' "$scratch/log"
+}
+
+# Relative links of a page to files that are not there.
+missing_files() {
+  local folder link
+  folder=$(dirname "$1")
+  grep -oE 'href="[^"#]+"' "$1" | sort -u | cut -d'"' -f2 | while read -r link; do
+    [[ -e $folder/$(printf '%b' "${link//%/\\x}") ]] || echo "FAULT: leads nowhere: $link"
+  done
+}
+
+check() {
+  local page=$1 copy=$scratch/page.html frame=$scratch/frame.html messages faults
+  probed_copy "$page" "$copy"
+  write_frame "$(url_of "$copy")" "$frame"
+  messages=$(console_of "$(url_of "$frame")")
+  faults=$(
+    grep -vE '^(SEEN|DONE)' <<<"$messages" || true
+    missing_files "$page"
+  )
+  [[ $messages == *DONE* ]] || faults+=$'\nFAULT: not every window reported'
+  echo "$page"
+  grep '^SEEN' <<<"$messages" || true
+  [[ -z $faults ]] || { echo "$faults"; return 1; }
+}
+
+# A run's folder with frames: another run's manifest, its pictures as frames.
+report_with_frames() {
+  local program=$1 results=$2 run=$scratch/run picture number=0
+  mkdir -p "$run/frames"
+  cp "$results"/drape-*/manifest.json "$run/"
+  for picture in "$results"/drape-*/*.png; do
+    cp "$picture" "$run/frames/$(printf '%04d' "$number").png"
+    number=$((number + 1))
+  done
+  "$program" report "$run" >&2
+  echo "$run/report.html"
+}
+
+program=
+if [[ ${1:-} == --hysteron ]]; then
+  program=$2
+  shift 2
+fi
+[[ $# -gt 0 ]] || { echo "usage: tests/browser.sh [--hysteron PROGRAM] PAGE.html..."; exit 2; }
+failed=0
+for page in "$@"; do check "$page" || failed=1; done
+[[ -z $program ]] || check "$(report_with_frames "$program" "$(dirname "$1")")" || failed=1
+exit $failed
