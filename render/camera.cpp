@@ -96,7 +96,17 @@ Eigen::Matrix4f Camera::view() const {
   return view;
 }
 
-Eigen::Matrix4f Camera::projection(float aspect) const {
+Eigen::Matrix4f Camera::projection(float aspect, const Window& window) const {
+  const double width = window.right - window.left, height = window.top - window.bottom;
+  Eigen::Matrix4d crop = Eigen::Matrix4d::Identity();
+  crop(0, 0) = 1 / width;
+  crop(1, 1) = 1 / height;
+  crop(0, 3) = (1 - window.left - window.right) / width;
+  crop(1, 3) = (1 - window.bottom - window.top) / height;
+  return (crop * centered_projection(aspect).cast<double>()).cast<float>();
+}
+
+Eigen::Matrix4f Camera::centered_projection(float aspect) const {
   Eigen::Matrix4f projection = Eigen::Matrix4f::Zero();
   const float depth = far_ - near_;
   if (is_orthographic()) {

@@ -65,6 +65,23 @@ TEST(Camera, TopViewHasXRightYUpAndOneScale) {
   EXPECT_NEAR(span / 2 * 200, 0.1f / camera.metres_per_pixel({0, 0, 0}, 200), 200 * kRounding);
 }
 
+// The left upper quarter of a picture: its corners are the picture's corner, two edges' middles and the
+// centre.
+TEST(Camera, AWindowShowsItsPartOfThePicture) {
+  const Eigen::Vector3f point(0.11f, 0.07f, 0.05f);
+  const Window quarter{0, 0.5, 0.5, 1};
+  for (const Camera& camera : {Camera::perspective({1, -2, 1}, {0.1f, 0.2f, 0.3f}, 30),
+                               Camera::top({{-0.3f, -0.15f, 0}, {0.3f, 0.15f, 0.1f}}, 1.5f)}) {
+    const Eigen::Vector3f whole = projected(camera, 1.5f, point);
+    const Eigen::Vector4f clip = camera.projection(1.5f, quarter) * camera.view() * point.homogeneous();
+    const Eigen::Vector3f part = clip.head<3>() / clip.w();
+    EXPECT_NEAR(part.x(), 2 * whole.x() + 1, 4 * kRounding);
+    EXPECT_NEAR(part.y(), 2 * whole.y() - 1, 4 * kRounding);
+    EXPECT_NEAR(part.z(), whole.z(), kRounding);
+    EXPECT_EQ(camera.projection(1.5f, Window{}), camera.projection(1.5f));
+  }
+}
+
 TEST(Camera, ImpossibleViewsAreRefused) {
   EXPECT_EQ(test::error_of([] { Camera::perspective({0, 0, 0}, {0, 0, 0}, 30); }).exit_code(), 2);
   EXPECT_EQ(test::error_of([] { Camera::perspective({1, 0, 0}, {0, 0, 0}, 180); }).exit_code(), 2);
