@@ -21,6 +21,7 @@ const KeyRow<Options> kRows[] = {
     {"no-images", at<&O::no_images>, "", any(), "", "no pictures"},
     {"look", at<&O::look>, "", any(), "cloth | curvature | residual | friction | wireframe | silhouette", "what pictures show"},
     {"light", at<&O::light>, "", any(), "studio | raking", "raking: almost along the picture, as wrinkles are photographed"},
+    {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},

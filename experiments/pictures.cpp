@@ -133,6 +133,7 @@ render::Look Pictures::look_of(const std::string& name) const {
     look.value_low = 0;
     look.value_high = 1;
   }
+  look.background = render::background_named(options_.background);
   if (options_.light == "raking") {
     const Eigen::Vector3f back = options_.camera_direction.cast<float>().normalized();
     const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();
@@ -177,7 +178,8 @@ render::Image Pictures::picture(const std::string& look_name, const render::Came
     view_->show_obstacle(obstacle_[i], o.from <= simulation_.time() && simulation_.time() < o.until);
   }
   render::Image image = view_->draw(camera);
-  render::draw_caption(image, text, render::Corner::top_left);
+  if (options_.background != "transparent")  // a figure has its own
+    render::draw_caption(image, text, render::Corner::top_left);
   render::draw_scale_bar(image, camera.metres_per_pixel(bounds_.center(), image.height()),
                          render::Corner::bottom_left, "at the cloth's middle");
   const render::Look look = look_of(look_name);

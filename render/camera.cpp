@@ -71,7 +71,14 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
     distance =
         std::max({distance, p.z() + std::abs(p.y()) / slope, p.z() + std::abs(p.x()) / (slope * aspect)});
   }
-  return perspective(center + std::max(distance, 1e-6f) * backward, center, fov_degree);
+  distance = std::max(distance, 1e-6f);
+  Camera camera = perspective(center + distance * backward, center, fov_degree);
+  // A long box seen from its end begins close to the eye.
+  for (int i = 0; i < 8; ++i) {
+    const float depth = distance - backward.dot(corner(box, i) - center);
+    camera.near_ = std::min(camera.near_, 0.5f * depth);
+  }
+  return camera;
 }
 
 Camera Camera::top(const Box& box, float aspect) {

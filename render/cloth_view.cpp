@@ -23,13 +23,17 @@ ProgramFiles cloth_files(Show show) {
   switch (show) {
     case Show::curvature:
     case Show::friction:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
+      return {.vertex = "surface.vert",
+              .fragment = "cloth.frag",
+              .defines = "#define SKY_GIVEN\n#define FIELD\n"};
     case Show::wireframe:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
+      return {.vertex = "surface.vert",
+              .fragment = "cloth.frag",
+              .defines = "#define SKY_GIVEN\n#define WIREFRAME\n"};
     case Show::silhouette:
-      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
+      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = "#define SKY_GIVEN\n"};
     default:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define SKY_GIVEN\n"};
   }
 }
 
@@ -189,7 +193,7 @@ Box ClothView::bounds() const {
 
 Image ClothView::draw(const Camera& camera) {
   prepare();
-  Image image(size_.width, size_.height);
+  Image image(size_.width, size_.height, is_transparent() ? 4 : 3);
   for (int top = 0; top < size_.height; top += part_height_)
     for (int left = 0; left < size_.width; left += part_width_)
       place(image, draw_part(camera, left, top), left, top);
@@ -207,6 +211,7 @@ void ClothView::prepare() {
   if (look_.show == Show::silhouette) return;
   shadows_.aim(bounds(), look_.to_light, look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
+  if (cloth_) cloth_->update_sky(shadows_);
   if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
 }
 
@@ -219,7 +224,7 @@ Image ClothView::draw_part(const Camera& camera, int left, int top) const {
     draw_scene(view_of(camera, left, top, pass_shift(pass, passes, target_.samples())));
     exposure.add(target_.finish());
   }
-  return exposure.image(false);
+  return exposure.image(is_transparent());
 }
 
 ClothView::View ClothView::view_of(const Camera& camera, int left, int top, const Shift& shift) const {
@@ -252,16 +257,22 @@ void ClothView::draw_scene(const View& view) const {
     draw_obstacles(view);
     if (ground_height_) draw_ground(view);
   }
-  draw_backdrop(view);
+  if (!is_transparent()) draw_backdrop(view);
+}
+
+bool ClothView::is_transparent() const {
+  return look_.background == Background::transparent && look_.show != Show::silhouette;
 }
 
 void ClothView::set_backdrop(const Program& program, const View& view) const {
-  program.set("backdrop_top", linear(look_.backdrop_top));
-  program.set("backdrop_bottom", linear(look_.backdrop_bottom));
+  const bool studio = look_.background == Background::studio;
+  const Rgb8 white{255, 255, 255};
+  program.set("backdrop_top", linear(studio ? look_.backdrop_top : white));
+  program.set("backdrop_bottom", linear(studio ? look_.backdrop_bottom : white));
   const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
   program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
   program.set("origin", view.origin);
-  program.set("vignette", look_.show == Show::silhouette ? 0.0f : 0.22f);
+  program.set("vignette", studio && look_.show != Show::silhouette ? 0.22f : 0.0f);
 }
 
 void ClothView::begin_lit(const Program& program, const View& view) const {
@@ -286,6 +297,7 @@ void ClothView::draw_ground(const View& view) const {
   const Program& program = ground_->begin();
   program.set("view_projection", view.view_projection);
   set_backdrop(program, view);
+  program.set("alone", is_transparent() ? 1.0f : 0.0f);
   ground_->draw();
 }
 

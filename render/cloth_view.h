@@ -72,6 +72,7 @@ class ClothView {
   void set_bounds(const Box& bounds);
   void set_look(const Look& look);
 
+  // RGB; RGBA, colours not multiplied by alpha, if the look's background is transparent.
   Image draw(const Camera& camera);
 
  private:
@@ -97,6 +98,7 @@ class ClothView {
   View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
   void draw_scene(const View& view) const;
+  bool is_transparent() const;
   void draw_backdrop(const View& view) const;
   void draw_ground(const View& view) const;
   void draw_obstacles(const View& view) const;

@@ -109,14 +109,21 @@ TEST(Picture, PartsMakeTheWholePicture) {
 }
 
 // All of Mesa's software paths run one rasteriser, so between them not a bit may differ.
-TEST(Picture, AllSoftwarePathsOfOneMesaAgreeToTheBit) {
+class SoftwarePicture : public testing::TestWithParam<Background> {};
+
+TEST_P(SoftwarePicture, AllPathsOfOneMesaAgreeToTheBit) {
+  const Background background = GetParam();
   std::vector<std::pair<std::string, Image>> pictures;
   for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
     if (candidate.hardware) continue;
     try {
       const auto offscreen = Offscreen::create(candidate);
       if (offscreen->description().find("llvmpipe") == std::string::npos) continue;
-      pictures.emplace_back(offscreen->description(), picture(*offscreen, "cloth"));
+      Look look;
+      look.background = background;
+      pictures.emplace_back(
+          offscreen->description(),
+          test::draped_view(*offscreen, {kWidth, kHeight}, look)->draw(test::draped_camera(kAspect)));
     } catch (const Error&) {
       continue;  // a path this machine lacks
     }
@@ -126,6 +133,9 @@ TEST(Picture, AllSoftwarePathsOfOneMesaAgreeToTheBit) {
     EXPECT_EQ(pictures[i].second, pictures[0].second)
         << pictures[i].first << " against " << pictures[0].first;
 }
+
+INSTANTIATE_TEST_SUITE_P(Backgrounds, SoftwarePicture,
+                         testing::Values(Background::studio, Background::transparent));
 
 }  // namespace
 }  // namespace hysteron::render
