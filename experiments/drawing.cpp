@@ -19,6 +19,7 @@ render::Camera camera_of(const Options& options, const render::Box& bounds) {
 }
 
 render::Look lit(render::Look look, const Options& options) {
+  look.background = render::background_named(options.background);
   if (options.light != "raking") return look;
   const Eigen::Vector3f back = options.camera_direction.cast<float>().normalized();
   const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();

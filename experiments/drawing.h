@@ -15,7 +15,7 @@ namespace hysteron::experiments {
 
 // The options' camera, as near as `bounds` stays whole.
 render::Camera camera_of(const Options& options, const render::Box& bounds);
-// The look in the options' light, "studio" or "raking".
+// The look in the options' light, "studio" or "raking", before their background.
 render::Look lit(render::Look look, const Options& options);
 
 // Caption, scale bar (it holds at `middle`) and, where there is one, colour bar.

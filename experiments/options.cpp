@@ -23,6 +23,7 @@ const KeyRow<Options> kRows[] = {
     {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | friction | wireframe | silhouette; of several apart by commas, each but the first makes a sequence frames-LOOK/"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without letters and bars"},
     {"light", at<&O::light>, "", any(), "studio | raking", "raking: almost along the picture, as wrinkles are photographed"},
+    {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},

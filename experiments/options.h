@@ -10,15 +10,16 @@
 namespace hysteron::experiments {
 
 struct Options {
-  std::string scene;              // scene      NAME|FILE.toml, "" = the experiment's own
-  std::string out;                // out        folder of the results, "" = out/<experiment>
-  std::string size = "1280x720";  // size       of pictures, WIDTHxHEIGHT pixels
-  double fps = 30;                // fps        pictures per simulated second
-  std::string renderer = "auto";  // renderer   auto | egl | osmesa
-  bool no_images = false;         // no-images
-  std::string look = "cloth";     // look       what the pictures show; several apart by commas
-  bool plain = false;             // plain      pictures of the sequence without letters
-  std::string light = "studio";   // light      studio | raking
+  std::string scene;                  // scene      NAME|FILE.toml, "" = the experiment's own
+  std::string out;                    // out        folder of the results, "" = out/<experiment>
+  std::string size = "1280x720";      // size       of pictures, WIDTHxHEIGHT pixels
+  double fps = 30;                    // fps        pictures per simulated second
+  std::string renderer = "auto";      // renderer   auto | egl | osmesa
+  bool no_images = false;             // no-images
+  std::string look = "cloth";         // look       what the pictures show; several apart by commas
+  bool plain = false;                 // plain      pictures of the sequence without letters
+  std::string light = "studio";       // light      studio | raking
+  std::string background = "studio";  // background studio | white | transparent
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh

@@ -117,6 +117,11 @@ std::string Pictures::caption(double time) const {
   return scene_.fabric.name + ", law " + scene_.law + "\n" + when(time);
 }
 
+// A figure, whose background is transparent, has a caption of its own.
+std::string Pictures::captioned(const std::string& text) const {
+  return options_.background == "transparent" ? "" : text;
+}
+
 render::Image Pictures::drawn(const std::string& look_name, const render::Camera& camera) {
   const auto start = Clock::now();
   show(*view_, look_name);
@@ -145,7 +150,7 @@ std::optional<render::ColorBar> Pictures::color_bar(const std::string& look_name
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
   render::Image image = drawn(look, camera);
-  letter(image, camera, bounds_.center(), text, color_bar(look));
+  letter(image, camera, bounds_.center(), captioned(text), color_bar(look));
   return image;
 }
 
@@ -168,7 +173,7 @@ void Pictures::frame(Run& run) {
   for (std::size_t i = 0; i < looks.size(); ++i) {
     render::Image image = drawn(looks[i], camera());
     if (!options_.plain)
-      letter(image, camera(), bounds_.center(), caption(simulation_.time()), color_bar(looks[i]));
+      letter(image, camera(), bounds_.center(), captioned(caption(simulation_.time())), color_bar(looks[i]));
     char name[32];
     std::snprintf(name, sizeof name, "/%04d.png", frames_);
     if (i == 0) thumbnails_.push_back({thumbnail(image), when(simulation_.time())});

@@ -49,6 +49,7 @@ class Pictures {
   std::optional<render::ColorBar> color_bar(const std::string& look) const;
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
+  std::string captioned(const std::string& text) const;
 
   Scene scene_;
   Options options_;

@@ -71,7 +71,14 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
     distance =
         std::max({distance, p.z() + std::abs(p.y()) / slope, p.z() + std::abs(p.x()) / (slope * aspect)});
   }
-  return perspective(center + std::max(distance, 1e-6f) * backward, center, fov_degree);
+  distance = std::max(distance, 1e-6f);
+  Camera camera = perspective(center + distance * backward, center, fov_degree);
+  // A long box seen from its end begins close to the eye.
+  for (int i = 0; i < 8; ++i) {
+    const float depth = distance - backward.dot(corner(box, i) - center);
+    camera.near_ = std::min(camera.near_, 0.5f * depth);
+  }
+  return camera;
 }
 
 Camera Camera::top(const Box& box, float aspect) {
@@ -96,7 +103,17 @@ Eigen::Matrix4f Camera::view() const {
   return view;
 }
 
-Eigen::Matrix4f Camera::projection(float aspect) const {
+Eigen::Matrix4f Camera::projection(float aspect, const Window& window) const {
+  const double width = window.right - window.left, height = window.top - window.bottom;
+  Eigen::Matrix4d crop = Eigen::Matrix4d::Identity();
+  crop(0, 0) = 1 / width;
+  crop(1, 1) = 1 / height;
+  crop(0, 3) = (1 - window.left - window.right) / width;
+  crop(1, 3) = (1 - window.bottom - window.top) / height;
+  return (crop * centered_projection(aspect).cast<double>()).cast<float>();
+}
+
+Eigen::Matrix4f Camera::centered_projection(float aspect) const {
   Eigen::Matrix4f projection = Eigen::Matrix4f::Zero();
   const float depth = far_ - near_;
   if (is_orthographic()) {

@@ -17,6 +17,11 @@ struct Box {
 // Box of points given as x, y, z each.  Error::request if there are none or one is not finite.
 Box box_of(std::span<const float> positions);
 
+// Part of a picture, in shares of its width and height from its lower left corner; it may reach beyond.
+struct Window {
+  double left = 0, bottom = 0, right = 1, top = 1;
+};
+
 class Camera {
  public:
   // `fov_degree`: full vertical angle.
@@ -30,14 +35,19 @@ class Camera {
   static Camera top(const Box& box, float aspect);
 
   Eigen::Matrix4f view() const;
-  Eigen::Matrix4f projection(float aspect) const;  // clip depth from -1 to 1
+  // Clip depth from -1 to 1.  `aspect`: of the whole picture; `window`: the part of it that fills clip space,
+  // off centre unless it is the whole.
+  Eigen::Matrix4f projection(float aspect, const Window& window = {}) const;
   const Eigen::Vector3f& eye() const { return eye_; }
+  Eigen::Vector3f forward() const { return (target_ - eye_).normalized(); }
   bool is_orthographic() const { return half_height_ > 0; }
 
   // Length at `point`, across the view, that one pixel of a picture `height` pixels high shows [m].
   float metres_per_pixel(const Eigen::Vector3f& point, int height) const;
 
  private:
+  Eigen::Matrix4f centered_projection(float aspect) const;
+
   Eigen::Vector3f eye_{1, 0, 0}, target_{0, 0, 0}, up_{0, 0, 1};
   float tan_half_fov_ = 0.2f;
   float half_height_ = 0;  // > 0: orthographic [m]

@@ -12,8 +12,11 @@ namespace {
 
 constexpr Rgb8 kInk{38, 40, 44};
 constexpr Rgb8 kPaper{240, 240, 240};
+constexpr Rgb8 kWhite{255, 255, 255};
 constexpr float kLineSpacing = 1.9f;   // of the letter height
 constexpr float kTitleGrowth = 1.25f;  // first line of a caption
+constexpr float kDescent = 0.35f;      // what letters have below the line, of their height
+constexpr float kSmallest = 6;         // letters that can be read [pixels]
 
 bool is_right(Corner corner) { return corner == Corner::top_right || corner == Corner::bottom_right; }
 bool is_bottom(Corner corner) { return corner == Corner::bottom_left || corner == Corner::bottom_right; }
@@ -42,12 +45,15 @@ std::string length_text(double metres) {
   return number_text(metres) + " m";
 }
 
+// Transparent pictures are meant for white pages.
+const Rgb8& rim_color(const Image& image) { return image.channels() == 4 ? kWhite : kPaper; }
+
 // Text with a pale rim, so that it can be read over dark cloth too.
 void draw_label(Image& image, std::string_view text, float x, float y, float size) {
   const float rim = std::max(1.0f, size / 9);
   for (int i = 0; i < 8; ++i) {
     const float angle = 0.785398f * static_cast<float>(i);
-    draw_text(image, text, x + rim * std::cos(angle), y + rim * std::sin(angle), {kPaper, size});
+    draw_text(image, text, x + rim * std::cos(angle), y + rim * std::sin(angle), {rim_color(image), size});
   }
   draw_text(image, text, x, y, {kInk, size});
 }
@@ -62,32 +68,107 @@ Place place_block(const Image& image, Corner corner, float width, float height) 
           is_bottom(corner) ? static_cast<float>(image.height()) - gap - height : gap};
 }
 
-void draw_ramp(Image& image, const ColorBar& bar, float left, float top, float width, float height) {
-  draw_rectangle(image, left - 1, top - 1, left + width + 1, top + height + 1, kInk);
-  const int columns = std::max(1, static_cast<int>(width));
-  for (int i = 0; i < columns; ++i) {
-    const float begin = left + width * static_cast<float>(i) / static_cast<float>(columns);
-    const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(columns);
-    draw_rectangle(image, begin, top, begin + width / static_cast<float>(columns), top + height,
-                   map_color8(bar.map, t));
+// Breaks a line between words; a word longer than `width` stays whole.
+std::vector<std::string> broken(std::string_view line, float size, float width) {
+  std::vector<std::string> lines(1);
+  while (!line.empty()) {
+    const size_t end = std::min(line.find(' '), line.size());
+    const std::string word(line.substr(0, end));
+    line.remove_prefix(std::min(end + 1, line.size()));
+    const std::string longer = lines.back().empty() ? word : lines.back() + ' ' + word;
+    if (lines.back().empty() || text_width(longer, size) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
   }
+  return lines;
+}
+
+struct Line {
+  std::string text;
+  float letters, width;
+};
+
+std::vector<Line> set_lines(std::string_view text, float size, float width) {
+  std::vector<Line> lines;
+  bool title = true;
+  for (const std::string_view line : lines_of(text)) {
+    const float letters = title ? kTitleGrowth * size : size;
+    for (const std::string& part : broken(line, letters, width))
+      lines.push_back({part, letters, text_width(part, letters)});
+    title = false;
+  }
+  return lines;
+}
+
+float block_height(const std::vector<Line>& lines, float size) {
+  return size * (kTitleGrowth + kLineSpacing * (static_cast<float>(lines.size()) - 1) + kDescent);
+}
+
+// As large as fits into the given space, at most `size`, which becomes the size taken.
+std::vector<Line> fitted_lines(std::string_view text, float width, float height, float& size) {
+  const auto fits = [width](const Line& line) { return line.width <= width; };
+  for (;; size *= 0.95f) {
+    std::vector<Line> lines = set_lines(text, size, width);
+    if (std::all_of(lines.begin(), lines.end(), fits) && block_height(lines, size) <= height) return lines;
+    if (0.95f * size >= kSmallest) continue;
+    std::erase_if(lines, [&](const Line& line) { return !fits(line); });
+    while (!lines.empty() && block_height(lines, size) > height) lines.pop_back();
+    return lines;
+  }
+}
+
+// Half of the picture without its margins.
+float half_width(const Image& image) {
+  return 0.5f * static_cast<float>(image.width()) - 1.25f * static_cast<float>(margin(image));
+}
+
+// A size at which the text is no wider than its half of the picture.
+float fitting_size(const Image& image, std::string_view text, float size) {
+  return std::min(size, size * half_width(image) / std::max(text_width(text, size), 1e-3f));
+}
+
+int widest_number(const ColorBar& bar, float letters) {
+  return static_cast<int>(std::ceil(
+      std::max({text_width(number_text(bar.low), letters), text_width(number_text(bar.high), letters)})));
+}
+
+// Every how many ticks a number finds room.
+int number_stride(const ColorBar& bar, int ticks, int step, float letters) {
+  for (int stride = 1; stride < ticks - 1; ++stride)
+    if ((ticks - 1) % stride == 0 &&
+        static_cast<float>(stride * step) > static_cast<float>(widest_number(bar, letters)) + 0.5f * letters)
+      return stride;
+  return ticks - 1;
+}
+
+void draw_ramp(Image& image, ColorMap map, const ColorBarPlace& at) {
+  const auto f = [](int x) { return static_cast<float>(x); };
+  draw_rectangle(image, f(at.left - 1), f(at.top - 1), f(at.left + at.width + 1), f(at.top + at.height + 1),
+                 kInk);
+  for (int i = 0; i < at.width; ++i)
+    draw_rectangle(image, f(at.left + i), f(at.top), f(at.left + i + 1), f(at.top + at.height),
+                   map_color8(map, f(i) / f(at.width - 1)));
 }
 
 }  // namespace
 
-float text_size(const Image& image) { return std::max(9.0f, static_cast<float>(image.height()) / 45); }
+float text_size(const Image& image) {
+  return std::max(9.0f,
+                  std::min(static_cast<float>(image.height()) / 45, static_cast<float>(image.width()) / 80));
+}
 
 int margin(const Image& image) { return std::max(6, image.height() / 30); }
 
 void draw_caption(Image& image, std::string_view text, Corner corner) {
-  const auto lines = lines_of(text);
-  const float size = text_size(image), spacing = kLineSpacing * size;
-  const float height = kTitleGrowth * size + spacing * (static_cast<float>(lines.size()) - 1);
-  float baseline = place_block(image, corner, 0, height).y + kTitleGrowth * size;
-  for (size_t i = 0; i < lines.size(); ++i, baseline += spacing) {
-    const float letters = i == 0 ? kTitleGrowth * size : size;
-    draw_label(image, lines[i], place_block(image, corner, text_width(lines[i], letters), 0).x, baseline,
-               letters);
+  float size = text_size(image);
+  const auto gap = 2 * static_cast<float>(margin(image));
+  const auto lines = fitted_lines(text, static_cast<float>(image.width()) - gap,
+                                  static_cast<float>(image.height()) - gap, size);
+  float baseline = place_block(image, corner, 0, block_height(lines, size)).y + kTitleGrowth * size;
+  for (const Line& line : lines) {
+    draw_label(image, line.text, place_block(image, corner, line.width, 0).x, baseline, line.letters);
+    baseline += kLineSpacing * size;
   }
 }
 
@@ -106,39 +187,50 @@ double scale_bar_length(const Image& image, double metres_per_pixel) {
 double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std::string_view note) {
   const double metres = scale_bar_length(image, metres_per_pixel);
   const auto length = static_cast<float>(metres / metres_per_pixel);
-  const float size = text_size(image), thick = std::max(2.0f, size / 5);
   const std::string label = length_text(metres) + (note.empty() ? "" : " " + std::string(note));
+  const float size = fitting_size(image, label, text_size(image)), thick = std::max(2.0f, size / 5);
   const Place at = place_block(image, corner, length, 1.8f * size + thick);
   const float label_width = text_width(label, size);
   const float label_x = is_right(corner) ? at.x + length - label_width : at.x;
   draw_label(image, label, label_x, at.y + size, size);
   const float left = std::round(at.x), top = std::round(at.y + 1.8f * size);
-  draw_rectangle(image, left - 1, top - 1, left + length + 1, top + std::round(thick) + 1, kPaper);
+  draw_rectangle(image, left - 1, top - 1, left + length + 1, top + std::round(thick) + 1, rim_color(image));
   draw_rectangle(image, left, top, left + length, top + std::round(thick), kInk);
   return length;
 }
 
-void draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
+ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   if (!(bar.low < bar.high))
     throw Error::request("colour bar: low = " + number_text(bar.low) +
                          " must be below high = " + number_text(bar.high));
-  const float size = text_size(image), width = 0.24f * static_cast<float>(image.width()), ramp = 0.9f * size;
-  // The last number is centred under the bar's end.
-  const float overhang = 0.5f * text_width(number_text(bar.high), 0.85f * size);
-  const Place at = place_block(image, corner, width + overhang, 4.6f * size + ramp);
   const std::string title = bar.label + (bar.unit.empty() ? "" : " [" + bar.unit + "]");
-  draw_label(image, title, at.x, at.y + size, size);
-  const float top = std::round(at.y + 1.9f * size);
-  draw_ramp(image, bar, std::round(at.x), top, std::round(width), std::round(ramp));
+  const float size = fitting_size(image, title, text_size(image)), letters = 0.85f * size;
+  // The first and the last number are centred under the bar's ends.
+  const float overhang = 0.5f * static_cast<float>(widest_number(bar, letters));
   const int ticks = std::max(2, bar.ticks);
+  const float room = std::min(0.24f * static_cast<float>(image.width()), half_width(image) - 2 * overhang);
+  const int step = static_cast<int>(room) / (ticks - 1);  // a whole number of pixels: ticks stand on columns
+  ColorBarPlace at;
+  at.width = step * (ticks - 1) + 1;
+  at.height = std::max(3, static_cast<int>(0.9f * size));
+  const auto width = static_cast<float>(at.width), ramp = static_cast<float>(at.height);
+  const Place block =
+      place_block(image, corner, std::max(width + overhang, text_width(title, size)), 4.6f * size + ramp);
+  if (step < 1 || block.x < 0 || block.y < 0) return {};
+  at.left = static_cast<int>(std::round(std::max(block.x, overhang + 2)));
+  at.top = static_cast<int>(std::round(block.y + 1.9f * size));
+  draw_label(image, title, block.x, block.y + size, size);
+  draw_ramp(image, bar.map, at);
+  const int stride = number_stride(bar, ticks, step, letters);
   for (int i = 0; i < ticks; ++i) {
-    const float share = static_cast<float>(i) / static_cast<float>(ticks - 1);
-    const float x = std::round(at.x) + share * std::round(width);
-    draw_rectangle(image, x - 0.5f, top + ramp, x + 0.5f, top + ramp + 0.45f * size, kInk);
-    const std::string number = number_text(bar.low + (bar.high - bar.low) * share);
-    draw_label(image, number, x - 0.5f * text_width(number, 0.85f * size), top + ramp + 1.6f * size,
-               0.85f * size);
+    at.tick_columns.push_back(at.left + i * step);
+    const auto x = static_cast<float>(at.tick_columns.back()), below = static_cast<float>(at.top + at.height);
+    draw_rectangle(image, x, below, x + 1, below + 0.45f * size, kInk);
+    if (i % stride != 0) continue;
+    const std::string number = number_text(bar.low + (bar.high - bar.low) * i / (ticks - 1));
+    draw_label(image, number, x + 0.5f - 0.5f * text_width(number, letters), below + 1.6f * size, letters);
   }
+  return at;
 }
 
 }  // namespace hysteron::render

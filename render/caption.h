@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/color_map.h"
 #include "render/image.h"
@@ -18,7 +19,8 @@ struct TextStyle {
   float size = 16;
 };
 
-// Letter height and margin that suit a picture: 1/45 and 1/30 of its height, at least 9 pixels of letters.
+// Letter height and margin that suit a picture: 1/45 of its height (1/80 of its width, if that is less) and
+// 1/30 of its height, at least 9 and 6 pixels.
 float text_size(const Image& image);
 int margin(const Image& image);
 
@@ -29,13 +31,15 @@ void draw_text(Image& image, std::string_view text, float x, float y, const Text
 // Filled rectangle; edges may fall between pixels.
 void draw_rectangle(Image& image, float left, float top, float right, float bottom, const Rgb8& color);
 
-// Lines ('\n') in a corner; the first line is set a little larger.
+// Lines ('\n') in a corner; the first line is set a little larger.  Lines that are too long are broken
+// between words, then set smaller; what still does not fit inside the margins is left out.
 void draw_caption(Image& image, std::string_view text, Corner corner);
 
 // The length 1, 2 or 5 times a power of ten [m] whose bar is nearest to a sixth of the picture's width.
 double scale_bar_length(const Image& image, double metres_per_pixel);
 // A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's
-// centre"). Returns the bar's length in pixels.  Error::request if metres_per_pixel is not positive.
+// centre"), set smaller if it would leave its half of the picture.  Returns the bar's length in pixels.
+// Error::request if metres_per_pixel is not positive.
 double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std::string_view note = "");
 
 struct ColorBar {
@@ -46,7 +50,13 @@ struct ColorBar {
   int ticks = 5;              // at equal steps, both ends included, at least 2
 };
 
+// Where a colour bar stands [pixels]: the columns of its ticks show exactly the colours of the ticks' values.
+struct ColorBarPlace {
+  int left = 0, top = 0, width = 0, height = 0;  // of the colours; all 0 if the picture has no room for them
+  std::vector<int> tick_columns;
+};
+
 // Horizontal bar with ticks, label and unit.  Error::request unless low < high.
-void draw_color_bar(Image& image, const ColorBar& bar, Corner corner);
+ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner);
 
 }  // namespace hysteron::render

@@ -11,7 +11,7 @@ namespace {
 constexpr int kCornerStartUnit = 5;
 constexpr int kCornerUnit = 6;
 
-enum Attribute : GLuint { kPosition, kNormal, kPattern, kValue };
+enum Attribute : GLuint { kPosition, kNormal, kPattern, kValue, kSky };
 
 void require_topology(const ClothTopology& topology) {
   if (topology.vertices == 0 || topology.triangles.empty())
@@ -58,10 +58,13 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
       triangles_(topology.triangles.size() / 3),
       normal_program_(
           gl, {.vertex = "normals.vert", .fragment = "", .defines = "", .captured = {"smooth_normal"}}),
+      sky_program_(gl, {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       arrays_(gl),
+      point_arrays_(gl),
       no_arrays_(gl),
       positions_(gl),
       normals_(gl),
+      sky_(gl),
       values_(gl),
       pattern_(gl),
       indices_(gl),
@@ -89,6 +92,7 @@ void ClothSurface::upload_topology(const ClothTopology& topology) {
   const std::vector<float> zeros(3 * vertices_, 0.0f);
   upload<float>(*gl_, positions_, zeros, GL_DYNAMIC_DRAW);
   upload<float>(*gl_, normals_, zeros, GL_DYNAMIC_COPY);
+  upload<float>(*gl_, sky_, std::vector<float>(4 * vertices_, 0.0f), GL_DYNAMIC_COPY);
   upload<float>(*gl_, pattern_, topology.pattern, GL_STATIC_DRAW);
   upload<int>(*gl_, indices_, topology.triangles, GL_STATIC_DRAW);
   view_as_texture(*gl_, position_texture_, GL_R32F, positions_);
@@ -120,8 +124,12 @@ void ClothSurface::bind_attributes(const ClothTopology& topology) {
   gl_->BindVertexArray(arrays_.name());
   attribute(*gl_, kPosition, positions_, 3);
   attribute(*gl_, kNormal, normals_, 3);
+  attribute(*gl_, kSky, sky_, 4);
   if (!topology.pattern.empty()) attribute(*gl_, kPattern, pattern_, 2);
   gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+  gl_->BindVertexArray(point_arrays_.name());  // without the sky light, which is written from it
+  attribute(*gl_, kPosition, positions_, 3);
+  attribute(*gl_, kNormal, normals_, 3);
 }
 
 void ClothSurface::set_positions(std::span<const float> xyz) {
@@ -155,8 +163,18 @@ void ClothSurface::update_normals() const {
   bind_buffer_texture(kPositionUnit, position_texture_);
   bind_buffer_texture(kCornerStartUnit, corner_start_texture_);
   bind_buffer_texture(kCornerUnit, corner_texture_);
-  gl_->BindVertexArray(no_arrays_.name());
-  gl_->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, normals_.name());
+  capture(no_arrays_, normals_);
+}
+
+void ClothSurface::update_sky(const ShadowMaps& shadows) const {
+  sky_program_.use();
+  shadows.bind(sky_program_);
+  capture(point_arrays_, sky_);
+}
+
+void ClothSurface::capture(const GlVertexArray& arrays, const GlBuffer& output) const {
+  gl_->BindVertexArray(arrays.name());
+  gl_->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
   gl_->Enable(GL_RASTERIZER_DISCARD);
   gl_->BeginTransformFeedback(GL_POINTS);
   gl_->DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices_));

@@ -6,6 +6,7 @@
 
 #include "render/gl/handles.h"
 #include "render/gl/program.h"
+#include "render/shadow_maps.h"
 
 namespace hysteron::render {
 
@@ -37,6 +38,8 @@ class ClothSurface {
 
   // Area-weighted normals from the position buffer, without the host; the sums' order is the adjacency's.
   void update_normals() const;
+  // Sky light at every vertex from up-to-date maps and normals; draw() hands it on.
+  void update_sky(const ShadowMaps& shadows) const;
   // One draw call of all triangles with the program in use.
   void draw() const;
 
@@ -44,13 +47,15 @@ class ClothSurface {
   void upload_topology(const ClothTopology& topology);
   void upload_adjacency(const ClothTopology& topology);
   void bind_attributes(const ClothTopology& topology);
+  // Runs the program in use for every vertex and keeps what it gives out.
+  void capture(const GlVertexArray& arrays, const GlBuffer& output) const;
   void bind_buffer_texture(int unit, const GlTexture& texture) const;
 
   const GlFunctions* gl_;
   size_t vertices_, triangles_;
-  Program normal_program_;
-  GlVertexArray arrays_, no_arrays_;
-  GlBuffer positions_, normals_, values_, pattern_, indices_, corner_start_, corners_;
+  Program normal_program_, sky_program_;
+  GlVertexArray arrays_, point_arrays_, no_arrays_;
+  GlBuffer positions_, normals_, sky_, values_, pattern_, indices_, corner_start_, corners_;
   GlTexture position_texture_, index_texture_, corner_start_texture_, corner_texture_;
 };
 

@@ -12,6 +12,7 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kColorMapUnit = 2;
+constexpr int kLargestSide = 65536;  // [pixels] of a picture; a mistake beyond
 
 Eigen::Vector3f linear(const Rgb8& color) {
   const auto& table = linear_of_srgb8();
@@ -22,13 +23,17 @@ ProgramFiles cloth_files(Show show) {
   switch (show) {
     case Show::curvature:
     case Show::friction:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
+      return {.vertex = "surface.vert",
+              .fragment = "cloth.frag",
+              .defines = "#define SKY_GIVEN\n#define FIELD\n"};
     case Show::wireframe:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
+      return {.vertex = "surface.vert",
+              .fragment = "cloth.frag",
+              .defines = "#define SKY_GIVEN\n#define WIREFRAME\n"};
     case Show::silhouette:
-      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
+      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = "#define SKY_GIVEN\n"};
     default:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define SKY_GIVEN\n"};
   }
 }
 
@@ -61,14 +66,41 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
 }
 
+// The size with parts that the driver can hold.
+PictureSize checked(Offscreen& offscreen, PictureSize size) {
+  const int largest = std::min(size.width, size.height) < 1 ? 0 : std::max(size.width, size.height);
+  if (largest < 1 || largest > kLargestSide || size.samples < 1 || size.supersample < 1 || size.tile < 2)
+    throw Error::request("picture of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                         " pixels: 1 to " + std::to_string(kLargestSide) + " a side are allowed");
+  offscreen.make_current();
+  GLint most = 0;
+  offscreen.gl().GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+  size.tile = std::clamp(most / size.supersample, 2, size.tile);
+  return size;
+}
+
+// Of the equal parts that a side is drawn in; even, so that drivers group the same pixels for derivatives.
+int part_side(int side, int most) {
+  if (side <= most) return side;
+  const int parts = (side + most - 1) / most;
+  return ((side + parts - 1) / parts + 1) / 2 * 2;
+}
+
+void place(Image& picture, const Image& part, int left, int top) {
+  const int columns = std::min(part.width(), picture.width() - left), channels = picture.channels();
+  for (int y = 0; y < std::min(part.height(), picture.height() - top); ++y)
+    std::copy_n(part.at(0, y), columns * channels, picture.at(left, top + y));
+}
+
 }  // namespace
 
 ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
     : offscreen_(offscreen),
       gl_(offscreen.gl()),
-      size_(size),
-      target_((offscreen.make_current(), gl_), size.width * size.supersample, size.height * size.supersample,
-              size.samples),
+      size_(checked(offscreen, size)),
+      part_width_(part_side(size.width, size_.tile)),
+      part_height_(part_side(size.height, size_.tile)),
+      target_(gl_, part_width_ * size.supersample, part_height_ * size.supersample, size.samples),
       shadows_(gl_),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}),
@@ -160,21 +192,50 @@ Box ClothView::bounds() const {
 }
 
 Image ClothView::draw(const Camera& camera) {
+  prepare();
+  Image image(size_.width, size_.height, is_transparent() ? 4 : 3);
+  for (int top = 0; top < size_.height; top += part_height_)
+    for (int left = 0; left < size_.width; left += part_width_)
+      place(image, draw_part(camera, left, top), left, top);
+  return image;
+}
+
+// What does not depend on the camera.
+void ClothView::prepare() {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
   target_.begin();  // even passes that draw no pixels need a whole framebuffer, and another view may have
                     // taken it away
   if (cloth_) cloth_->update_normals();
-  if (look_.show != Show::silhouette) {
-    shadows_.aim(bounds(), look_.to_light, look_.room);
-    shadows_.draw([this](const Program& program) { draw_casters(program); });
-    if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+  if (look_.show == Show::silhouette) return;
+  shadows_.aim(bounds(), look_.to_light, look_.room);
+  shadows_.draw([this](const Program& program) { draw_casters(program); });
+  if (cloth_) cloth_->update_sky(shadows_);
+  if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+}
+
+// The part of the picture whose upper left pixel is at (left, top).
+Image ClothView::draw_part(const Camera& camera, int left, int top) const {
+  Exposure exposure(part_width_, part_height_, size_.supersample);
+  const int passes = (size_.samples + target_.samples() - 1) / target_.samples();
+  for (int pass = 0; pass < passes; ++pass) {
+    target_.begin();
+    draw_scene(view_of(camera, left, top, pass_shift(pass, passes, target_.samples())));
+    exposure.add(target_.finish());
   }
-  target_.begin();
-  draw_scene(camera);
-  Image image = target_.finish();
-  return size_.supersample > 1 ? shrink(image, size_.width, size_.height) : image;
+  return exposure.image(is_transparent());
+}
+
+ClothView::View ClothView::view_of(const Camera& camera, int left, int top, const Shift& shift) const {
+  const double width = size_.width, height = size_.height, bottom = height - top - part_height_;
+  const double dx = shift.x / size_.supersample, dy = shift.y / size_.supersample;
+  const Window window{(left + dx) / width, (bottom + dy) / height, (left + part_width_ + dx) / width,
+                      (bottom + part_height_ + dy) / height};
+  const auto scale = static_cast<float>(size_.supersample);
+  return {camera.projection(static_cast<float>(width / height), window) * camera.view(), camera.eye(),
+          camera.forward(), camera.is_orthographic(),
+          scale * Eigen::Vector2f(static_cast<float>(left), static_cast<float>(bottom))};
 }
 
 void ClothView::draw_casters(const Program& program) const {
@@ -190,54 +251,58 @@ void ClothView::draw_casters(const Program& program) const {
 }
 
 // From front to back, as far as that is known: hidden pixels cost a software renderer most.
-void ClothView::draw_scene(const Camera& camera) const {
-  if (cloth_) draw_cloth(camera);
+void ClothView::draw_scene(const View& view) const {
+  if (cloth_) draw_cloth(view);
   if (look_.show != Show::silhouette) {
-    draw_obstacles(camera);
-    if (ground_height_) draw_ground(camera);
+    draw_obstacles(view);
+    if (ground_height_) draw_ground(view);
   }
-  draw_backdrop();
+  if (!is_transparent()) draw_backdrop(view);
 }
 
-void ClothView::set_backdrop(const Program& program) const {
-  program.set("backdrop_top", linear(look_.backdrop_top));
-  program.set("backdrop_bottom", linear(look_.backdrop_bottom));
-  program.set("picture_size", Eigen::Vector2f(target_.width(), target_.height()));
-  program.set("vignette", look_.show == Show::silhouette ? 0.0f : 0.22f);
+bool ClothView::is_transparent() const {
+  return look_.background == Background::transparent && look_.show != Show::silhouette;
 }
 
-Eigen::Matrix4f ClothView::view_projection(const Camera& camera) const {
-  const float aspect = static_cast<float>(size_.width) / static_cast<float>(size_.height);
-  return camera.projection(aspect) * camera.view();
+void ClothView::set_backdrop(const Program& program, const View& view) const {
+  const bool studio = look_.background == Background::studio;
+  const Rgb8 white{255, 255, 255};
+  program.set("backdrop_top", linear(studio ? look_.backdrop_top : white));
+  program.set("backdrop_bottom", linear(studio ? look_.backdrop_bottom : white));
+  const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
+  program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
+  program.set("origin", view.origin);
+  program.set("vignette", studio && look_.show != Show::silhouette ? 0.22f : 0.0f);
 }
 
-void ClothView::begin_lit(const Program& program, const Camera& camera) const {
+void ClothView::begin_lit(const Program& program, const View& view) const {
   program.use();
-  program.set("view_projection", view_projection(camera));
+  program.set("view_projection", view.view_projection);
   program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
   program.set("inset", 0.0f);
-  program.set("eye", camera.eye());
-  program.set("view_forward", Eigen::Vector3f(-camera.view().row(2).head<3>().transpose()));
-  program.set("orthographic", camera.is_orthographic() ? 1.0f : 0.0f);
+  program.set("eye", view.eye);
+  program.set("view_forward", view.forward);
+  program.set("orthographic", view.orthographic ? 1.0f : 0.0f);
   shadows_.bind(program);
 }
 
-void ClothView::draw_backdrop() const {
+void ClothView::draw_backdrop(const View& view) const {
   backdrop_program_.use();
-  set_backdrop(backdrop_program_);
+  set_backdrop(backdrop_program_, view);
   gl_.BindVertexArray(no_arrays_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void ClothView::draw_ground(const Camera& camera) const {
+void ClothView::draw_ground(const View& view) const {
   const Program& program = ground_->begin();
-  program.set("view_projection", view_projection(camera));
-  set_backdrop(program);
+  program.set("view_projection", view.view_projection);
+  set_backdrop(program, view);
+  program.set("alone", is_transparent() ? 1.0f : 0.0f);
   ground_->draw();
 }
 
-void ClothView::draw_obstacles(const Camera& camera) const {
-  begin_lit(matte_program_, camera);
+void ClothView::draw_obstacles(const View& view) const {
+  begin_lit(matte_program_, view);
   matte_program_.set("albedo", linear(look_.obstacle));
   matte_program_.set("inset", look_.obstacle_inset);
   for (const Obstacle& obstacle : obstacles_) {
@@ -247,8 +312,8 @@ void ClothView::draw_obstacles(const Camera& camera) const {
   }
 }
 
-void ClothView::draw_cloth(const Camera& camera) const {
-  begin_lit(*cloth_program_, camera);
+void ClothView::draw_cloth(const View& view) const {
+  begin_lit(*cloth_program_, view);
   cloth_program_->set("front_albedo", linear(look_.front));
   cloth_program_->set("back_albedo", linear(look_.back));
   cloth_program_->set("thread_spacing", look_.thread_spacing);

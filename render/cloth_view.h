@@ -12,6 +12,7 @@
 
 #include "render/camera.h"
 #include "render/cloth_surface.h"
+#include "render/exposure.h"
 #include "render/frame_target.h"
 #include "render/ground.h"
 #include "render/image.h"
@@ -25,13 +26,18 @@ namespace hysteron::render {
 
 struct PictureSize {
   int width = 1280, height = 720;
-  int samples = 4;      // a pixel; clamped to the driver's maximum
+  // Of every edge, a pixel.  Beyond the driver's maximum (4 in software) the picture is drawn again, shifted
+  // by a fraction of a pixel, until there are as many.
+  int samples = 8;
   int supersample = 1;  // 2: drawn twice as large and averaged, where pictures of two drivers are compared
+  // Largest side drawn at once [pixels]; larger pictures are drawn in parts, which bounds the driver's
+  // memory.
+  int tile = 2048;
 };
 
 class ClothView {
  public:
-  // `offscreen` must outlive the view.  Error::request for a size the driver cannot draw.
+  // `offscreen` must outlive the view.  Error::request for a side below 1 or above 65536 pixels.
   ClothView(Offscreen& offscreen, const PictureSize& size);
   ~ClothView();
   ClothView(const ClothView&) = delete;
@@ -66,6 +72,7 @@ class ClothView {
   void set_bounds(const Box& bounds);
   void set_look(const Look& look);
 
+  // RGB; RGBA, colours not multiplied by alpha, if the look's background is transparent.
   Image draw(const Camera& camera);
 
  private:
@@ -76,21 +83,33 @@ class ClothView {
     bool visible;
   };
 
+  // What one pass over one part of the picture sees.
+  struct View {
+    Eigen::Matrix4f view_projection;
+    Eigen::Vector3f eye, forward;
+    bool orthographic;
+    Eigen::Vector2f origin;  // lower left corner of the part in the picture [drawn pixels]
+  };
+
   Obstacle& obstacle(int number);
   Box bounds() const;
+  void prepare();
+  Image draw_part(const Camera& camera, int left, int top) const;
+  View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
-  void draw_scene(const Camera& camera) const;
-  void draw_backdrop() const;
-  void draw_ground(const Camera& camera) const;
-  void draw_obstacles(const Camera& camera) const;
-  void draw_cloth(const Camera& camera) const;
-  Eigen::Matrix4f view_projection(const Camera& camera) const;
-  void begin_lit(const Program& program, const Camera& camera) const;
-  void set_backdrop(const Program& program) const;
+  void draw_scene(const View& view) const;
+  bool is_transparent() const;
+  void draw_backdrop(const View& view) const;
+  void draw_ground(const View& view) const;
+  void draw_obstacles(const View& view) const;
+  void draw_cloth(const View& view) const;
+  void begin_lit(const Program& program, const View& view) const;
+  void set_backdrop(const Program& program, const View& view) const;
 
   Offscreen& offscreen_;
   const GlFunctions& gl_;
   PictureSize size_;
+  int part_width_, part_height_;  // of the picture drawn at once [pixels]
   FrameTarget target_;
   ShadowMaps shadows_;
   Program backdrop_program_, matte_program_;

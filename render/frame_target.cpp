@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 #include "sim/error.h"
 
@@ -28,22 +27,13 @@ void require_complete(const GlFunctions& gl) {
                          std::to_string(status));
 }
 
-Image flipped_rgb(const std::vector<std::uint8_t>& rgba, int width, int height) {
-  Image image(width, height);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* from = &rgba[static_cast<size_t>(height - 1 - y) * width * 4];
-    std::uint8_t* to = image.at(0, y);
-    for (int x = 0; x < width; ++x, from += 4, to += 3) std::copy_n(from, 3, to);
-  }
-  return image;
-}
-
 }  // namespace
 
 FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int samples)
     : gl_(&gl),
       width_(width),
       height_(height),
+      samples_(1),
       color_(gl),
       depth_(gl),
       resolved_color_(gl),
@@ -52,11 +42,11 @@ FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int sampl
   require_size(gl, width, height);
   GLint most_samples = 1;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most_samples);
-  const GLsizei count = std::clamp(samples, 1, most_samples);
+  samples_ = std::clamp(samples, 1, std::max(most_samples, 1));
   gl.BindRenderbuffer(GL_RENDERBUFFER, color_.name());
-  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_SRGB8_ALPHA8, width, height);
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_SRGB8_ALPHA8, width, height);
   gl.BindRenderbuffer(GL_RENDERBUFFER, depth_.name());
-  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, count, GL_DEPTH_COMPONENT24, width, height);
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width, height);
   gl.BindRenderbuffer(GL_RENDERBUFFER, resolved_color_.name());
   gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
 
@@ -75,10 +65,11 @@ void FrameTarget::begin() const {
   gl_->Viewport(0, 0, width_, height_);
   gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->DepthMask(GL_TRUE);
-  gl_->Clear(GL_DEPTH_BUFFER_BIT);
+  gl_->ClearColor(0, 0, 0, 0);
+  gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Image FrameTarget::finish() const {
+std::vector<std::uint8_t> FrameTarget::finish() const {
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
   gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
   gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -87,7 +78,7 @@ Image FrameTarget::finish() const {
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   check_gl(*gl_, "drawing a picture");
-  return flipped_rgb(rgba, width_, height_);
+  return rgba;
 }
 
 }  // namespace hysteron::render

@@ -1,8 +1,10 @@
-// The multisampled framebuffer that a picture is drawn into, and the way back into an Image.
+// The multisampled framebuffer that a picture, or a part of it, is drawn into, and the way back to the host.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "render/gl/handles.h"
-#include "render/image.h"
 
 namespace hysteron::render {
 
@@ -14,15 +16,16 @@ class FrameTarget {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  int samples() const { return samples_; }  // a pixel
 
-  // Binds the framebuffer and clears its depth; the backdrop covers every pixel.
+  // Binds the framebuffer, clears it to transparent and its depth to far.
   void begin() const;
-  // Averages the samples in linear light and reads the picture back.
-  Image finish() const;
+  // Averages the samples in linear light: RGBA, rows from the bottom.
+  std::vector<std::uint8_t> finish() const;
 
  private:
   const GlFunctions* gl_;
-  int width_, height_;
+  int width_, height_, samples_;
   GlRenderbuffer color_, depth_, resolved_color_;
   GlFramebuffer multisampled_, resolved_;
 };

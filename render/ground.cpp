@@ -1,39 +1,29 @@
 #include "render/ground.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 namespace hysteron::render {
 namespace {
 
+constexpr int kSkySide = 160;   // texels of the sky light's texture
 constexpr int kSide = 448;      // texels of the light texture
 constexpr float kReach = 2.6f;  // half side of the patch in radii of the scene
 constexpr int kLightUnit = 7;
-constexpr float kSkyBlur = 7.0f;  // texels of the sky maps
+constexpr int kSkyTextureUnit = 9;
+constexpr float kSkyBlur = 4.0f;  // texels of the sky maps
 
-// Square grid from -1 to 1 in the plane z = 0, finer toward the middle, where shadows lie.
-TriangleMesh ground_grid() {
-  constexpr int kVertices = 49;
-  const auto place = [](std::uint32_t i) {
-    const float t = 2.0f * static_cast<float>(i) / (kVertices - 1) - 1;
-    return 0.6f * t + 0.4f * t * t * t;
-  };
+TriangleMesh ground_square() {
   TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < kVertices; ++i)
-    for (std::uint32_t j = 0; j < kVertices; ++j) mesh.positions.emplace_back(place(i), place(j), 0.0f);
-  mesh.normals.assign(mesh.positions.size(), Eigen::Vector3f::UnitZ());
-  for (std::uint32_t i = 0; i + 1 < kVertices; ++i)
-    for (std::uint32_t j = 0; j + 1 < kVertices; ++j) {
-      const std::uint32_t a = i * kVertices + j, b = a + kVertices;
-      mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
-    }
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.normals.assign(4, Eigen::Vector3f::UnitZ());
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
   return mesh;
 }
 
-GlTexture light_texture(const GlFunctions& gl) {
+GlTexture light_texture(const GlFunctions& gl, int side) {
   GlTexture texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSide, kSide, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -41,18 +31,27 @@ GlTexture light_texture(const GlFunctions& gl) {
   return texture;
 }
 
+GlFramebuffer texture_target(const GlFunctions& gl, const GlTexture& texture) {
+  GlFramebuffer target(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.name(), 0);
+  return target;
+}
+
 }  // namespace
 
 Ground::Ground(const GlFunctions& gl)
     : gl_(&gl),
-      light_program_(
-          gl, {.vertex = "surface.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
+      sky_program_(gl,
+                   {.vertex = "backdrop.vert", .fragment = "ground_sky.frag", .defines = "#define GROUND\n"}),
+      light_program_(gl, {.vertex = "backdrop.vert", .fragment = "ground_light.frag", .defines = ""}),
       program_(gl, {.vertex = "ground.vert", .fragment = "ground.frag", .defines = ""}),
-      mesh_(gl, ground_grid()),
-      light_(light_texture(gl)),
-      target_(gl) {
-  gl.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, light_.name(), 0);
+      mesh_(gl, ground_square()),
+      no_arrays_(gl),
+      sky_(light_texture(gl, kSkySide)),
+      light_(light_texture(gl, kSide)),
+      sky_target_(texture_target(gl, sky_)),
+      light_target_(texture_target(gl, light_)) {
   check_gl(gl, "making the ground");
 }
 
@@ -65,19 +64,26 @@ void Ground::update(const ShadowMaps& shadows, const Box& box, float height) {
   placement_.diagonal() << reach, reach, 1, 1;
   placement_.topRightCorner<3, 1>() << center.x() - shift * to_light.x(), center.y() - shift * to_light.y(),
       height;
-  Eigen::Matrix4f from_above = placement_.inverse();
-  from_above.row(2).setZero();
-
-  gl_->BindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  gl_->Viewport(0, 0, kSide, kSide);
   gl_->Disable(GL_DEPTH_TEST);
+  sky_program_.use();
+  shadows.bind(sky_program_, kSkyBlur);
+  fill(sky_program_, sky_target_, kSkySide);
   light_program_.use();
-  light_program_.set("model", placement_);
-  light_program_.set("view_projection", from_above);
-  light_program_.set("inset", 0.0f);
   shadows.bind(light_program_, kSkyBlur);
-  mesh_.draw();
+  light_program_.set("ground_sky", kSkyTextureUnit);
+  gl_->ActiveTexture(GL_TEXTURE0 + kSkyTextureUnit);
+  gl_->BindTexture(GL_TEXTURE_2D, sky_.name());
+  fill(light_program_, light_target_, kSide);
   gl_->Enable(GL_DEPTH_TEST);
+}
+
+void Ground::fill(const Program& program, const GlFramebuffer& target, int side) const {
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl_->Viewport(0, 0, side, side);
+  program.set("model", placement_);
+  program.set("texture_size", Eigen::Vector2f(static_cast<float>(side), static_cast<float>(side)));
+  gl_->BindVertexArray(no_arrays_.name());
+  gl_->DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 const Program& Ground::begin() const {

@@ -22,11 +22,15 @@ class Ground {
   void draw() const;
 
  private:
+  // Covers a texture with the program in use.
+  void fill(const Program& program, const GlFramebuffer& target, int side) const;
+
   const GlFunctions* gl_;
-  Program light_program_, program_;
+  Program sky_program_, light_program_, program_;
   StaticMesh mesh_;
-  GlTexture light_;
-  GlFramebuffer target_;
+  GlVertexArray no_arrays_;
+  GlTexture sky_, light_;
+  GlFramebuffer sky_target_, light_target_;
   Eigen::Matrix4f placement_;
 };
 

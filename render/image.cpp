@@ -30,15 +30,31 @@ std::vector<Footprint> footprints(int source, int target) {
   return result;
 }
 
-// One target row of linear light: columns summed over the rows' footprint first, then along x.
+// One target row of linear light, times alpha where there is one: columns summed over the rows' footprint
+// first, then along x.
 std::vector<float> summed_columns(const Image& source, const Footprint& rows) {
   std::vector<float> sums(source.row_bytes(), 0.0f);
   const auto& linear = linear_of_srgb8();
   for (size_t k = 0; k < rows.weights.size(); ++k) {
     const std::uint8_t* row = source.at(0, rows.first + static_cast<int>(k));
-    for (size_t i = 0; i < sums.size(); ++i) sums[i] += rows.weights[k] * linear[row[i]];
+    if (source.channels() == 3) {
+      for (size_t i = 0; i < sums.size(); ++i) sums[i] += rows.weights[k] * linear[row[i]];
+      continue;
+    }
+    for (size_t i = 0; i < sums.size(); i += 4) {
+      const float alpha = rows.weights[k] * static_cast<float>(row[i + 3]) / 255;
+      for (size_t c = 0; c < 3; ++c) sums[i + c] += alpha * linear[row[i + c]];
+      sums[i + 3] += alpha;
+    }
   }
   return sums;
+}
+
+// Stores light that was multiplied by alpha, if there are four channels.
+void store(std::uint8_t* pixel, const std::array<float, 4>& light, int channels) {
+  const float share = channels == 4 ? std::max(light[3], 1e-6f) : 1;
+  for (int c = 0; c < 3; ++c) pixel[c] = srgb8_of_linear(light[c] / share);
+  if (channels == 4) pixel[3] = static_cast<std::uint8_t>(255 * std::min(light[3], 1.0f) + 0.5f);
 }
 
 }  // namespace
@@ -60,8 +76,13 @@ Image::Image(int width, int height, const Rgb8& fill) : Image(width, height, 3) 
 void paste(Image& target, const Image& source, int x, int y) {
   const int left = std::max(0, -x), right = std::min(source.width(), target.width() - x);
   for (int row = std::max(0, -y); row < std::min(source.height(), target.height() - y); ++row)
-    for (int column = left; column < right; ++column)
-      std::copy_n(source.at(column, row), 3, target.at(x + column, y + row));
+    for (int column = left; column < right; ++column) {
+      const std::uint8_t* from = source.at(column, row);
+      std::uint8_t* to = target.at(x + column, y + row);
+      const int alpha = source.channels() == 4 ? from[3] : 255;
+      for (int c = 0; c < 3; ++c)
+        to[c] = static_cast<std::uint8_t>((alpha * from[c] + (255 - alpha) * to[c] + 127) / 255);
+    }
 }
 
 Image shrink(const Image& source, int width, int height) {
@@ -75,13 +96,13 @@ Image shrink(const Image& source, int width, int height) {
   const int channels = source.channels();
   for (int y = 0; y < height; ++y) {
     const auto sums = summed_columns(source, rows[y]);
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < channels; ++c) {
-        float light = 0;
-        for (size_t k = 0; k < columns[x].weights.size(); ++k)
-          light += columns[x].weights[k] * sums[(columns[x].first + k) * channels + c];
-        result.at(x, y)[c] = srgb8_of_linear(light);
-      }
+    for (int x = 0; x < width; ++x) {
+      std::array<float, 4> light{};
+      for (size_t k = 0; k < columns[x].weights.size(); ++k)
+        for (int c = 0; c < channels; ++c)
+          light[c] += columns[x].weights[k] * sums[(columns[x].first + k) * channels + c];
+      store(result.at(x, y), light, channels);
+    }
   }
   return result;
 }

@@ -41,7 +41,8 @@ class Image {
   std::vector<std::uint8_t> pixels_;
 };
 
-// The pixels of `source` with its top left corner at (x, y); what lies outside is cut off.  Alpha is dropped.
+// The pixels of `source` with its top left corner at (x, y); what lies outside is cut off.  A
+// transparent source is blended over the target's colours as viewers do it, in encoded values.
 void paste(Image& target, const Image& source, int x, int y);
 
 // Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;

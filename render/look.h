@@ -18,12 +18,19 @@ enum class Show {
   silhouette,  // cloth black on white, nothing else: what a drape meter's shadow is
 };
 
+enum class Background {
+  studio,       // a paper backdrop with a gradient
+  white,        // white paper
+  transparent,  // none: the picture is RGBA, and what the ground's shadow takes from white is its alpha
+};
+
 struct Look {
   Show show = Show::cloth;
-  Rgb8 front{104, 132, 166};         // cloth, side of counter-clockwise triangles
-  Rgb8 back{168, 173, 178};          // the other side
-  Rgb8 obstacle{196, 190, 182};      // matte
-  Rgb8 backdrop_top{222, 223, 226};  // paper behind and below the scene
+  Background background = Background::studio;  // a silhouette is on white whatever is asked for
+  Rgb8 front{104, 132, 166};                   // cloth, side of counter-clockwise triangles
+  Rgb8 back{168, 173, 178};                    // the other side
+  Rgb8 obstacle{196, 190, 182};                // matte
+  Rgb8 backdrop_top{222, 223, 226};            // paper behind and below the scene
   Rgb8 backdrop_bottom{246, 246, 245};
   ColorMap map = ColorMap::diverging;
   float value_low = -1, value_high = 1;             // ends of the colour map, in the value's unit
@@ -38,5 +45,7 @@ struct Look {
 // "cloth", "curvature", "friction", "wireframe" or "silhouette" with the colour map and colours that suit it;
 // Error::request for anything else.
 Look look_named(std::string_view name);
+// "studio", "white" or "transparent"; Error::request for anything else.
+Background background_named(std::string_view name);
 
 }  // namespace hysteron::render

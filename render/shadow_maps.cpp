@@ -12,8 +12,8 @@ constexpr int kKeyUnit = 0;
 constexpr int kSkyUnit = 1;
 constexpr int kDepthUnit = 8;
 constexpr int kKeySide = 1024;  // texels; 0.5 mm each for a 0.5 m scene
-constexpr int kSkySide = 160;   // texels of one direction's tile
-constexpr int kSkyColumns = 4;
+constexpr int kSkySide = 256;   // texels of one direction's tile
+constexpr int kSkyColumns = 6;  // of tiles, as in sky.glsl
 constexpr int kSkyRows = kSkyLights / kSkyColumns;
 // Casters fill the map but for this border, which stays empty, so that a clamped lookup outside finds light.
 constexpr float kBorder = 1.05f;
@@ -53,14 +53,12 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Eigen::Vecto
   return matrix;
 }
 
-// Equal shares of the upper hemisphere: a ring of five near the horizon and one of three above it.
+// Equal shares of the upper hemisphere, along a spiral of golden angles (Vogel 1979; Swinbank & Purser 2006).
 std::array<Eigen::Vector3f, kSkyLights> sky_directions() {
   std::array<Eigen::Vector3f, kSkyLights> directions;
   for (int k = 0; k < kSkyLights; ++k) {
-    const bool low = k < 5;
-    const float z = low ? 0.3125f : 0.8125f;
-    const float turn = low ? (static_cast<float>(k) + 0.25f) / 5 : (static_cast<float>(k - 5) + 0.6f) / 3;
-    const float angle = 2 * std::numbers::pi_v<float> * turn, across = std::sqrt(1 - z * z);
+    const float z = (static_cast<float>(k) + 0.5f) / kSkyLights, across = std::sqrt(1 - z * z);
+    const float angle = static_cast<float>(k) * std::numbers::pi_v<float> * (3 - std::sqrt(5.0f));
     directions[k] = {across * std::cos(angle), across * std::sin(angle), z};
   }
   return directions;

@@ -1,6 +1,6 @@
 // What hides the light: one map for the key light, drawn sharp, and one small map for each of a few
-// directions of the sky.  The sky's are looked up per vertex and averaged, which gives the soft dark of folds
-// and contacts for the price of a few depth-only passes.
+// directions of the sky.  The sky's are looked up per vertex, on the ground per texel, and averaged: ambient
+// occlusion by what is really in the way, the same on every driver, for the price of depth-only passes.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace hysteron::render {
 
-inline constexpr int kSkyLights = 8;
+inline constexpr int kSkyLights = 24;
 
 class ShadowMaps {
  public:

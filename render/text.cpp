@@ -64,12 +64,16 @@ float for_each_glyph(std::string_view text, float scale, const Place& place) {
   return x;
 }
 
+// In linear light; over what a transparent picture has there.
 void blend(Image& image, int x, int y, const Rgb8& color, float coverage) {
   if (x < 0 || y < 0 || x >= image.width() || y >= image.height() || coverage <= 0) return;
   const auto& linear = linear_of_srgb8();
   std::uint8_t* pixel = image.at(x, y);
+  const float below = image.channels() == 4 ? static_cast<float>(pixel[3]) / 255 : 1;
+  const float alpha = coverage + below * (1 - coverage), share = coverage / alpha;
   for (int c = 0; c < 3; ++c)
-    pixel[c] = srgb8_of_linear(linear[pixel[c]] + coverage * (linear[color[c]] - linear[pixel[c]]));
+    pixel[c] = srgb8_of_linear(linear[pixel[c]] + share * (linear[color[c]] - linear[pixel[c]]));
+  if (image.channels() == 4) pixel[3] = static_cast<std::uint8_t>(255 * alpha + 0.5f);
 }
 
 void draw_glyph(Image& image, int glyph, float x, float y, float scale, const Rgb8& color) {

@@ -3,7 +3,7 @@ in vec3 world;
 in vec3 world_normal;
 in vec2 thread;
 in float field;
-in vec3 sky;
+in vec4 sky;
 uniform vec3 front_albedo, back_albedo;
 uniform sampler2D color_map;
 uniform vec2 value_range;
@@ -37,6 +37,7 @@ float edge_coverage() {
 }
 #endif
 
+// The normal with the threads' relief.  Not of unit length: what is linear in it keeps its mean over many threads.
 vec3 with_threads(vec3 normal, vec2 tilt) {
   // Warp and weft directions on the surface, from how the coordinates change across the screen.
   vec3 px = dFdx(world), py = dFdy(world);
@@ -44,13 +45,13 @@ vec3 with_threads(vec3 normal, vec2 tilt) {
   float turn = tx.x * ty.y - ty.x * tx.y;
   vec3 warp = (px * ty.y - py * tx.y) * sign(turn), weft = (py * tx.x - px * ty.x) * sign(turn);
   float size = max(length(warp), length(weft));
-  return size > 0.0 ? normalize(normal - (tilt.x * warp + tilt.y * weft) / size) : normal;
+  return size > 0.0 ? normal - (tilt.x * warp + tilt.y * weft) / size : normal;
 }
 
 void main() {
   vec3 outward = normalize(world_normal);
   vec3 normal = gl_FrontFacing ? outward : -outward;
-  float seen = gl_FrontFacing ? sky.x : sky.y;
+  vec2 seen = gl_FrontFacing ? sky.xz : sky.yw;
   Weave weave = weave_at(thread);
   vec3 fine = with_threads(normal, weave.tilt);
 
@@ -58,9 +59,9 @@ void main() {
   float reaching = key_reaching(world, normal);
   float direct = max(dot(fine, to_light), 0.0) * smoothstep(0.0, 0.12, facing);
   float through = kThrough * max(-facing, 0.0);
-  vec3 light = room_light(fine, seen, sky.z) + key_light() * reaching * (direct + through);
+  vec3 light = room_light(fine, seen.x, seen.y) + key_light() * reaching * (direct + through);
   vec3 view = toward_eye(world);
-  float fill = 0.10 * room * max(dot(fine, view), 0.0) * (0.3 + 0.7 * seen);
+  float fill = 0.07 * room * max(dot(fine, view), 0.0) * (0.15 + 0.85 * seen.x);
 
 #ifdef FIELD
   float t = clamp((field - value_range.x) / (value_range.y - value_range.x), 0.0, 1.0);

@@ -1,10 +1,12 @@
 // Light on the ground relative to open ground, into a texture that lies on it: shadows on the ground are soft, so a
 // coarse texture holds them, and many lookups a texel cost little.
-in vec3 world;
-in vec3 sky;
+uniform mat4 model;
+uniform vec2 texture_size;
+uniform sampler2D ground_sky;
 uniform sampler2D key_depth;  // the key map's depths themselves
 out vec4 color;
 
+#include "ground_place.glsl"
 #include "light.glsl"
 
 const float kLightSize = 0.06;  // half width of the key light over its distance
@@ -41,9 +43,12 @@ float soft_key(vec3 point) {
 }
 
 void main() {
+  vec2 t = gl_FragCoord.xy / texture_size;
+  vec3 world = (model * vec4(place_of(2.0 * t - 1.0), 0, 1)).xyz;
+  float seen = texture(ground_sky, t).r;
   float facing = max(to_light.z, 0.0);
   vec3 up = vec3(0, 0, 1);
   vec3 open = key_light() * facing + room * kSkyLight;
-  vec3 light = key_light() * facing * soft_key(world) + room_light(up, sky.x, sky.z);
+  vec3 light = key_light() * facing * soft_key(world) + room_light(up, seen, 0.0);
   color = vec4(light / open, 1);
 }

@@ -9,9 +9,9 @@ uniform sampler2DShadow key_map;
 uniform mat4 key_matrix;
 uniform float key_texel;  // size of a texel in the world [m]
 
-const vec3 kKeyLight = vec3(0.80, 0.775, 0.74);
-const vec3 kSkyLight = vec3(0.33, 0.345, 0.37);
-const vec3 kFloorLight = vec3(0.20, 0.195, 0.185);
+const vec3 kKeyLight = vec3(0.88, 0.85, 0.81);
+const vec3 kSkyLight = vec3(0.30, 0.315, 0.34);
+const vec3 kFloorLight = vec3(0.16, 0.156, 0.148);
 const float kBlur = 4.5;    // radius of the key shadow's edge in texels
 const int kKeyTaps = 16;
 const int kRimTaps = 4;
@@ -45,8 +45,8 @@ float key_reaching(vec3 point, vec3 normal) {
   return taps > 0 ? lit / float(taps) : 1.0;
 }
 
-// Soft light from the room and the floor on a surface that sees `seen` of the sky; `openness`: of the point itself.
-vec3 room_light(vec3 normal, float seen, float openness) {
+// Soft light from the room and the floor on a surface that sees these shares of them.
+vec3 room_light(vec3 normal, float sky_share, float floor_share) {
   float up = 0.5 + 0.5 * normal.z;
-  return room * (kSkyLight * up * seen + kFloorLight * (1.0 - up) * (0.25 + 0.75 * openness));
+  return room * (kSkyLight * up * sky_share + kFloorLight * (1.0 - up) * floor_share);
 }

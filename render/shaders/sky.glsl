@@ -1,11 +1,11 @@
 #include "disc.glsl"
 // Ambient light from the upper hemisphere, tested in a few directions (one tile of the sky map each).
-const int kSkyLights = 8;
-const int kSkyColumns = 4;
+const int kSkyLights = 24;
+const int kSkyColumns = 6;
 #ifdef GROUND
-const int kSkyTaps = 8;
+const int kSkyTaps = 6;
 #else
-const int kSkyTaps = 4;
+const int kSkyTaps = 2;
 #endif
 uniform sampler2DShadow sky_map;
 uniform mat4 sky_matrix[kSkyLights];
@@ -29,17 +29,24 @@ float sky_open(int k, vec3 point) {
   return open / float(kSkyTaps);
 }
 
-// x: share of the sky's light that reaches the side the normal points to, y: the other side, z: the point, whichever
-// way it faces.  1 = all that this side could see without obstruction.
-vec3 sky_seen(vec3 point, vec3 normal) {
-  vec3 seen = vec3(0), possible = vec3(1e-6);
+// Shares of the sky's light (x) and of the floor's (z) that reach the side the normal points to; y, w: the other side.
+// 1 = all that this side could see without obstruction.  What a side sees of the floor it sees like the sky in the
+// direction mirrored at the horizon; a side that looks down, where no such direction is tested, like the point's average.
+vec4 light_seen(vec3 point, vec3 normal) {
+  vec4 seen = vec4(0), tested = vec4(0), possible = vec4(1e-6);
+  float open_sum = 0.0;
   for (int k = 0; k < kSkyLights; ++k) {
-    float facing = dot(normal, sky_direction[k]);
+    vec3 direction = sky_direction[k];
+    float facing = dot(normal, direction);
     // Looked up beside the surface, on the side that faces this direction: the sheet must not hide the sky from itself.
-    float open = sky_open(k, point + sign(facing) * 1.6 * sky_texel * normal);
-    vec3 weight = vec3(max(facing, 0.0), max(-facing, 0.0), 1.0);
-    seen += weight * open;
+    float open = sky_open(k, point + sign(facing) * 1.2 * sky_texel * normal);
+    float floor_facing = dot(normal, vec3(direction.xy, -direction.z));
+    vec4 weight = max(vec4(facing, -facing, floor_facing, -floor_facing), 0.0);
+    vec4 told = weight * vec4(1, 1, step(0.0, facing), step(0.0, -facing));
+    seen += told * open;
+    tested += told;
     possible += weight;
+    open_sum += open;
   }
-  return seen / possible;
+  return (seen + (possible - tested) * open_sum / float(kSkyLights)) / possible;
 }

@@ -1,11 +1,11 @@
 // Plain weave from warp and weft coordinates, for the eye only.  Each octave of detail fades out before a pixel
-// covers more than a thread of it, so that nothing shimmers.
+// covers more than a thread of it, so that nothing shimmers, and changes no mean, so that cloth is as bright from afar.
 uniform float thread_spacing;  // [m]; 0 = no threads
 uniform float weave_strength;
 
 struct Weave {
   float shade;   // factor of the albedo
-  vec2 tilt;     // of the normal along warp and weft
+  vec2 tilt;     // of the normal along warp and weft; its mean is zero
 };
 
 // Integer mixing with the constants of MurmurHash3's finaliser (Appleby, public domain): the same on every driver.
@@ -28,6 +28,10 @@ float streaks(vec2 p, int salt) {
              f.y);
 }
 
+const float kMeanCrown = 0.5556;  // (2 / pi) (0.65 + 0.35 * 2 / pi)
+
+// A thread's profile repeats with every thread: gone when a pixel covers half of it.
+float resolved(float footprint) { return 1.0 - smoothstep(0.2, 0.5, footprint); }
 float visible(float footprint) { return 1.0 - smoothstep(0.3, 0.75, footprint); }
 
 Weave weave_at(vec2 coordinates) {
@@ -37,20 +41,20 @@ Weave weave_at(vec2 coordinates) {
   if (thread_spacing <= 0.0) return result;
 
   // Threads, alternately over and under.
-  float near = visible(max(across.x, across.y)) * weave_strength;
+  float near = resolved(max(across.x, across.y)) * weave_strength;
   vec2 cell = floor(p), f = p - cell - 0.5;
   bool warp_on_top = mod(cell.x + cell.y, 2.0) < 0.5;
   vec2 g = warp_on_top ? f : f.yx;                      // x along the upper thread, y across it
   vec2 slope = vec2(-1.1 * sin(3.14159265 * g.x), -2.2 * g.y);
   result.tilt = near * 0.45 * (warp_on_top ? slope : slope.yx) * vec2(-1);
   float crown = cos(3.14159265 * g.y) * (0.65 + 0.35 * cos(3.14159265 * g.x));
-  result.shade *= mix(1.0, 0.72 + 0.45 * crown, near);
+  result.shade += near * 0.45 * (crown - kMeanCrown);
 
   // Uneven yarn: single threads, then bundles of three and nine.  The finest are skipped, not faded to nothing, where
   // a pixel covers more of them: noise is what a software renderer spends most on here.
   float thinnest = min(across.x, across.y);
   int first = thinnest < 0.75 ? 0 : thinnest < 2.25 ? 1 : thinnest < 6.75 ? 2 : 3;
-  float scale = pow(3.0, float(first)), strength = 0.085 * pow(0.5, float(first)) * weave_strength;
+  float scale = pow(3.0, float(first)), strength = 0.065 * pow(0.5, float(first)) * weave_strength;
   for (int octave = first; octave < 3; ++octave) {
     vec2 q = p / scale, w = across / scale;
     float warp = visible(w.y) * streaks(vec2(q.x / 24.0, q.y), octave);

@@ -52,6 +52,30 @@ TEST(Camera, FramingKeepsTheWholeBoxAndWastesLittle) {
     }
 }
 
+// A strip, a disc without thickness and a tall box, from all sides, in wide and narrow pictures.
+TEST(Camera, FramingHoldsExtremeShapes) {
+  const Box boxes[] = {{{-0.5f, -0.005f, 0}, {0.5f, 0.005f, 0.0001f}},
+                       {{-0.15f, -0.15f, 0.1f}, {0.15f, 0.15f, 0.1f}},
+                       {{-0.05f, -0.05f, 0}, {0.05f, 0.05f, 2}}};
+  for (const Box& box : boxes)
+    for (const Eigen::Vector3f& direction :
+         {Eigen::Vector3f(0.8f, -1.6f, 0.9f), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0, 0),
+          Eigen::Vector3f(0, -1, 0), Eigen::Vector3f(0, 0, -1), Eigen::Vector3f(1, 0, 0.02f)})
+      for (const float aspect : {0.25f, 1.0f, 4.0f}) {
+        const Camera camera = Camera::framing(box, direction, 28, aspect);
+        float reach = 0;
+        for (int i = 0; i < 8; ++i) {
+          const Eigen::Vector3f corner(i & 1 ? box.low.x() : box.high.x(), i & 2 ? box.low.y() : box.high.y(),
+                                       i & 4 ? box.low.z() : box.high.z());
+          const Eigen::Vector3f shown = projected(camera, aspect, corner);
+          reach = std::max(reach, shown.head<2>().cwiseAbs().maxCoeff());
+          EXPECT_LT(std::abs(shown.z()), 1) << "cut off by the near or far plane";
+        }
+        EXPECT_LE(reach, 1.0f);
+        EXPECT_GE(reach, 0.9f);
+      }
+}
+
 TEST(Camera, TopViewHasXRightYUpAndOneScale) {
   const Camera camera = Camera::top({{-0.3f, -0.15f, 0}, {0.3f, 0.15f, 0.1f}}, 1.5f);
   EXPECT_TRUE(camera.is_orthographic());
@@ -63,6 +87,23 @@ TEST(Camera, TopViewHasXRightYUpAndOneScale) {
   // units.
   const float span = projected(camera, 1.5f, {0, 0.1f, 0}).y() - projected(camera, 1.5f, {0, 0, 0.1f}).y();
   EXPECT_NEAR(span / 2 * 200, 0.1f / camera.metres_per_pixel({0, 0, 0}, 200), 200 * kRounding);
+}
+
+// The left upper quarter of a picture: its corners are the picture's corner, two edges' middles and the
+// centre.
+TEST(Camera, AWindowShowsItsPartOfThePicture) {
+  const Eigen::Vector3f point(0.11f, 0.07f, 0.05f);
+  const Window quarter{0, 0.5, 0.5, 1};
+  for (const Camera& camera : {Camera::perspective({1, -2, 1}, {0.1f, 0.2f, 0.3f}, 30),
+                               Camera::top({{-0.3f, -0.15f, 0}, {0.3f, 0.15f, 0.1f}}, 1.5f)}) {
+    const Eigen::Vector3f whole = projected(camera, 1.5f, point);
+    const Eigen::Vector4f clip = camera.projection(1.5f, quarter) * camera.view() * point.homogeneous();
+    const Eigen::Vector3f part = clip.head<3>() / clip.w();
+    EXPECT_NEAR(part.x(), 2 * whole.x() + 1, 4 * kRounding);
+    EXPECT_NEAR(part.y(), 2 * whole.y() - 1, 4 * kRounding);
+    EXPECT_NEAR(part.z(), whole.z(), kRounding);
+    EXPECT_EQ(camera.projection(1.5f, Window{}), camera.projection(1.5f));
+  }
 }
 
 TEST(Camera, ImpossibleViewsAreRefused) {

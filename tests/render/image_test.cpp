@@ -152,6 +152,26 @@ TEST(Shrink, KeepsAnEvenPictureAndRefusesToGrow) {
   EXPECT_EQ(error_of([&] { shrink(even, 98, 10); }).exit_code(), 2);
 }
 
+// A red pixel beside nothing is half a red pixel, not a dark one.
+TEST(Shrink, TransparentPixelsLendNoColour) {
+  Image image(2, 1, 4);
+  image.at(0, 0)[0] = 200;
+  image.at(0, 0)[3] = 255;
+  const Image small = shrink(image, 1, 1);
+  EXPECT_EQ(small.at(0, 0)[0], 200);
+  EXPECT_EQ(small.at(0, 0)[3], 128);
+}
+
+TEST(Paste, BlendsATransparentSource) {
+  Image target(3, 1, Rgb8{255, 255, 255}), source(3, 1, 4);
+  source.at(1, 0)[3] = 128;
+  source.at(2, 0)[3] = 255;
+  paste(target, source, 0, 0);
+  EXPECT_EQ(target.at(0, 0)[0], 255);
+  EXPECT_EQ(target.at(1, 0)[0], 127);
+  EXPECT_EQ(target.at(2, 0)[0], 0);
+}
+
 TEST(Paste, CutsOffWhatLiesOutside) {
   Image target(4, 4, Rgb8{0, 0, 0});
   paste(target, Image(3, 3, Rgb8{9, 9, 9}), -2, 2);
