@@ -32,7 +32,7 @@ struct CompareChoice {
 using C = CompareChoice;
 // clang-format off
 const KeyRow<CompareChoice> kRows[] = {
-    {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
+    {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; each may carry further keys, linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
     {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics apart by commas, or all"},
     {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators apart by commas, or all"},
     {"compare.to", at<&C::to>, "", any(), "", "column that the others' pictures are subtracted from, in rows of their own"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "experiments/comma_list.h"
 #include "experiments/csv.h"
@@ -25,7 +26,9 @@ struct Finding {
 bool is_law(const Flag& flag) { return flag.path == "law"; }
 bool is_fabric(const Flag& flag) { return flag.path == "fabric" || flag.path == "fabric.name"; }
 bool is_integrator(const Flag& flag) { return flag.path == "integrator"; }
-bool is_list(const std::string& text) { return text == "all" || text.find(',') != std::string::npos; }
+bool is_list(const std::string& text) {
+  return text == "all" || text.find_first_of(",+") != std::string::npos;
+}
 
 // The same line for one variant, into a folder of its name.
 CommandLine line_of(const CommandLine& line, const LawVariant& law, const std::filesystem::path& folder) {
@@ -52,6 +55,19 @@ std::vector<std::string> names_in(const CommandLine& line, bool (*is_it)(const F
   return text == "all" ? every : split(text);
 }
 
+// "linear" is --law linear; "linear+fabric.damping=1e-3" is --fabric.damping 1e-3 besides.
+void add_flags(std::vector<Flag>& flags, const std::string& path, const std::string& text) {
+  std::istringstream parts(text);
+  std::string part;
+  std::getline(parts, part, '+');
+  flags.push_back({path, part});
+  while (std::getline(parts, part, '+')) {
+    const std::size_t equals = part.find('=');
+    if (equals == part.npos) throw Error::request(text + ": \"" + part + "\" must be key=value");
+    flags.push_back({part.substr(0, equals), part.substr(equals + 1)});
+  }
+}
+
 // Each variant with each of the names, which stand in its own name where there are several.
 std::vector<LawVariant> multiplied(const std::vector<LawVariant>& variants, const std::string& path,
                                    const std::vector<std::string>& names) {
@@ -60,7 +76,7 @@ std::vector<LawVariant> multiplied(const std::vector<LawVariant>& variants, cons
     for (const std::string& name : names) {
       LawVariant one = variant;
       if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + name;
-      if (!name.empty()) one.flags.push_back({path, name});
+      if (!name.empty()) add_flags(one.flags, path, name);
       result.push_back(std::move(one));
     }
   return result;

@@ -36,7 +36,8 @@ struct LawPage {
 };
 
 // What --fabric, --law and --integrator name, each `all` or names apart by commas: every combination of them.
-// One variant, without a name where nothing is named, where none is a list.
+// A name may carry further keys for itself: "linear+fabric.damping=1e-3". One variant, without a name where
+// nothing is named, where none is a list.
 std::vector<LawVariant> variants_of(const CommandLine& line);
 // The line without lists: what the page itself is set up with.
 CommandLine without_lists(const CommandLine& line);

@@ -25,7 +25,7 @@ build --target hysteron
 [[ $# -gt 0 ]] || set -- drape --fabric cotton-broad
 [[ $1 != -* ]] || set -- drape "$@"
 case $1 in
-  list | law | fit | render | diff | report) exec "$build_folder/hysteron" "$@" ;;
+  list | law | fit | diff | report) exec "$build_folder/hysteron" "$@" ;;
 esac
 
 out=$(out_of "$@")
