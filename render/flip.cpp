@@ -68,7 +68,7 @@ double hyab(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 // ---------------------------------------------------------------------------------------- what an eye sees
 
 // A contrast sensitivity as a sum of Gaussians, weight a sqrt(pi / b) exp(-pi^2 d^2 / b) at the angle d
-// [degree] (Andersson et al. 2020, Eq. 4 and Table 1).
+// [degree] (Andersson et al. 2020, spatial filtering).
 struct Sensitivity {
   struct Term {
     double a, b;  // b [degree^2]
