@@ -52,6 +52,14 @@ std::string cards(const Measures& worst) {
   return html + "</div>\n";
 }
 
+std::string meanings(const DiffFlags& flags) {
+  return "<p class=\"about\">Steps are of 8-bit channels. ssim: structural similarity of luma (Wang et al. "
+         "2004), 1 for equal pictures. flip: difference that an eye sees at " +
+         number_field(std::round(flags.pixels_per_degree)) +
+         " pixels per degree (LDR-FLIP, Andersson et al. 2020), 0 for equal pictures. pixels_over_8: with a "
+         "channel that differs by more than 8 steps.</p>\n";
+}
+
 std::string table(const FolderDiff& diff) {
   std::vector<std::string> head = {"picture"};
   std::vector<std::size_t> numeric;
@@ -78,12 +86,14 @@ std::string thumbnail(const fs::path& file, const std::string& caption) {
 
 std::string most_different(const FolderDiff& diff, const DiffFlags& flags) {
   std::vector<const FolderDiff::Row*> rows;
-  for (const FolderDiff::Row& row : diff.rows) rows.push_back(&row);
+  for (const FolderDiff::Row& row : diff.rows) {
+    if (row.measures.mean_abs > 0) rows.push_back(&row);
+  }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const auto* x, const auto* y) { return x->measures.flip > y->measures.flip; });
   rows.resize(std::min(kMostPictures, rows.size()));
   const std::string scale =
-      flags.map == "flip" ? "FLIP, 0 dark to 1 pale" : "steps, 0 dark to 64 and more pale";
+      flags.map == "flip" ? "flip: dark 0, pale 1" : "difference: dark 0, pale 64 steps or more";
   std::string html;
   for (const FolderDiff::Row* row : rows)
     html +=
@@ -117,7 +127,7 @@ void write_folder_diff(const FolderDiff& diff, const DiffFlags& flags, const std
   write_text(out / "diff.html",
              html_page(diff.a.string() + " against " + diff.b.string(),
                        heading(diff, flags, command) + html_section("Worst of each", cards(diff.worst)) +
-                           html_section("Pictures", table(diff)) +
+                           html_section("Pictures", table(diff) + meanings(flags)) +
                            html_section(differing, most_different(diff, flags))));
 }
 

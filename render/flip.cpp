@@ -68,7 +68,7 @@ double hyab(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 // ---------------------------------------------------------------------------------------- what an eye sees
 
 // A contrast sensitivity as a sum of Gaussians, weight a sqrt(pi / b) exp(-pi^2 d^2 / b) at the angle d
-// [degree] (Andersson et al. 2020, Eq. 4 and Table 1).
+// [degree] (Andersson et al. 2020, spatial filtering).
 struct Sensitivity {
   struct Term {
     double a, b;  // b [degree^2]
@@ -234,7 +234,7 @@ Image heat_map(const Plane& errors) {
   for (int y = 0; y < errors.height; ++y)
     for (int x = 0; x < errors.width; ++x) {
       const double error = std::clamp(errors.row(y)[x], 0.0, 1.0);
-      std::copy_n(colors[static_cast<size_t>(255 * error + 0.5)].data(), 3, result.at(x, y));
+      std::copy_n(colors[static_cast<size_t>(std::lround(255 * error))].data(), 3, result.at(x, y));
     }
   return result;
 }

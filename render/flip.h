@@ -11,12 +11,12 @@ namespace hysteron::render {
 // Of a monitor 0.7 m wide with 3840 pixels, seen from 0.7 m: the setting of Andersson et al. 2020.
 inline constexpr double kPixelsPerDegree = 3840 * std::numbers::pi / 180;
 
-// LDR-FLIP of every pixel, 0 (equal) to 1, which the two may change places in (Andersson, Nilsson,
-// Akenine-Moller, Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference Evaluator for Alternating Images",
-// HPG; letters as there).  The colours an eye can tell apart at that distance are compared by HyAB in L*a*b*
-// with the Hunt effect, and the difference is raised where edges or points appear in one picture only.
-// Beyond the border, filters see the border's pixels repeated.
-// Error::request if the sizes differ or pixels_per_degree is not in [1, 1000].  Alpha is ignored.
+// LDR-FLIP of every pixel, 0 (equal) to 1, whichever picture comes first (Andersson, Nilsson, Akenine-Moller,
+// Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference Evaluator for Alternating Images", HPG; letters as
+// there).  The colours that an eye can tell apart at that distance are compared by HyAB in L*a*b* with the
+// Hunt effect, and the difference is raised where edges or points stand in one picture only.  Beyond the
+// border, filters see its pixels repeated. Error::request if the sizes differ or pixels_per_degree is not in
+// [1, 1000].  Alpha is ignored.
 Plane flip_map(const Image& a, const Image& b, double pixels_per_degree = kPixelsPerDegree);
 
 // Its mean, by which whole pictures are compared.

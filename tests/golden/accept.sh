@@ -3,6 +3,7 @@
 #   tests/golden/accept.sh FOLDER [NAME...]
 # Look at them first.
 set -euo pipefail
+# shellcheck source=tests/golden/scenes.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/scenes.sh"
 
 [[ $# -ge 1 ]] || { echo "usage: accept.sh FOLDER [NAME...], FOLDER as given to check.sh" >&2; exit 2; }

@@ -4,6 +4,7 @@
 # Each run is left in FOLDER/NAME, its last picture as FOLDER/NAME-actual.png; a picture beyond the limits also
 # leaves NAME-expected.png and NAME-heat.png there.  Exit code 1 if any picture is beyond, or a run fails.
 set -euo pipefail
+# shellcheck source=tests/golden/scenes.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/scenes.sh"
 
 [[ $# -ge 2 ]] || { echo "usage: check.sh PROGRAM FOLDER [NAME...]" >&2; exit 2; }
@@ -22,7 +23,8 @@ mesa=/usr/share/glvnd/egl_vendor.d/50_mesa.json
 picture_of() {
   local frames
   rm -rf "${folder:?}/$1" "$folder/$1"-*.png
-  # shellcheck disable=SC2086  (the table holds words)
+  # The table holds words.
+  # shellcheck disable=SC2086
   "$program" ${golden_runs[$1]} --size "$golden_size" --quiet --out "$folder/$1" >"$folder/$1.txt" || return 1
   frames=("$folder/$1"/frames/*.png)
   cp "${frames[-1]}" "$folder/$1-actual.png"

@@ -1,4 +1,4 @@
-# shellcheck shell=bash disable=SC2034  (read by the scripts that source this)
+# shellcheck shell=bash disable=SC2034
 # Sourced by check.sh and accept.sh: the runs whose last picture is kept, NAME.png in this folder.
 
 golden_folder=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")" && pwd -P)

@@ -37,7 +37,7 @@ double largest_hyab() {
 }
 
 // Filters keep uniform pictures and find no features, so that the colour part is all there is (Andersson et
-// al. 2020, Section 4.1): lightness 0 and 100 give HyAB = 100, beyond the knee.
+// al. 2020, colour pipeline): lightness 0 and 100 give HyAB = 100, beyond the knee.
 TEST(Flip, OfBlackAndWhiteIsTheRedistributedLightness) {
   const double knee = 0.4 * std::pow(largest_hyab(), 0.7), difference = std::pow(100, 0.7);
   ASSERT_GT(difference, knee);
