@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "experiments/experiments.h"
+#include "experiments/gallery_about.h"
 #include "experiments/gallery_exhibit.h"
 #include "experiments/parallel.h"
 #include "experiments/report_manifest.h"
@@ -16,7 +17,7 @@ namespace {
 
 std::string joined(const std::set<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const std::string& word : words) text += (text.empty() ? "" : "; ") + word;
   return text;
 }
 
@@ -41,9 +42,9 @@ std::string header(const std::vector<ExhibitGroup>& groups) {
     for (const Exhibit& exhibit : group.exhibits) gather(exhibit, devices, dates);
   }
   dates.erase("");
-  std::string facts = std::to_string(folders) + " folders of results";
+  std::string facts = counted(folders, "folder") + " of results";
   if (!dates.empty()) facts += ", " + *dates.begin() + (dates.size() > 1 ? " to " + *dates.rbegin() : "");
-  if (!devices.empty()) facts += "; devices: " + joined(devices);
+  if (!devices.empty()) facts += ". Devices: " + joined(devices);
   return "<header><h1>hysteron: results</h1>\n<p class=\"about\">" + escaped(facts) +
          ". Every number and picture is read from the folders beside this page; a picture leads to its full "
          "size.</p></header>\n";

@@ -30,7 +30,8 @@ table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th { text-align: left; color: var(--soft); font-weight: 600; vertical-align: bottom; }
 th, td { padding: .32rem .9rem .32rem 0; border-bottom: 1px solid var(--line); } td { vertical-align: top; }
 th.n, td.n { text-align: right; font-variant-numeric: tabular-nums; } td.n, td:first-child { white-space: nowrap; }
-td code { display: block; white-space: normal; color: var(--soft); font-size: .8rem; min-width: 16rem; overflow-wrap: anywhere; }
+td code { display: block; white-space: normal; color: var(--soft); font-size: .8rem; min-width: 16rem;
+  overflow-wrap: anywhere; }
 figure { margin: 0 0 1rem; } figcaption { color: var(--soft); font-size: .82rem; margin-top: .25rem; }
 img { max-width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); display: block; }
 .plot img, a.zoom img { background: #fff; }
@@ -48,7 +49,8 @@ svg polyline { fill: none; stroke: var(--accent); stroke-width: 1.6; stroke-line
 svg text { fill: var(--soft); font-size: 11px; } svg text.title { fill: var(--ink); font-size: 12.5px; }
 details { margin: .8rem 0; } summary { color: var(--soft); cursor: pointer; font-size: .88rem; }
 a.zoom { display: block; cursor: zoom-in; } a.zoom img { width: 100%; }
-dialog.large { border: 0; padding: 0; margin: auto; max-width: 98vw; max-height: 98vh; background: none; cursor: zoom-out; }
+dialog.large { border: 0; padding: 0; outline: 0; margin: auto; max-width: 98vw; max-height: 98vh; background: none;
+  cursor: zoom-out; }
 dialog.large img { max-width: 98vw; max-height: 92vh; width: auto; background: #fff; }
 dialog.large p { margin: .5rem 0 0; text-align: center; color: #fff; font-size: .88rem; }
 dialog.large::backdrop { background: rgba(15, 18, 22, .85); }
@@ -76,11 +78,13 @@ nav div { break-inside: avoid; }
     column-gap: 2.6rem; } body.gallery > header { grid-column: 1 / 3; }
   nav { position: sticky; top: 0; max-height: 100vh; overflow-y: auto; align-self: start; padding: 0 .5rem 2rem 0;
     scrollbar-width: thin; } main > section:first-child h2 { margin-top: .8rem; } }
-@media print { body, body.gallery { max-width: none; padding: 0; font-size: 10pt; } h2, h3, h2 + p, p.about { break-after: avoid; break-inside: avoid; }
+@media print { body, body.gallery { max-width: none; padding: 0; font-size: 10pt; } 
+  h2, h3, h2 + p, p.about { break-after: avoid; break-inside: avoid; }
   figure, .card, tr, svg, pre { break-inside: avoid; } .controls, dialog { display: none; }
   img { max-height: 17cm; width: auto; } a.zoom img { width: auto; } .scroll { overflow: visible; } table { font-size: .8em; }
   a { color: inherit; text-decoration: none; } nav { columns: 3; }
-  .grid img { max-height: 9cm; } .grid.wide { grid-template-columns: repeat(2, 1fr); } .grid:not(.wide), .charts { grid-template-columns: repeat(3, 1fr); } }
+  .grid img { max-height: 9cm; } .grid.wide { grid-template-columns: repeat(2, 1fr); }
+  .grid:not(.wide), .charts { grid-template-columns: repeat(3, 1fr); } }
 )css";
 
 constexpr const char* kScript = R"js(
