@@ -173,6 +173,7 @@ TEST_F(ClothViewTest, BadInputIsRefused) {
   EXPECT_EQ(error_of([&] { ClothView(*offscreen_, {0, 720}); }).exit_code(), 2);
   EXPECT_EQ(error_of([&] { ClothView(*offscreen_, {1 << 20, 720}); }).exit_code(), 2);
   EXPECT_EQ(error_of([] { look_named("velvet"); }).exit_code(), 2);
+  EXPECT_EQ(error_of([] { background_named("black"); }).exit_code(), 2);
 }
 
 TEST_F(ClothViewTest, AHiddenObstacleIsNeitherSeenNorCastsAShadow) {
