@@ -85,16 +85,20 @@ struct Column {
 
   const std::string& name() const { return sequence.name; }
   const std::vector<std::filesystem::path>& files() const { return sequence.files; }
-  // "t = 0.50 s", or "frame 12" where the rate is unknown.
+  // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
   std::string moment(std::size_t frame) const {
-    char text[40];
+    char text[40] = "";
     if (fps > 0)
       std::snprintf(text, sizeof text, "t = %.2f s", static_cast<double>(frame) / fps);
-    else
+    else if (files().size() > 1)
       std::snprintf(text, sizeof text, "frame %zu", frame);
     return text;
   }
 };
+
+std::string after(const std::string& separator, const std::string& text) {
+  return text.empty() ? "" : separator + text;
+}
 
 // The i-th of `count` values in a list of one for all or one for each; "" for an empty list.
 std::string value_of(const std::string& key, const std::string& list, std::size_t i, std::size_t count) {
@@ -263,10 +267,10 @@ class FramesAndSheet {
 
   void draw_frame(const Column& column, const Surface& frame, std::size_t k) {
     const std::string when = column.moment(k), file = column.files()[k].string();
-    run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles, " + when);
-    render::Image image = picture(frame, label(column) + "\n" + when, "mesh " + file);
+    run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
+    render::Image image = picture(frame, label(column) + after("\n", when), "mesh " + file);
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
-      cells_.push_back({thumbnail(image), alone() ? when : column.name() + ", " + when});
+      cells_.push_back({thumbnail(image), alone() ? when : column.name() + after(", ", when)});
     char name[32];
     std::snprintf(name, sizeof name, "/%04zu.png", k);
     writer_.write(run_.path((alone() ? "frames" : column.name()) + name), std::move(image));
