@@ -13,12 +13,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;                      // pictures on the contact sheet
-constexpr int kThumbnailWidth = 640;                 // kept in memory until then [pixels]
-constexpr double kCurvatureRange = 2;                // colours span this many K0 on either side
-constexpr double kResidualRange = 1;                 // the same for residual curvature
-const Eigen::Vector3f kRaking{0.94f, 0.22f, 0.25f};  // light from the left, a little from the front and above
-constexpr float kRakingRoom = 0.35f;                 // in a dim room
+constexpr int kSheetCells = 12;                     // pictures on the contact sheet
+constexpr int kThumbnailWidth = 640;                // kept in memory until then [pixels]
+constexpr double kCurvatureRange = 2;               // colours span this many K0 on either side
+constexpr double kResidualRange = 1;                // the same for residual curvature
+const Eigen::Vector3f kRaking{0.94f, 0.2f, 0.25f};  // light from the left, a little from the front and above
+constexpr float kRakingRoom = 0.22f;                // in a dim room
 
 std::vector<float> flat(const std::vector<Eigen::Vector3d>& points) {
   std::vector<float> xyz;
