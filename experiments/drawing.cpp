@@ -6,9 +6,9 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kThumbnailWidth = 640;                 // [pixels]
-const Eigen::Vector3f kRaking{0.94f, 0.22f, 0.25f};  // light from the left, a little from the front and above
-constexpr float kRakingRoom = 0.35f;                 // in a dim room
+constexpr int kThumbnailWidth = 640;                // [pixels]
+const Eigen::Vector3f kRaking{0.94f, 0.2f, 0.25f};  // light from the left, a little from the front and above
+constexpr float kRakingRoom = 0.22f;                // in a dim room
 
 }  // namespace
 

@@ -10,8 +10,8 @@ out vec4 color;
 #include "light.glsl"
 
 const float kLightSize = 0.06;  // half width of the key light over its distance
-const int kSearchTaps = 12;
-const int kSoftTaps = 48;
+const int kSearchTaps = 32;
+const int kSoftTaps = 64;
 
 // Half width of the shadow's edge [map units], from the mean depth of what lies between ground and light (Fernando
 // 2005, percentage-closer soft shadows); 0 where nothing does.
