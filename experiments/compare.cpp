@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include "experiments/comma_list.h"
 #include "experiments/compared.h"
@@ -142,15 +143,19 @@ struct Plan {
   std::vector<ComparedColumn> columns;
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
+  std::size_t laws = 0;   // different ones
 };
 
 Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::filesystem::path& out) {
   Plan plan;
   const std::vector<LawVariant> variants = variants_of(inner);
+  std::set<std::string> laws;
   for (const LawVariant& variant : variants) {
     const std::string law = last_of({"", "", variant.flags, {}}, "law", "");
     if (plan.reference != "prandtl") plan.reference = law;
+    laws.insert(law);
   }
+  plan.laws = laws.size();
   for (const LawVariant& variant : variants) {
     double scale = 1;
     std::vector<Flag> own = variant.flags;
@@ -214,8 +219,10 @@ void write_table(Run& run, const std::vector<ComparedColumn>& columns) {
 }
 
 std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
-  if (choice.match == "fabric")
+  if (choice.match == "fabric") {
+    if (plan.laws < 2) return {};
     return {"Each law makes of the same fabric what its own definition says (no stiffness matched)."};
+  }
   char text[120];
   if (choice.match == "energy")
     std::snprintf(text, sizeof text, "Matched to %s: equal work to bend from flat to %g 1/m; b1, b2 times",

@@ -9,8 +9,9 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr double kLine = 1.6;    // from baseline to baseline, in letters
-constexpr int kFootHeight = 90;  // [pixels] at a cell of 420: colour bars and the scale bar
+constexpr double kLine = 1.6;     // from baseline to baseline, in letters
+constexpr int kFootHeight = 120;  // [pixels] at a cell of 420: colour bars and the scale bar
+constexpr int kFootLetters = 6;   // heights of the foot in the picture whose letters its bars have
 
 struct Page {
   int columns, gap, cell_width, cell_height, foot;
@@ -169,7 +170,7 @@ class Drawing {
     const int height = page_.foot, width = std::min(page_.width() / 2, 2 * page_.cell_width);
     int x = page_.gap;
     const auto strip = [&](const auto& draw) {
-      Image bar(width, 4 * height, kPaper);
+      Image bar(width, kFootLetters * height, kPaper);
       draw(bar);
       Image part(width, height, kPaper);
       paste(part, bar, 0, height - bar.height());
