@@ -276,9 +276,13 @@ int compare(const CommandLine& line) {
   });
   write_table(run, plan.columns);
   if (!options.no_images) {
-    const ComparedPage page{
-        title_of(line, plan.columns), notes_of(choice, plan), choice.rows, options.looks().front(), choice.to,
-        !choice.no_outlines,          choice.video,           options.fps};
+    const ComparedPage page{title_of(line, plan.columns),
+                            notes_of(choice, plan),
+                            choice.rows,
+                            options.looks().front(),
+                            choice.to,
+                            !choice.no_outlines,
+                            choice.video};
     const auto stage = run.stage("render");
     draw_compared(run, page, plan.columns);
     plot_compared(run, page.title, plan.columns);

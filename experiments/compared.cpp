@@ -162,37 +162,46 @@ render::ComparisonSheet head_of(const ComparedPage& page, const std::vector<Comp
   return sheet;
 }
 
-// A strip a frame, and from them a film where ffmpeg is there.
+// All columns side by side at their frame `f`, or their last.
+render::Image strip_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns, std::size_t f) {
+  render::ComparisonSheet strip;
+  strip.cell_width = kCellWidth;
+  strip.rows.emplace_back();
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    strip.columns.push_back({columns[c].name, {}, render::method_color(c)});
+    strip.rows[0].cells.emplace_back();
+    if (!has_frames(columns[c])) continue;
+    const std::size_t last = moments(columns[c]).size() - 1;
+    strip.rows[0].cells[c].image = render::read_png(picture_of(columns[c], page.look, std::min(f, last)));
+    if (f <= last) strip.rows[0].label = moment_text({columns[c]}, second(columns[c], f));
+  }
+  return render::draw_comparison(strip);
+}
+
+// A film at the columns' own speed, where ffmpeg is there.
 void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
   std::size_t frames = 0;
-  for (const ComparedColumn& c : columns)
-    if (has_frames(c)) frames = std::max(frames, moments(c).size());
+  double rate = 1;  // [1/s]
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c) || moments(c).size() <= frames) continue;
+    frames = moments(c).size();
+    if (frames > 1) rate = static_cast<double>(frames - 1) / (second(c, frames - 1) - second(c, 0));
+  }
   for (std::size_t f = 0; f < frames; ++f) {
-    render::ComparisonSheet strip;
-    strip.cell_width = kCellWidth;
-    strip.rows.emplace_back();
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      strip.columns.push_back({columns[c].name, {}, render::method_color(c)});
-      strip.rows[0].cells.emplace_back();
-      if (!has_frames(columns[c])) continue;
-      const std::size_t last = moments(columns[c]).size() - 1;
-      strip.rows[0].cells[c].image = render::read_png(picture_of(columns[c], page.look, std::min(f, last)));
-      if (f <= last) strip.rows[0].label = moment_text({columns[c]}, second(columns[c], f));
-    }
     char name[32];
     std::snprintf(name, sizeof name, "film/%04zu.png", f);
-    render::write_png(run.path(name), render::draw_comparison(strip));
+    render::write_png(run.path(name), strip_of(page, columns, f));
   }
-  const fs::path file = run.path("film." + page.video);
-  std::vector<std::string> words = {"ffmpeg",     "-y",
-                                    "-loglevel",  "error",
-                                    "-framerate", text_of("%g", page.frames_per_second),
-                                    "-i",         (run.folder() / "film" / "%04d.png").string()};
+  const std::string name = "film." + page.video, strips = (run.folder() / "film" / "%04d.png").string();
+  std::vector<std::string> words = {"ffmpeg", "-y",  "-loglevel", "error", "-framerate", text_of("%g", rate),
+                                    "-i",     strips};
   if (page.video == "mp4")
     words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
-  words.push_back(file.string());
+  words.push_back((run.folder() / name).string());
   const render::ProcessResult result = render::run_process(words, "");
-  if (!result.started || result.exit_code != 0)
+  if (result.started && result.exit_code == 0)
+    run.path(name);
+  else
     run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
 }
 

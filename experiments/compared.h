@@ -12,12 +12,11 @@ namespace hysteron::experiments {
 struct ComparedPage {
   std::string title;
   std::vector<std::string> notes;
-  int rows = 4;              // moments
-  std::string look;          // of the pictures
-  std::string to;            // name of the column that others differ from; empty: no differences
-  bool outlines = true;      // of all columns, over each other
-  std::string video;         // none | mp4 | gif
-  double frames_per_second;  // of the video
+  int rows = 4;          // moments
+  std::string look;      // of the pictures
+  std::string to;        // name of the column that others differ from; empty: no differences
+  bool outlines = true;  // of all columns, over each other
+  std::string video;     // none | mp4 | gif
 };
 
 // Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
