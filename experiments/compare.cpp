@@ -117,21 +117,13 @@ std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, c
   return {{"fabric.b1", exactly(scale * fabric.b1)}, {"fabric.b2", exactly(scale * fabric.b2)}};
 }
 
-bool overrides(const std::vector<Flag>& later, const Flag& flag) {
-  return std::any_of(later.begin(), later.end(), [&](const Flag& f) {
-    const bool fabric = (f.path == "fabric" || f.path == "fabric.name") &&
-                        (flag.path == "fabric" || flag.path == "fabric.name");
-    return f.path == flag.path || fabric;
-  });
-}
-
 std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own,
                                   const CompareChoice& choice) {
   std::vector<std::string> words = {inner.experiment};
   std::string look = last_of(inner, "look", "cloth");
   if (!choice.no_outlines) look += ",silhouette";
   std::vector<Flag> flags = inner.flags;
-  std::erase_if(flags, [&](const Flag& f) { return f.path == "look" || overrides(own, f); });
+  std::erase_if(flags, [&](const Flag& f) { return f.path == "look" || is_set_again(f, own); });
   flags.insert(flags.end(), own.begin(), own.end());
   flags.insert(flags.end(), {{"look", look}, {"plain", "true"}});
   if (last_of(inner, "size", "").empty()) flags.push_back({"size", "840x630"});

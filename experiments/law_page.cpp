@@ -34,10 +34,7 @@ bool is_list(const std::string& text) {
 CommandLine line_of(const CommandLine& line, const LawVariant& law, const std::filesystem::path& folder) {
   CommandLine one = line;
   std::erase_if(one.flags, [&](const Flag& f) {
-    const auto again = [&](const Flag& own) {
-      return own.path == f.path || (is_fabric(own) && is_fabric(f));
-    };
-    return f.path == "out" || f.path == "json" || std::any_of(law.flags.begin(), law.flags.end(), again);
+    return f.path == "out" || f.path == "json" || is_set_again(f, law.flags);
   });
   one.flags.insert(one.flags.end(), law.flags.begin(), law.flags.end());
   one.flags.push_back({"out", (folder / law.name).string()});
@@ -128,6 +125,12 @@ void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
 }
 
 }  // namespace
+
+bool is_set_again(const Flag& flag, const std::vector<Flag>& later) {
+  return std::any_of(later.begin(), later.end(), [&](const Flag& own) {
+    return own.path == flag.path || (is_fabric(own) && is_fabric(flag));
+  });
+}
 
 std::vector<LawVariant> variants_of(const CommandLine& line) {
   std::vector<std::string> every_law;
