@@ -73,15 +73,19 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
                                jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
   const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
   std::mutex one_at_a_time;
-  in_parallel(columns.size(), at_once, [&](std::size_t i) {
+  const auto finish = [&](std::size_t i, int its_threads) {
     ComparedColumn& column = columns[i];
     column.kept = jobs.resume && is_finished(column);
     if (column.kept)
       column.manifest = read_json(column.folder / "manifest.json");
     else
-      run_column(column, threads, gpus > 0 ? static_cast<int>(i) % gpus : -1);
+      run_column(column, its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1);
     const std::lock_guard lock(one_at_a_time);
     said(column);
+  };
+  if (jobs.first >= 0) finish(static_cast<std::size_t>(jobs.first), jobs.threads > 0 ? jobs.threads : cores);
+  in_parallel(columns.size(), at_once, [&](std::size_t i) {
+    if (static_cast<int>(i) != jobs.first) finish(i, threads);
   });
 }
 

@@ -26,6 +26,7 @@ struct ColumnJobs {
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
   bool gpu = true;  // may be used
+  int first = -1;   // a column that the others need: it ends before they start; -1: none
 };
 
 // `said` is called, one at a time, as columns end.  A run that cannot go on (exit code 3) keeps what it has;

@@ -21,7 +21,8 @@ namespace {
 
 struct CompareChoice {
   std::string laws, fabrics, integrators;
-  std::string to;  // column that pictures differ from; "": no such rows
+  std::string to;  // column that others differ from; "": no such rows
+  std::string difference = "picture";
   int rows = 4;
   bool no_outlines = false;
   int jobs = 0;
@@ -36,7 +37,8 @@ const KeyRow<CompareChoice> kRows[] = {
     {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; each may carry further keys, linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
     {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics apart by commas, or all"},
     {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators apart by commas, or all"},
-    {"compare.to", at<&C::to>, "", any(), "", "column that the others' pictures are subtracted from, in rows of their own"},
+    {"compare.to", at<&C::to>, "", any(), "", "column that is subtracted from the others, in rows of their own"},
+    {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "moments on the page"},
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
@@ -95,15 +97,13 @@ std::string exactly(double value) {
   return text;
 }
 
-// Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
-// goes with it.
-std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, const std::string& to,
-                          const CompareChoice& choice, double& scale) {
-  scale = 1;
-  const Match match = match_named(choice.match);
-  if (match == Match::fabric) return {};
-  CommandLine line = inner;
-  line.flags.insert(line.flags.end(), variant.flags.begin(), variant.flags.end());
+// The fabric of a column before any matching, and its law.
+struct ColumnFabric {
+  Fabric fabric;
+  std::string law;
+};
+
+ColumnFabric fabric_of(const CommandLine& line) {
   Setup setup{default_scene(), {}};
   const std::string file = last_of(line, "scene", "");
   if (!file.empty()) apply_scene_file(setup.scene, file, {});
@@ -111,22 +111,57 @@ std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, c
   for (const Flag& flag : line.flags)
     if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
   apply_flags(setup.scene, of_fabric);
-  const Fabric& fabric = setup.scene.fabric;
-  const std::string law = last_of(line, "law", setup.scene.law);
+  return {setup.scene.fabric, last_of(line, "law", setup.scene.law)};
+}
+
+CommandLine with(CommandLine line, const LawVariant& variant) {
+  std::erase_if(line.flags, [&](const Flag& f) { return is_set_again(f, variant.flags); });
+  line.flags.insert(line.flags.end(), variant.flags.begin(), variant.flags.end());
+  return line;
+}
+
+// Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
+// goes with it.
+std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, const std::string& to,
+                          const CompareChoice& choice, double& scale) {
+  scale = 1;
+  const Match match = match_named(choice.match);
+  if (match == Match::fabric) return {};
+  const CommandLine line = with(inner, variant);
+  const auto [fabric, law] = fabric_of(line);
   scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
   return {{"fabric.b1", exactly(scale * fabric.b1)}, {"fabric.b2", exactly(scale * fabric.b2)}};
 }
 
-std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own,
-                                  const CompareChoice& choice) {
-  std::vector<std::string> words = {inner.experiment};
+// Colours mean the same in all columns, though fabrics have different transition curvatures.
+Flag shared_range(const CommandLine& inner, const std::vector<LawVariant>& variants) {
+  double k0 = 0;
+  for (const LawVariant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
+  return {"curvature-range", last_of(inner, "curvature-range", exactly(2 * k0))};
+}
+
+// What the experiment is asked for beside what it would be asked for alone.
+std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
+                                     const std::filesystem::path& out, bool is_reference) {
+  std::vector<Flag> flags = {{"plain", "true"}};
   std::string look = last_of(inner, "look", "cloth");
   if (!choice.no_outlines) look += ",silhouette";
-  std::vector<Flag> flags = inner.flags;
-  std::erase_if(flags, [&](const Flag& f) { return f.path == "look" || is_set_again(f, own); });
-  flags.insert(flags.end(), own.begin(), own.end());
-  flags.insert(flags.end(), {{"look", look}, {"plain", "true"}});
+  if (!choice.to.empty() && choice.difference == "curvature") {
+    if (is_reference)
+      flags.push_back({"export", "ply"});
+    else
+      look += ",difference", flags.push_back({"reference", (out / choice.to).string()});
+  }
+  flags.push_back({"look", look});
   if (last_of(inner, "size", "").empty()) flags.push_back({"size", "840x630"});
+  return flags;
+}
+
+std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own) {
+  std::vector<std::string> words = {inner.experiment};
+  std::vector<Flag> flags = inner.flags;
+  std::erase_if(flags, [&](const Flag& f) { return is_set_again(f, own); });
+  flags.insert(flags.end(), own.begin(), own.end());
   for (const Flag& flag : flags) words.push_back("--" + flag.path + "=" + flag.text);
   return words;
 }
@@ -136,6 +171,7 @@ struct Plan {
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
   std::size_t laws = 0;   // different ones
+  int to = -1;            // the column that is subtracted, -1: none
 };
 
 Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::filesystem::path& out) {
@@ -148,17 +184,24 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
     laws.insert(law);
   }
   plan.laws = laws.size();
+  const Flag range = shared_range(inner, variants);
   for (const LawVariant& variant : variants) {
     double scale = 1;
     std::vector<Flag> own = variant.flags;
     for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
     ComparedColumn column;
     column.name = variant.name.empty() ? inner.experiment : variant.name;
-    column.words = words_of(inner, own, choice);
+    if (column.name == choice.to) plan.to = static_cast<int>(plan.columns.size());
+    own.push_back(range);
+    for (const Flag& flag : asked_for_the_page(inner, choice, out, column.name == choice.to))
+      own.push_back(flag);
+    column.words = words_of(inner, own);
     column.folder = out / column.name;
     plan.columns.push_back(std::move(column));
     plan.scales.push_back(scale);
   }
+  if (!choice.to.empty() && plan.to < 0)
+    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)");
   return plan;
 }
 
@@ -258,7 +301,7 @@ int compare(const CommandLine& line) {
   const CommandLine inner = line_of_columns(line, choice);
   Plan plan = plan_of(inner, choice, options.out);
   ColumnJobs jobs{choice.jobs, std::stoi(last_of(line, "threads", "0")), options.resume,
-                  last_of(inner, "device", "auto") != "cpu"};
+                  last_of(inner, "device", "auto") != "cpu", choice.difference == "curvature" ? plan.to : -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
@@ -272,7 +315,8 @@ int compare(const CommandLine& line) {
                             notes_of(choice, plan),
                             choice.rows,
                             options.looks().front(),
-                            choice.to,
+                            plan.to,
+                            choice.difference == "curvature",
                             !choice.no_outlines,
                             choice.video};
     const auto stage = run.stage("render");

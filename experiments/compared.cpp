@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "experiments/report_manifest.h"
+#include "experiments/studio.h"
 #include "render/color_map.h"
 #include "render/compare.h"
 #include "render/comparison_sheet.h"
-#include "render/look.h"
 #include "render/plot.h"
 #include "render/process.h"
 #include "sim/error.h"
@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr int kCellWidth = 420;  // [pixels]
 constexpr std::size_t kMostNumbers = 4;
-constexpr int kDifferenceScale = 64;  // 8-bit steps at the end of the difference's colours
+constexpr const char* kDifference = "difference";  // the look of it
+constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
 
 const Json& moments(const ComparedColumn& column) { return column.manifest.at("frames").at("moments"); }
 double second(const ComparedColumn& column, std::size_t frame) {
@@ -99,24 +100,31 @@ struct Drawn {
     return row;
   }
 
-  std::size_t reference() const {
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (columns[c].name == page.to) return c;
-    throw Error::request("no column is called " + page.to);
-  }
-
-  render::ComparisonRow differences(const render::ComparisonRow& row) const {
-    render::ComparisonRow result{row.label + ": difference to " + page.to, {}};
-    const render::Image& to = row.cells[reference()].image;
+  render::ComparisonRow differences(const render::ComparisonRow& row, double time) const {
+    const std::size_t to = static_cast<std::size_t>(page.to);
+    render::ComparisonRow result{
+        row.label + (page.curvature ? ": curvature less that of " : ": difference to ") + columns[to].name,
+        {}};
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       result.cells.emplace_back();
-      const render::Image& image = row.cells[c].image;
-      if (c == reference() || image.empty() || to.empty()) continue;
-      result.cells.back().image = render::heat_map(image, to, kDifferenceScale);
-      result.cells.back().caption = text_of("%.2f %% of the pixels differ by more than 8",
-                                            render::compare(image, to).pixels_over_8_percent);
+      if (c == to || !has_frames(columns[c]) || !has_frames(columns[to])) continue;
+      result.cells.back() = page.curvature ? of_curvature(columns[c], time)
+                                           : of_pictures(row.cells[c].image, row.cells[to].image);
     }
     return result;
+  }
+
+  static render::ComparisonCell of_pictures(const render::Image& image, const render::Image& to) {
+    return {render::heat_map(image, to, kDifferenceScale),
+            text_of("%.2f %% of the pixels differ by more than 8",
+                    render::compare(image, to).pixels_over_8_percent)};
+  }
+
+  static render::ComparisonCell of_curvature(const ComparedColumn& column, double time) {
+    const std::size_t frame = frame_at(column, time);
+    const Json& moment = moments(column).at(frame);
+    return {render::read_png(picture_of(column, kDifference, frame)),
+            text_of("rms %.3g 1/m", moment.at("difference_rms_per_m").get<double>())};
   }
 
   render::ComparisonRow outlines() const {
@@ -140,9 +148,8 @@ std::optional<render::ColorBar> bar_of(const std::vector<ComparedColumn>& column
   for (const ComparedColumn& c : columns) {
     if (!has_frames(c)) continue;
     const Json bar = c.manifest.at("frames").at("looks").value(look, Json());
-    if (!bar.is_object()) return {};
-    render::ColorBar result{render::look_named(look == "residual" ? "curvature" : look).map,
-                            bar.at("low").get<double>(), bar.at("high").get<double>(),
+    if (!bar.is_object()) continue;
+    render::ColorBar result{map_of(look), bar.at("low").get<double>(), bar.at("high").get<double>(),
                             bar.at("label").get<std::string>(), bar.at("unit").get<std::string>()};
     return result;
   }
@@ -239,11 +246,14 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
   render::ComparisonSheet sheet = head_of(page, columns);
   for (double time : drawn.times) {
     sheet.rows.push_back(drawn.pictures(time));
-    if (!page.to.empty()) sheet.rows.push_back(drawn.differences(sheet.rows.back()));
+    if (page.to >= 0) sheet.rows.push_back(drawn.differences(sheet.rows.back(), time));
   }
   if (page.outlines) sheet.more = {drawn.outlines()};
-  if (const auto bar = bar_of(columns, page.look)) sheet.bars.push_back(*bar);
-  if (!page.to.empty())
+  std::vector<std::string> looks = {page.look};
+  if (page.to >= 0 && page.curvature) looks.push_back(kDifference);
+  for (const std::string& look : looks)
+    if (const auto bar = bar_of(columns, look)) sheet.bars.push_back(*bar);
+  if (page.to >= 0 && !page.curvature)
     sheet.bars.push_back(
         {render::ColorMap::sequential, 0, kDifferenceScale, "difference of pictures", "8-bit steps", 5});
   render::write_png(run.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);

@@ -12,11 +12,12 @@ namespace hysteron::experiments {
 struct ComparedPage {
   std::string title;
   std::vector<std::string> notes;
-  int rows = 4;          // moments
-  std::string look;      // of the pictures
-  std::string to;        // name of the column that others differ from; empty: no differences
-  bool outlines = true;  // of all columns, over each other
-  std::string video;     // none | mp4 | gif
+  int rows = 4;            // moments
+  std::string look;        // of the pictures
+  int to = -1;             // the column that others differ from; -1: no differences
+  bool curvature = false;  // what differs: curvature, as the columns pictured it, not pictures
+  bool outlines = true;    // of all columns, over each other
+  std::string video;       // none | mp4 | gif
 };
 
 // Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "experiments/law_page.h"
+#include "experiments/root_mean_square.h"
 #include "experiments/session.h"
 #include "experiments/wrinkles.h"
 #include "sim/bending/vertex_curvature.h"
@@ -44,12 +45,6 @@ struct Wrinkles {
   double curvature = 0;  // of the shape, root mean square [1/m]
   double residual = 0;   // what would be left without load, likewise [1/m]
 };
-
-double root_mean_square(const std::vector<double>& values) {
-  double square = 0;
-  for (double v : values) square += v * v;
-  return std::sqrt(square / static_cast<double>(values.size()));
-}
 
 Wrinkles wrinkles_of(Session& session, const C& choice) {
   const ClothMesh& mesh = session.cloth().mesh;

@@ -5,6 +5,7 @@
 
 #include "experiments/drawing.h"
 #include "experiments/mesh_sequence.h"
+#include "experiments/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::experiments {
@@ -82,9 +83,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& cap
 
 std::optional<double> MeshPictures::curvature_rms() const {
   if (curvature_.empty()) return {};
-  double square = 0;
-  for (const float k : curvature_) square += static_cast<double>(k) * k;
-  return std::sqrt(square / static_cast<double>(curvature_.size()));
+  return root_mean_square(curvature_);
 }
 
 }  // namespace hysteron::experiments

@@ -20,7 +20,9 @@ const KeyRow<Options> kRows[] = {
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "no pictures"},
-    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | friction | wireframe | silhouette; of several apart by commas, each but the first makes a sequence frames-LOOK/"},
+    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | difference | friction | wireframe | silhouette; of several apart by commas, each but the first makes a sequence frames-LOOK/"},
+    {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "at the ends of its colours, half of it for residual and difference; 0: 2 k0"},
+    {"reference", at<&O::reference>, "", any(), "", "folder of a run with the same mesh and --export ply, whose curvature look difference subtracts"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without letters and bars"},
     {"light", at<&O::light>, "", any(), "studio | raking", "raking: almost along the picture, as wrinkles are photographed"},
     {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
@@ -39,7 +41,7 @@ const KeyRow<Options> kRows[] = {
 constexpr int kSmallestSide = 16;    // [pixels] captions need some room
 constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
 
-const std::vector<std::string> kLooks = {"cloth",    "curvature", "residual",
+const std::vector<std::string> kLooks = {"cloth",    "curvature", "residual",  "difference",
                                          "friction", "wireframe", "silhouette"};
 
 // {0, 0} if the text is no WIDTHxHEIGHT.
@@ -89,7 +91,11 @@ void check_options(const Options& options) {
     throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)");
   }
   if (options.looks().empty()) check_look("");
-  for (const std::string& look : options.looks()) check_look(look);
+  for (const std::string& look : options.looks()) {
+    check_look(look);
+    if (look == "difference" && options.reference.empty())
+      throw Error::request("look = difference needs the run that it is taken from (--reference DIR)");
+  }
   if (options.resume) throw Error::request("--resume is not built yet");
 }
 

@@ -17,6 +17,8 @@ struct Options {
   std::string renderer = "auto";      // renderer   auto | egl | osmesa
   bool no_images = false;             // no-images
   std::string look = "cloth";         // look       what the pictures show; several apart by commas
+  double curvature_range = 0;         // curvature-range  [1/m] at the ends of its colours; 0: 2 k0
+  std::string reference;              // reference  folder of the run that look `difference` subtracts
   bool plain = false;                 // plain      pictures of the sequence without letters
   std::string light = "studio";       // light      studio | raking
   std::string background = "studio";  // background studio | white | transparent

@@ -1,54 +1,33 @@
 #include "experiments/pictures.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 
 #include "experiments/drawing.h"
-#include "experiments/wrinkles.h"
-#include "render/shapes.h"
+#include "experiments/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
-#include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;        // pictures on the contact sheet
-constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
-constexpr double kResidualRange = 1;   // the same for residual curvature
+constexpr int kSheetCells = 12;  // pictures on the contact sheet
 
-std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
-  std::vector<float> uv;
-  if (shape.shape == "tube") {
-    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
-      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
-    return uv;
-  }
-  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
-  for (int i = 0; i < mesh.vertices(); ++i) {
-    const bool given = !mesh.pattern.empty();
-    uv.push_back(static_cast<float>(given ? mesh.pattern[i].x() : mesh.rest[i].dot(mesh.warp_axis)));
-    uv.push_back(static_cast<float>(given ? mesh.pattern[i].y() : mesh.rest[i].dot(weft)));
-  }
-  return uv;
-}
+// Adds the time from now until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
 
-render::TriangleMesh body_of(const Obstacle& o) {
-  const auto f = [](double x) { return static_cast<float>(x); };
-  if (o.kind == "sphere") return render::sphere_mesh(f(o.radius));
-  if (o.kind == "capsule") return render::capsule_mesh(f(o.radius), f(o.height));
-  if (o.kind == "box") return render::box_mesh(o.size.cast<float>(), f(o.rim));
-  return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
-}
-
-Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
-  const Placement at = placement(o.motion, time);
-  Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
-  motion.topLeftCorner<3, 3>() = (at.scale * at.rotation).cast<float>();
-  motion.topRightCorner<3, 1>() = at.translation.cast<float>();
-  return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
-}
+ private:
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace
 
@@ -59,51 +38,42 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
       cloth_(cloth),
       simulation_(simulation),
       bounds_(bounds),
-      offscreen_(render::Offscreen::create(render::renderer_named(setup.options.renderer),
-                                           simulation.cuda_device())) {
-  view_ = std::make_unique<render::ClothView>(*offscreen_,
-                                              render::PictureSize{options_.width(), options_.height()});
-  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
-  const std::vector<float> pattern = pattern_of(cloth.mesh, setup.scene.cloth);
-  view_->set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
-  for (const Obstacle& o : scene_.obstacle) {
-    const bool body = o.kind != "ground" && o.kind != "hollow" && o.visible;
-    obstacle_.push_back(body ? view_->add_obstacle(body_of(o), placed_at(o, 0)) : -1);
-    if (o.kind == "ground" && !floor) floor = static_cast<float>(o.center.z());
-  }
-  view_->set_ground(floor);
-  view_->set_bounds(bounds);
-  view_->share_positions(
-      simulation.share_positions(view_->position_buffer(), offscreen_->cuda_device(), why_host_));
+      studio_([this, floor] {
+        return std::make_unique<Studio>(scene_, options_, cloth_, bounds_, floor, simulation_.cuda_device());
+      }) {
+  if (!options_.reference.empty()) reference_.emplace(options_.reference);
+  studio_.run([this](Studio& studio) {
+    renderer_ = studio.offscreen().description();
+    studio.view().share_positions(simulation_.share_positions(studio.view().position_buffer(),
+                                                              studio.offscreen().cuda_device(), why_host_));
+  });
 }
 
 render::Camera Pictures::camera() const { return camera_of(options_, bounds_); }
 
-// The look with its light and the ends of its colour map.  `residual` is the map of curvatures.
-render::Look Pictures::look_of(const std::string& name) const {
-  render::Look look = render::look_named(name == "residual" ? "curvature" : name);
-  if (look.show == render::Show::curvature) {
-    const double range = name == "residual" ? kResidualRange : kCurvatureRange;
-    look.value_high = static_cast<float>(range * scene_.fabric.k0);
-    look.value_low = -look.value_high;
-  } else if (look.show == render::Show::friction) {
-    look.value_low = 0;
-    look.value_high = 1;
-  }
-  return lit(look, options_);
+// The studio's thread reads the options while it draws.
+void Pictures::set_light(const std::string& light) {
+  studio_.wait();
+  options_.light = light;
 }
 
-void Pictures::show(render::ClothView& view, const std::string& look_name) {
-  const render::Look look = look_of(look_name);
-  if (look.show == render::Show::curvature) {
-    view.set_values(vertex_curvature(
-        cloth_.mesh, look_name == "residual" ? simulation_.residual_curvature() : simulation_.curvature(),
-        simulation_.dimension()));
-  } else if (look.show == render::Show::friction) {
-    view.set_values(vertex_average(cloth_.mesh, simulation_.friction_share(), simulation_.dimension()));
-  }
-  view.set_look(look);
-  if (!view.write_positions(why_host_)) view.set_positions(flat_points(simulation_.positions()));
+// The simulation stands still meanwhile, because the studio's thread reads its positions where they are.
+void Pictures::take_positions() {
+  if (studio_.run([this](Studio& studio) { return studio.view().write_positions(why_host_); })) return;
+  const std::vector<float> xyz = flat_points(simulation_.positions());
+  studio_.run([&](Studio& studio) { studio.view().set_positions(xyz); });
+}
+
+std::vector<float> Pictures::values(const std::string& look) const {
+  const int d = simulation_.dimension();
+  if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
+  if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
+  if (look != "curvature" && look != "difference") return {};
+  std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
+  if (look == "curvature") return curvature;
+  const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
+  std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
+  return curvature;
 }
 
 std::string Pictures::when(double time) const {
@@ -122,80 +92,75 @@ std::string Pictures::captioned(const std::string& text) const {
   return options_.background == "transparent" ? "" : text;
 }
 
-render::Image Pictures::drawn(const std::string& look_name, const render::Camera& camera) {
-  const auto start = Clock::now();
-  show(*view_, look_name);
-  for (std::size_t i = 0; i < obstacle_.size(); ++i) {
-    if (obstacle_[i] < 0) continue;
-    view_->move_obstacle(obstacle_[i], placed_at(scene_.obstacle[i], simulation_.time()));
-    const Obstacle& o = scene_.obstacle[i];
-    view_->show_obstacle(obstacle_[i], o.from <= simulation_.time() && simulation_.time() < o.until);
-  }
-  render::Image image = view_->draw(camera);
-  render_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-  return image;
-}
-
-std::optional<render::ColorBar> Pictures::color_bar(const std::string& look_name) const {
-  const render::Look look = look_of(look_name);
-  if (look.show == render::Show::curvature) {
-    const char* what = look_name == "residual" ? "residual curvature" : "curvature";
-    return render::ColorBar{look.map, look.value_low, look.value_high, what, "1/m"};
-  }
-  if (look.show == render::Show::friction)
-    return render::ColorBar{look.map, 0, 1, "friction moment / M0", ""};
-  return {};
-}
-
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
-  render::Image image = drawn(look, camera);
-  letter(image, camera, bounds_.center(), captioned(text), color_bar(look));
-  return image;
+  take_positions();
+  const Studio::Shown shown{simulation_.time(), values(look)};
+  return studio_.run([&](Studio& studio) {
+    const Stopwatch watch(render_seconds_);
+    render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
+    letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
+    return image;
+  });
 }
 
 // What a page that compares runs has to know of their pictures.
-void Pictures::note_frame(Run& run) {
-  moments_.push_back({{"s", simulation_.time()}, {"phase", scene_.phase_at(simulation_.time())}});
+void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
+  Json moment = {{"s", simulation_.time()}, {"phase", scene_.phase_at(simulation_.time())}};
   Json looks = Json::object();
-  for (const std::string& look : options_.looks()) {
-    looks[look] = nullptr;
-    if (const auto bar = color_bar(look))
-      looks[look] = {{"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
+  for (const Order& order : orders) {
+    looks[order.look] = nullptr;
+    if (const auto bar = color_bar_of(scene_, options_, order.look))
+      looks[order.look] = {
+          {"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
+    if (order.look == "difference") moment["difference_rms_per_m"] = root_mean_square(order.shown.values);
   }
+  moments_.push_back(std::move(moment));
   run.note("frames", {{"looks", looks},
                       {"m_per_pixel", camera().metres_per_pixel(bounds_.center(), options_.height())},
                       {"moments", moments_}});
 }
 
 void Pictures::frame(Run& run) {
-  const std::vector<std::string> looks = options_.looks();
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    render::Image image = drawn(looks[i], camera());
-    if (!options_.plain)
-      letter(image, camera(), bounds_.center(), captioned(caption(simulation_.time())), color_bar(looks[i]));
+  const Stopwatch waited(waited_seconds_);
+  take_positions();
+  const double time = simulation_.time();
+  std::vector<Order> orders;
+  for (const std::string& look : options_.looks()) {
     char name[32];
     std::snprintf(name, sizeof name, "/%04d.png", frames_);
-    if (i == 0) thumbnails_.push_back({thumbnail(image), when(simulation_.time())});
-    writer_.write(run.path((i == 0 ? "frames" : "frames-" + looks[i]) + name), std::move(image));
+    const std::string folder = orders.empty() ? "frames" : "frames-" + look;
+    orders.push_back({look, run.path(folder + name), {time, values(look)}});
   }
   ++frames_;
-  note_frame(run);
+  note_frame(run, orders);
+  studio_.post([this, orders = std::move(orders)](Studio& studio) {
+    const Stopwatch watch(render_seconds_);
+    for (const Order& order : orders) fill(studio, order, &order == orders.data());
+  });
+}
+
+// On the studio's thread.
+void Pictures::fill(Studio& studio, const Order& order, bool on_sheet) {
+  render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
+  if (!options_.plain)
+    letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)),
+           color_bar_of(scene_, options_, order.look));
+  if (on_sheet) thumbnails_.push_back({thumbnail(image), when(order.shown.time)});
+  writer_.write(order.file, std::move(image));
 }
 
 render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {
-  render::ClothView view(*offscreen_, {pixels, pixels});
-  const std::vector<int> triangles = flat_triangles(cloth_.mesh.face);
-  view.set_cloth({static_cast<size_t>(cloth_.mesh.vertices()), triangles, {}});
-  show(view, "silhouette");
   const float r = static_cast<float>(half_width);
   const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
   const render::Camera camera = render::Camera::top(box, 1);
   metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
-  return view.draw(camera);
+  const std::vector<float> xyz = flat_points(simulation_.positions());
+  return studio_.run([&](Studio& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
 }
 
 void Pictures::finish(Run& run, const std::string& title) {
+  studio_.wait();
   writer_.finish();
   std::vector<render::SheetEntry> cells;
   for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))
@@ -207,6 +172,7 @@ void Pictures::finish(Run& run, const std::string& title) {
   run.note("positions", positions_way());
   run.add_seconds("render", render_seconds_);
   run.add_seconds("encode", writer_.encode_seconds());
+  run.add_seconds("waited", waited_seconds_);
 }
 
 }  // namespace hysteron::experiments

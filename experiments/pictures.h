@@ -1,15 +1,19 @@
 // The pictures of a run: a sequence of frames, single pictures, a contact sheet.
+//
+//   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
+//   simulation goes on:  draw, letter, thumbnail                              -> PNG writer's threads
 #pragma once
 
-#include <memory>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/reference_run.h"
 #include "experiments/run.h"
-#include "render/caption.h"
-#include "render/cloth_view.h"
+#include "experiments/studio.h"
 #include "render/contact_sheet.h"
+#include "render/own_thread.h"
 #include "render/png_writer.h"
 #include "sim/scene/cloth.h"
 #include "sim/solve/simulation.h"
@@ -23,17 +27,18 @@ class Pictures {
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
 
-  const std::string& renderer() const { return offscreen_->description(); }
+  const std::string& renderer() const { return renderer_; }
   // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
   std::string positions_way() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
 
-  // Draws the present state as the next of frames/, captioned with what is simulated and the time; in further
-  // looks as the next of frames-LOOK/.
+  // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
+  // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
+  // wrong with an earlier one.
   void frame(Run& run);
   // Draws the present state in a look of its own, with caption and colour bar.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
   // "studio" or "raking", for the pictures to come.
-  void set_light(const std::string& light) { options_.light = light; }
+  void set_light(const std::string& light);
   // The sequence's camera.
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
@@ -42,11 +47,17 @@ class Pictures {
   void finish(Run& run, const std::string& title);
 
  private:
-  void show(render::ClothView& view, const std::string& look_name);
-  render::Image drawn(const std::string& look, const render::Camera& camera);  // without letters
-  void note_frame(Run& run);
-  render::Look look_of(const std::string& name) const;
-  std::optional<render::ColorBar> color_bar(const std::string& look) const;
+  // A picture to be drawn while the simulation goes on.
+  struct Order {
+    std::string look;
+    std::filesystem::path file;
+    Studio::Shown shown;
+  };
+
+  void take_positions();
+  std::vector<float> values(const std::string& look) const;  // at present, one a vertex
+  void note_frame(Run& run, const std::vector<Order>& orders);
+  void fill(Studio& studio, const Order& order, bool on_sheet);
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
@@ -56,15 +67,17 @@ class Pictures {
   const Cloth& cloth_;
   Simulation& simulation_;
   render::Box bounds_;
-  std::unique_ptr<render::Offscreen> offscreen_;
-  std::unique_ptr<render::ClothView> view_;
-  std::string why_host_;       // positions pass the host; empty: they do not
-  std::vector<int> obstacle_;  // the view's number of each obstacle of the scene, -1 = not a body
+  std::optional<ReferenceRun> reference_;
+  std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
-  std::vector<render::SheetEntry> thumbnails_;
   int frames_ = 0;
   Json moments_ = Json::array();  // of frames
+  double waited_seconds_ = 0;     // of the simulation, for its pictures
+  // The studio's thread writes these while a picture is drawn.
+  std::vector<render::SheetEntry> thumbnails_;
   double render_seconds_ = 0;
+  std::string renderer_;
+  render::OwnThread<Studio> studio_;
 };
 
 }  // namespace hysteron::experiments

@@ -15,7 +15,9 @@ bool succeeds(cudaError_t status, const char* name, std::string& reason) {
 
 }  // namespace
 
-CudaGlBuffer::CudaGlBuffer(unsigned name, std::string& reason) {
+CudaGlBuffer::CudaGlBuffer(Cuda& cuda, unsigned name, std::string& reason) {
+  // Each thread has a device of its own, and this one may be the renderer's.
+  if (!succeeds(cudaSetDevice(cuda.index), "select the device", reason)) return;
   if (!succeeds(cudaGraphicsGLRegisterBuffer(&resource_, name, cudaGraphicsRegisterFlagsWriteDiscard),
                 "register the OpenGL buffer", reason))
     resource_ = nullptr;

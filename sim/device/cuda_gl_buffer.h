@@ -12,8 +12,9 @@ namespace hysteron {
 // behind for the next launch to find.
 class CudaGlBuffer {
  public:
-  // Registers the buffer; is_open() tells whether the driver agreed, `reason` why not.
-  CudaGlBuffer(unsigned name, std::string& reason);
+  // Registers the buffer for kernels of `cuda` that this thread launches; is_open() tells whether the driver
+  // agreed, `reason` why not.
+  CudaGlBuffer(Cuda& cuda, unsigned name, std::string& reason);
   ~CudaGlBuffer();
   CudaGlBuffer(const CudaGlBuffer&) = delete;
   CudaGlBuffer& operator=(const CudaGlBuffer&) = delete;

@@ -33,7 +33,7 @@ template <class Real>
 class CudaGlPositions : public GlPositions {
  public:
   CudaGlPositions(Cuda& cuda, const Buffer<Vec3<Real>, Cuda>& x, unsigned gl_buffer, std::string& reason)
-      : cuda_(cuda), x_(x), buffer_(gl_buffer, reason) {}
+      : cuda_(cuda), x_(x), buffer_(cuda, gl_buffer, reason) {}
 
   bool is_open() const { return buffer_.is_open(); }
 
