@@ -58,13 +58,6 @@ bool is_own(const std::string& path) {
   return path.starts_with("compare.") || std::find(kNames.begin(), kNames.end(), path) != kNames.end();
 }
 
-std::string last_of(const CommandLine& line, const std::string& path, const std::string& otherwise) {
-  std::string text = otherwise;
-  for (const Flag& flag : line.flags)
-    if (flag.path == path) text = flag.text;
-  return text;
-}
-
 // The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
   CommandLine inner = line;
@@ -77,7 +70,8 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
   if (!choice.integrators.empty()) inner.flags.push_back({"integrator", choice.integrators});
   const bool others = !choice.fabrics.empty() || !choice.integrators.empty();
-  const std::string laws = !choice.laws.empty() || others ? choice.laws : last_of(inner, "law", kLaws);
+  const std::string laws =
+      !choice.laws.empty() || others ? choice.laws : last_text(inner.flags, "law", kLaws);
   if (!laws.empty()) inner.flags.push_back({"law", laws});
   return inner;
 }
@@ -105,13 +99,13 @@ struct ColumnFabric {
 
 ColumnFabric fabric_of(const CommandLine& line) {
   Setup setup{default_scene(), {}};
-  const std::string file = last_of(line, "scene", "");
+  const std::string file = last_text(line.flags, "scene", "");
   if (!file.empty()) apply_scene_file(setup.scene, file, {});
   std::vector<Flag> of_fabric;
   for (const Flag& flag : line.flags)
     if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
   apply_flags(setup.scene, of_fabric);
-  return {setup.scene.fabric, last_of(line, "law", setup.scene.law)};
+  return {setup.scene.fabric, last_text(line.flags, "law", setup.scene.law)};
 }
 
 CommandLine with(CommandLine line, const LawVariant& variant) {
@@ -137,14 +131,14 @@ std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, c
 Flag shared_range(const CommandLine& inner, const std::vector<LawVariant>& variants) {
   double k0 = 0;
   for (const LawVariant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
-  return {"curvature-range", last_of(inner, "curvature-range", exactly(2 * k0))};
+  return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
 }
 
 // What the experiment is asked for beside what it would be asked for alone.
 std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
   std::vector<Flag> flags = {{"plain", "true"}};
-  std::string look = last_of(inner, "look", "cloth");
+  std::string look = last_text(inner.flags, "look", "cloth");
   if (!choice.no_outlines) look += ",silhouette";
   if (!choice.to.empty() && choice.difference == "curvature") {
     if (is_reference)
@@ -153,7 +147,7 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
       look += ",difference", flags.push_back({"reference", (out / choice.to).string()});
   }
   flags.push_back({"look", look});
-  if (last_of(inner, "size", "").empty()) flags.push_back({"size", "840x630"});
+  if (last_text(inner.flags, "size", "").empty()) flags.push_back({"size", "840x630"});
   return flags;
 }
 
@@ -179,7 +173,7 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
   const std::vector<LawVariant> variants = variants_of(inner);
   std::set<std::string> laws;
   for (const LawVariant& variant : variants) {
-    const std::string law = last_of({"", "", variant.flags, {}}, "law", "");
+    const std::string law = last_text(variant.flags, "law", "");
     if (plan.reference != "prandtl") plan.reference = law;
     laws.insert(law);
   }
@@ -300,8 +294,9 @@ int compare(const CommandLine& line) {
 
   const CommandLine inner = line_of_columns(line, choice);
   Plan plan = plan_of(inner, choice, options.out);
-  ColumnJobs jobs{choice.jobs, std::stoi(last_of(line, "threads", "0")), options.resume,
-                  last_of(inner, "device", "auto") != "cpu", choice.difference == "curvature" ? plan.to : -1};
+  ColumnJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
+                  last_text(inner.flags, "device", "auto") != "cpu",
+                  choice.difference == "curvature" ? plan.to : -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});

@@ -102,12 +102,17 @@ const std::vector<Experiment>& experiments() {
   return all;
 }
 
+std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {
+  std::string text = otherwise;
+  for (const Flag& flag : flags)
+    if (flag.path == path) text = flag.text;
+  return text;
+}
+
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own) {
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
-  for (const Flag& flag : line.flags) {
-    if (flag.path == "scene") setup.options.scene = flag.text;
-  }
+  setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
   if (!setup.options.scene.empty()) apply_scene_file(setup.scene, setup.options.scene, extra);
   apply_flags(setup.scene, line.flags, extra);
   check_scene(setup.scene);

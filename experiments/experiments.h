@@ -17,6 +17,9 @@ struct CommandLine {
   std::vector<std::string> names;  // arguments that are no flags: files, folders
 };
 
+// What the last flag of that path says; `otherwise` without one.
+std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
+
 struct Experiment {
   const char* name;
   const char* question;                      // one line for --help

@@ -52,10 +52,7 @@ int figures(const CommandLine& line) {
   Options options;
   options.out = "out/figures";
   set_keys(line, bind_output_options(options));
-  std::string name = Fabric{}.name;
-  for (const Flag& flag : line.flags) {
-    if (flag.path == "fabric") name = flag.text;
-  }
+  const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
   Scene scene;
   scene.fabric = fabric_of(name, line.flags);
   const std::vector<Figure> all = chapter_figures(scene.fabric);

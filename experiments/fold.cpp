@@ -224,10 +224,7 @@ std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& 
                                                  const std::string& usual) {
   std::vector<LawVariant> all;
   for (const LawVariant& law : laws) {
-    std::string name = usual;
-    for (const Flag& flag : law.flags)
-      if (flag.path == "law") name = flag.text;
-    const std::vector<std::string> known = law_parameter_names(name);
+    const std::vector<std::string> known = law_parameter_names(last_text(law.flags, "law", usual));
     const bool tires = std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
     LawVariant sound = law;
     if (tires) sound.flags.push_back({"fold.fatigue", "0"});

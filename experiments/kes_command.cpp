@@ -76,10 +76,7 @@ std::vector<std::string> chosen_meshes(const std::string& list) {
 }
 
 std::vector<Fabric> chosen_fabrics(const std::vector<Flag>& flags) {
-  std::string list = Fabric{}.name;
-  for (const Flag& flag : flags) {
-    if (flag.path == "fabric") list = flag.text;
-  }
+  const std::string list = last_text(flags, "fabric", Fabric{}.name);
   std::vector<Fabric> fabrics;
   for (const std::string& name : list == "all" ? list_assets("fabrics") : split(list))
     fabrics.push_back(fabric_of(name, flags));
