@@ -9,6 +9,7 @@
 
 #include "experiments/comma_list.h"
 #include "experiments/compared.h"
+#include "experiments/comparison_captions.h"
 #include "experiments/csv.h"
 #include "experiments/law_page.h"
 #include "experiments/matching.h"
@@ -278,6 +279,7 @@ int compare(const CommandLine& line) {
     const auto stage = run.stage("render");
     draw_compared(run, page, plan.columns);
     plot_compared(run, page.title, plan.columns);
+    write_comparison_captions(run, page, inner.experiment, line.command, plan.columns);
   }
   run.path("report.html");
   run.finish();

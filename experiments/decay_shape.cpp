@@ -1,5 +1,6 @@
 #include "experiments/decay_shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/fit_covariance.h"
@@ -24,6 +25,14 @@ std::size_t first_of_one_mode(const std::vector<Amplitude>& all) {
     const double ratio = all[i].value / all[i - 1].value;
     if (ratio < 1 - kFallsLess || ratio > 1 + kGrowsLess) first = i;
   }
+  return first;
+}
+
+// Behind the last one that is too large.
+std::size_t first_small(const std::vector<Amplitude>& all, double largest) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].value > largest) first = i + 1;
   return first;
 }
 
@@ -55,7 +64,7 @@ Eigen::Vector2d vertex_of_parabola(double before, double at, double after) {
 }
 
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
-                                         double least) {
+                                         double least, double share) {
   std::vector<TurningPoint> found;
   std::size_t extreme = 0;
   int direction = 0;
@@ -68,7 +77,8 @@ std::vector<TurningPoint> turning_points(const std::vector<double>& time, const 
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (direction >= 0 && x[i] > x[extreme]) extreme = i, direction = 1;
     if (direction <= 0 && x[i] < x[extreme]) extreme = i, direction = -1;
-    if (std::abs(x[i] - x[extreme]) > least) {
+    const double swing = std::abs(x[extreme] - (found.empty() ? x.front() : found.back().value));
+    if (std::abs(x[i] - x[extreme]) > std::max(least, share * swing)) {
       note(extreme);
       direction = x[i] > x[extreme] ? 1 : -1;
       extreme = i;
@@ -114,19 +124,28 @@ double decayed(double first, double loss, double exponent, double turns) {
 
 double Decay::fitted(double turns) const { return decayed(fitted_first, fitted_loss, *exponent, turns); }
 
-Decay decay_of(const std::vector<Amplitude>& all) {
+Decay decay_of(const std::vector<Amplitude>& all, double largest) {
   Decay decay;
-  decay.first = first_of_one_mode(all);
-  decay.used = all.size() - decay.first;
-  if (decay.used < kLeastAmplitudes) return decay;
-  decay.per_turn =
-      1 - std::pow(all.back().value / all[decay.first].value, 1 / static_cast<double>(decay.used - 1));
+  const auto take_from = [&](std::size_t first) {
+    decay.first = first;
+    decay.used = all.size() - first;
+    if (decay.used >= kLeastAmplitudes)
+      decay.per_turn =
+          1 - std::pow(all.back().value / all[first].value, 1 / static_cast<double>(decay.used - 1));
+    return decay.used >= kLeastAmplitudes;
+  };
+  const std::size_t first = first_of_one_mode(all);
+  if (!take_from(first)) return decay;
   if (decay.per_turn < kPlateau) {
     decay.shape = DecayShape::plateau;
     return decay;
   }
+  if (!take_from(std::max(first, first_small(all, largest)))) return decay;
   fit(all, decay);
-  if (*decay.exponent_stderr <= kKnownTo) decay.shape = shape_of(*decay.exponent);
+  if (*decay.exponent_stderr <= kKnownTo)
+    decay.shape = shape_of(*decay.exponent);
+  else
+    decay.exponent.reset(), decay.exponent_stderr.reset();
   return decay;
 }
 

@@ -24,10 +24,11 @@ struct TurningPoint {
   double value;  // of the series
 };
 
-// Where a series of equally spaced `time`s turns and goes back by more than `least`, by the parabola through
-// the samples around; both of one length.  The start is none.
+// Where a series of equally spaced `time`s turns and goes back by more than `least` and, once it has swung,
+// by more than the `share` of its last swing; by the parabola through the samples around.  Both of one
+// length; the start is none.
 std::vector<TurningPoint> turning_points(const std::vector<double>& time, const std::vector<double>& x,
-                                         double least);
+                                         double least, double share = 0);
 
 struct Amplitude {
   int turn;      // of the turning point, from 0
@@ -43,7 +44,7 @@ enum class DecayShape {
   hyperbolic,   // from 1.5
   steeper,      // from 2.5
   plateau,      // a turn takes less than kPlateau: nothing brakes, and p has no meaning
-  unknown,      // p is not known to 0.5, or there are too few amplitudes
+  unknown,      // p is not known to 0.5, or too few amplitudes are small
 };
 std::string name_of(DecayShape shape);
 
@@ -52,13 +53,15 @@ constexpr std::size_t kLeastAmplitudes = 5;  // three numbers are fitted
 // Between turns of one mode the amplitude falls by less and never grows by more: what comes before the last
 // turn that breaks this is several modes at once.
 constexpr double kFallsLess = 0.25, kGrowsLess = 0.05;
+// Of a swing: what goes back by less is a higher mode's ripple on it.
+constexpr double kRipple = 0.25;
 
 struct Decay {
   DecayShape shape = DecayShape::unknown;
-  std::size_t first = 0;  // of the amplitudes: those before are of several modes
+  std::size_t first = 0;  // of the amplitudes: those before are of several modes or too large
   std::size_t used = 0;
   double per_turn = 0;  // mean loss over the amplitude: 1 - (A_last/A_first)^(1/turns)
-  // Fitted by least squares of the amplitudes, unless there are too few or a plateau.
+  // Fitted by least squares of the amplitudes where the shape is one with an exponent.
   std::optional<double> exponent, exponent_stderr;
   double fitted_first = 0;  // amplitude of `first`
   double fitted_loss = 0;   // c A^(p-1) there: loss over the amplitude, in a turn
@@ -70,7 +73,8 @@ struct Decay {
 // A_n with dA/dn = -c A^p, A_0 = `first` and c A_0^(p-1) = `loss`; 0 once it has come to rest.
 double decayed(double first, double loss, double exponent, double turns);
 
-// Amplitudes turn by turn, as amplitudes_of() gives them.
-Decay decay_of(const std::vector<Amplitude>& amplitudes);
+// Amplitudes turn by turn, as amplitudes_of() gives them.  Exponents are of
+// those that are not above `largest`, since the closed laws are of small swings.
+Decay decay_of(const std::vector<Amplitude>& amplitudes, double largest);
 
 }  // namespace hysteron::experiments

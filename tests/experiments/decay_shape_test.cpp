@@ -10,6 +10,7 @@
 namespace hysteron::experiments {
 namespace {
 
+constexpr double kAny = 1e9;  // amplitudes that are all small
 constexpr double kPi = 3.14159265358979323846;
 
 std::vector<Amplitude> series_of(const std::vector<double>& values) {
@@ -51,6 +52,17 @@ TEST(TurningPoints, PassOverWavesSmallerThanTheLeast) {
   EXPECT_GT(turning_points(time, x, 1e-3).size(), 20u);
 }
 
+// A step back by half of the way so far makes turns of its own, one by a fifth none.
+TEST(TurningPoints, PassOverRipplesOnLargerSwings) {
+  for (const double ripple : {1.0 / 3, 1.0 / 9}) {
+    std::vector<double> time, x;
+    for (int n = 0; n <= 8; ++n)  // to and fro between -1 and 1, with a step back on the way
+      for (const double at : {n % 2 ? 1.0 : -1.0, n % 2 ? -ripple : ripple, n % 2 ? ripple : -ripple})
+        time.push_back(static_cast<double>(time.size())), x.push_back(at);
+    EXPECT_EQ(turning_points(time, x, 0.01, 0.25).size(), ripple > 0.25 ? 25u : 8u) << ripple;
+  }
+}
+
 // A drift of the middle, as of cloth that settles, is no amplitude.
 TEST(Amplitudes, AreDistancesToTheNeighboursMean) {
   std::vector<TurningPoint> turns;
@@ -77,7 +89,7 @@ const Closed kClosed[] = {
 
 TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
   for (const Closed& closed : kClosed) {
-    const Decay decay = decay_of(decaying(closed.law));
+    const Decay decay = decay_of(decaying(closed.law), kAny);
     ASSERT_TRUE(decay.exponent) << closed.name;
     EXPECT_NEAR(*decay.exponent, closed.exponent, 1e-5) << closed.name;
     EXPECT_LT(*decay.exponent_stderr, 1e-3) << closed.name;
@@ -101,7 +113,7 @@ TEST(DecayShape, HasOneFormulaForAllExponents) {
 // The energy balance of a friction whose loops grow as A^3, uniformly bent: Rayleigh's.
 TEST(DecayShape, OfTheFrictionOfAParabolaIsHyperbolic) {
   const DecayingBend bend{{3e-5, 2e-5, 10}};
-  const Decay decay = decay_of(series_of(amplitudes_by_energy(bend, {1}, 2, 20)));
+  const Decay decay = decay_of(series_of(amplitudes_by_energy(bend, {1}, 2, 20)), kAny);
   // The stored energy's slope falls by A/K0 (b1 - b2)/b1, 7 % of it here: p is a little above 2.
   EXPECT_NEAR(*decay.exponent, 2, 0.1);
   EXPECT_EQ(decay.shape, DecayShape::hyperbolic);
@@ -112,7 +124,7 @@ TEST(DecayShape, IsAsUncertainAsItsAmplitudesAreNoisy) {
   for (const Closed& closed : kClosed) {
     auto all = decaying(closed.law);
     for (std::size_t i = 0; i < all.size(); ++i) all[i].value += 0.01 * 0.06 * std::sin(2.4 * i * i + 1);
-    const Decay decay = decay_of(all);
+    const Decay decay = decay_of(all, kAny);
     EXPECT_GT(*decay.exponent_stderr, 0.02) << closed.name;
     EXPECT_LT(std::abs(*decay.exponent - closed.exponent), 3 * *decay.exponent_stderr) << closed.name;
   }
@@ -120,26 +132,35 @@ TEST(DecayShape, IsAsUncertainAsItsAmplitudesAreNoisy) {
 
 TEST(DecayShape, IsNotNamedWhereAmplitudesAreFewOrNoisy) {
   const auto law = [](int n) { return 1 / (1 + 0.1 * n); };
-  EXPECT_EQ(decay_of({}).shape, DecayShape::unknown);
-  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3)})).shape, DecayShape::unknown);
-  EXPECT_FALSE(decay_of(series_of({1, law(1), law(2), law(3)})).exponent);
-  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4)})).shape, DecayShape::hyperbolic);
-  EXPECT_EQ(decay_of(series_of({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81})).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_of({}, kAny).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).shape, DecayShape::unknown);
+  EXPECT_FALSE(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).exponent);
+  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4)}), kAny).shape, DecayShape::hyperbolic);
+  EXPECT_EQ(decay_of(series_of({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81}), kAny).shape, DecayShape::unknown);
 }
 
 TEST(DecayShape, IsAPlateauWhereATurnTakesNothing) {
-  const Decay decay = decay_of(decaying([](int n) { return 0.3 + 0.7 * (n == 0) - 0.001 * n; }));
+  const Decay decay = decay_of(decaying([](int n) { return 0.3 + 0.7 * (n == 0) - 0.001 * n; }), kAny);
   EXPECT_EQ(decay.first, 1u) << "the first turn took two thirds";
   EXPECT_EQ(decay.shape, DecayShape::plateau);
   EXPECT_FALSE(decay.exponent);
   EXPECT_GT(decay.per_turn, 0);
 }
 
+TEST(DecayShape, IsThatOfSmallSwings) {
+  std::vector<double> values = {1, 0.9, 0.82};  // as by another law
+  for (int n = 0; n < 10; ++n) values.push_back(0.8 * std::exp(-0.05 * n));
+  const Decay decay = decay_of(series_of(values), 0.81);
+  EXPECT_EQ(decay.first, 3u);
+  EXPECT_NEAR(*decay.exponent, 1, 1e-5);
+  EXPECT_EQ(decay_of(series_of(values), 0.5).shape, DecayShape::unknown);
+}
+
 // Two modes beat; after them one is left.
 TEST(DecayShape, IsReadBehindTheLastTurnOfSeveralModes) {
   std::vector<double> values = {1, 0.4, 0.9};
   for (int n = 0; n < 10; ++n) values.push_back(0.5 * std::exp(-0.1 * n));
-  const Decay decay = decay_of(series_of(values));
+  const Decay decay = decay_of(series_of(values), kAny);
   EXPECT_EQ(decay.first, 3u);
   EXPECT_EQ(decay.used, 10u);
   EXPECT_NEAR(*decay.exponent, 1, 1e-5);
