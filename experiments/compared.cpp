@@ -276,15 +276,8 @@ void plot_curves(Run& run, const std::string& title, const std::vector<ComparedC
   }
 }
 
-}  // namespace
-
-std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
-  std::vector<std::string> texts;
-  for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
-  return texts;
-}
-
-std::vector<std::string> shown_metrics(const ComparedColumn& column) {
+// Those of kFirstNumbers that stand below a column.
+std::vector<std::string> metrics_of(const ComparedColumn& column) {
   std::vector<std::string> keys;
   if (!column.manifest.is_object()) return keys;
   const Json metrics = column.manifest.value("metrics", Json::object());
@@ -295,12 +288,51 @@ std::vector<std::string> shown_metrics(const ComparedColumn& column) {
   return keys;
 }
 
+// What these experiments are asked for, a bar a column.
+void plot_answers(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const char* key : {"drape_coefficient_percent", "recovery_angle_deg"}) {
+    render::Plot plot{title, {""}, {split_unit(key).text()}};
+    std::vector<double> values;
+    for (const ComparedColumn& c : columns) {
+      if (!c.manifest.is_object()) continue;
+      const Json value = c.manifest.value("metrics", Json::object()).value(key, Json());
+      if (!value.is_number()) continue;
+      plot.x.categories.push_back(c.name);
+      values.push_back(value.get<double>());
+    }
+    if (values.size() < 2) continue;
+    plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
+    plot.y.high = std::max(1.0, 1.05 * *std::max_element(values.begin(), values.end()));
+    run.plot(std::string("plot_") + key, [&](const auto& base) { render::write_plot(base, plot); });
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> texts;
+  for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
+  return texts;
+}
+
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> keys;
+  for (const char* key : kFirstNumbers) {
+    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const ComparedColumn& c) {
+      const std::vector<std::string> own = metrics_of(c);
+      return std::find(own.begin(), own.end(), key) != own.end();
+    });
+    if (shown) keys.push_back(key);
+  }
+  return keys;
+}
+
 std::vector<std::string> numbers_of(const ComparedColumn& column) {
   std::vector<std::string> lines;
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest.is_object()) return lines;
   const Json metrics = column.manifest.value("metrics", Json::object());
-  for (const std::string& key : shown_metrics(column))
+  for (const std::string& key : metrics_of(column))
     lines.push_back(metrics[key].is_string() ? split_unit(key).name + " " + metrics[key].get<std::string>()
                                              : metric_text(key, metrics[key].get<double>()));
   const Json seconds = column.manifest.value("wall_seconds", Json::object());
@@ -334,6 +366,7 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
 void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
   plot_series(run, title, columns);
   plot_curves(run, title, columns);
+  plot_answers(run, title, columns);
 }
 
 }  // namespace hysteron::experiments

@@ -26,8 +26,8 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
 // The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
 std::vector<std::string> numbers_of(const ComparedColumn& column);
 
-// Names of the metrics among them.
-std::vector<std::string> shown_metrics(const ComparedColumn& column);
+// Names of the metrics among them, of any column.
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns);
 // "t = 0.50 s, hang" of each of the page's rows.
 std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns);
 

@@ -6,6 +6,7 @@
 
 #include "experiments/figure_captions.h"
 #include "experiments/report_manifest.h"
+#include "experiments/report_pictures.h"
 #include "experiments/run_words.h"
 
 namespace hysteron::experiments {
@@ -45,12 +46,8 @@ std::string question_of(const std::string& name) {
 
 // In the order in which they are shown, those that a column shows.
 std::string numbers_text(const std::vector<ComparedColumn>& columns) {
-  std::vector<std::string> keys;
-  for (const ComparedColumn& column : columns)
-    for (const std::string& key : shown_metrics(column))
-      if (!std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
   std::string text;
-  for (const std::string& key : keys) {
+  for (const std::string& key : shown_metrics(columns)) {
     const NamedUnit what = split_unit(key);
     const auto known = meanings().find(key);
     text += (text.empty() ? "Numbers below the columns: " : "; ") + what.text() +
@@ -98,6 +95,17 @@ std::string plotted(const std::string& stem) {
   return what;
 }
 
+// What the runs themselves say of their curves, by the plot's name.
+std::map<std::string, std::string> curve_captions(const std::vector<ComparedColumn>& columns) {
+  std::map<std::string, std::string> captions;
+  for (const ComparedColumn& c : columns) {
+    if (!c.manifest.is_object()) continue;
+    for (const Json& curve : c.manifest.value("curves", Json::array()))
+      captions[curve.at("plot").get<std::string>()] = curve.value("caption", "");
+  }
+  return captions;
+}
+
 std::string joined(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences)
@@ -109,21 +117,23 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 void write_comparison_captions(Run& run, const ComparedPage& page, const std::string& experiment,
                                const std::string& command, const std::vector<ComparedColumn>& columns) {
-  const std::string facts = facts_text(columns), origin = origin_words(command);
-  const std::string notes = joined(page.notes);
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
-               numbers_text(columns), notes, facts, origin})}};
+               numbers_text(columns), joined(page.notes), facts_text(columns),
+               origin_words(command, columns.front().manifest)})}};
+  const std::map<std::string, std::string> described = curve_captions(columns);
   std::vector<std::string> plots;
-  for (const fs::directory_entry& entry : fs::directory_iterator(run.folder()))
-    if (entry.path().extension() == ".png" && entry.path().stem().string().starts_with("plot_"))
-      plots.push_back(entry.path().stem().string());
-  std::sort(plots.begin(), plots.end());
-  for (const std::string& stem : plots)
+  for (const fs::path& file : files_ending(run.folder(), ".png"))
+    if (is_plot(file)) plots.push_back(file.stem().string());
+  for (const std::string& stem : plots) {
+    const auto own = described.find(stem);
     figures.push_back({stem + ".png", page.title + ": " + plotted(stem),
-                       joined({columns_text(columns), notes, facts, origin})});
-  write_captions(run.path("README.md"), page.title, origin, figures);
+                       joined({own == described.end() ? "" : own->second, columns_text(columns),
+                               "Runs, numbers and command are those of sheet.png."})});
+  }
+  write_captions(run.path("README.md"), page.title,
+                 "What the figures of this folder show, in words from the runs' manifests.", figures);
 }
 
 }  // namespace hysteron::experiments

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "experiments/report_manifest.h"
+
 namespace hysteron::experiments {
 namespace {
 
@@ -27,11 +29,9 @@ struct Fact {
   const char* name;
   std::string (*words)(const Json& manifest);
 };
-constexpr Fact kFacts[] = {{"Cloth", cloth_words},
-                           {"Fabric", fabric_words},
-                           {"Law", law_words},
-                           {"Solver", solver_words},
-                           {"Device", device_words}};
+constexpr Fact kFacts[] = {
+    {"Cloth", cloth_words}, {"Fabric", fabric_words}, {"Damping of bending", damping_words},
+    {"Law", law_words},     {"Solver", solver_words}, {"Device", device_words}};
 
 // What is said, with those who say it, in the order in which it is first said.
 using Said = std::vector<std::pair<std::string, std::vector<std::string>>>;
@@ -77,8 +77,11 @@ std::string fabric_words(const Json& manifest) {
   return fabric.value("name", "") + text_of(" (b1 %.4g N m", number_of(fabric, "b1")) +
          text_of(", b2 %.4g N m", number_of(fabric, "b2")) +
          text_of(", k0 %.4g 1/m", number_of(fabric, "k0")) +
-         text_of(", %.4g g/m²", 1e3 * number_of(fabric, "density")) +
-         text_of(", damping %.4g s)", number_of(fabric, "damping"));
+         text_of(", %.4g g/m²", 1e3 * number_of(fabric, "density")) + ")";
+}
+
+std::string damping_words(const Json& manifest) {
+  return text_of("%.4g s", number_of(manifest.at("scene").value("fabric", Json::object()), "damping"));
 }
 
 std::string law_words(const Json& manifest) {
@@ -105,17 +108,38 @@ std::string device_words(const Json& manifest) {
 std::string facts_of(const std::vector<std::string>& names, const std::vector<const Json*>& manifests) {
   std::string text;
   for (const Fact& fact : kFacts) {
-    const Said said = said_by(fact, names, manifests);
+    Said said = said_by(fact, names, manifests);
+    std::stable_sort(said.begin(), said.end(),
+                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    const bool each = said.size() > 1 && said.front().second.size() == 1;  // all differ
     std::string words;
-    for (const auto& [what, who] : said)
-      words += (words.empty() ? "" : "; ") + (said.size() > 1 ? joined(who) + ": " : "") + what;
+    for (const auto& [what, who] : said) {
+      if (each && who.front() == what) {
+        words += (words.empty() ? "" : "; ") + what;
+      } else {
+        const bool named = each || !words.empty();
+        words += (words.empty() ? "" : "; ") + (named ? joined(who) + ": " : "") + what;
+      }
+    }
     if (!words.empty()) text += (text.empty() ? "" : " ") + std::string(fact.name) + ": " + words + ".";
   }
   return text;
 }
 
-std::string origin_words(const std::string& command) {
-  return "Written by `" + command + "`, hysteron " + program_version() + ".";
+void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures) {
+  const Json manifest = read_manifest(folder / "manifest.json");
+  std::erase_if(figures, [&](const FigureCaption& f) { return !std::filesystem::exists(folder / f.file); });
+  if (figures.empty()) return;  // without gnuplot
+  for (std::size_t i = 1; i < figures.size(); ++i)
+    figures[i].text += " The run is that of " + figures[0].file + ".";
+  figures[0].text +=
+      " " + facts_of({""}, {&manifest}) + " " + origin_words(manifest.value("command", ""), manifest);
+  write_captions(folder / "README.md", figures[0].title,
+                 "What the figures of this folder show, in words from the run's manifest.", figures);
+}
+
+std::string origin_words(const std::string& command, const Json& manifest) {
+  return "Written by `" + command + "`" + (manifest.is_object() ? ", " + program_of(manifest) : "") + ".";
 }
 
 }  // namespace hysteron::experiments

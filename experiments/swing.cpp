@@ -5,6 +5,7 @@
 
 #include "experiments/csv.h"
 #include "experiments/decay_shape.h"
+#include "experiments/run_words.h"
 #include "experiments/session.h"
 
 namespace hysteron::experiments {
@@ -35,6 +36,12 @@ constexpr double kLeastTurn = 0.01;  // of the length: smaller ones are not coun
 // Of the free length: with viscosity alone, whose decay is exponential when small, larger amplitudes fall
 // with exponents of 1.5 and more; below, with 1.1.
 constexpr double kSmallSwing = 0.5;
+
+constexpr const char* kDecayCaption =
+    "Amplitude of the free end from turn to turn: half of a turning point's distance to the mean of its "
+    "neighbours. On this logarithmic scale exponential decay, as by viscosity, is a straight line; "
+    "hyperbolic "
+    "decay, as by friction in bending, becomes flatter; linear decay becomes steeper; a plateau is level.";
 
 // "hyperbolic, p = 2.04 ± 0.05", "plateau".
 std::string words_of(const Decay& decay) {
@@ -98,6 +105,16 @@ void plot(Session& session) {
   session.plot("plot_energy", energy);
 }
 
+std::vector<FigureCaption> captions_of(const Scene& scene) {
+  const std::string what = ", " + scene.fabric.name + ", law " + scene.law;
+  return {
+      {"plot_decay.png", "Amplitude from turn to turn" + what, kDecayCaption},
+      {"plot_tip.png", "Height of the free end" + what,
+       "Over the clamp, against time: a strip held out straight, clamped at one end and let go."},
+      {"plot_energy.png", "Where the energy went" + what,
+       "Kinetic and bending energy, and what friction in bending, viscosity and the integrator have taken."}};
+}
+
 }  // namespace
 
 int swing(const CommandLine& line) {
@@ -152,15 +169,18 @@ int swing(const CommandLine& line) {
                        {"file", "turns.csv"},
                        {"x", "turn"},
                        {"y", "amplitude [mm]"},
-                       {"logarithmic", true}}});
+                       {"logarithmic", true},
+                       {"caption", kDecayCaption}}});
   run.metric("bending_friction_J", ledger.bending_friction);
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());
   if (session.pictures()) {
     plot(session);
     plot_decay(session, amplitudes, decay);
+    run.path("README.md");
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  if (session.pictures()) write_run_captions(run.folder(), captions_of(setup.scene));
   return 0;
 }
 
