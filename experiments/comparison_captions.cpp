@@ -95,15 +95,15 @@ std::string plotted(const std::string& stem) {
   return what;
 }
 
-// What the runs themselves say of their curves, by the plot's name.
-std::map<std::string, std::string> curve_captions(const std::vector<ComparedColumn>& columns) {
-  std::map<std::string, std::string> captions;
-  for (const ComparedColumn& c : columns) {
-    if (!c.manifest.is_object()) continue;
-    for (const Json& curve : c.manifest.value("curves", Json::array()))
-      captions[curve.at("plot").get<std::string>()] = curve.value("caption", "");
-  }
-  return captions;
+// What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
+std::string shown_in(const std::string& stem, const std::vector<ComparedColumn>& columns) {
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object())
+      for (const Json& curve : c.manifest.value("curves", Json::array()))
+        if (curve.at("plot") == stem) return curve.value("caption", "");
+  const auto metric = meanings().find(stem.substr(std::string("plot_").size()));
+  if (metric != meanings().end()) return "A bar for each column: " + metric->second + ".";
+  return first_upper(plotted(stem)) + " against time, a line for each column.";
 }
 
 std::string joined(const std::vector<std::string>& sentences) {
@@ -122,14 +122,12 @@ void write_comparison_captions(Run& run, const ComparedPage& page, const std::st
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
                numbers_text(columns), joined(page.notes), facts_text(columns),
                origin_words(command, columns.front().manifest)})}};
-  const std::map<std::string, std::string> described = curve_captions(columns);
   std::vector<std::string> plots;
   for (const fs::path& file : files_ending(run.folder(), ".png"))
     if (is_plot(file)) plots.push_back(file.stem().string());
   for (const std::string& stem : plots) {
-    const auto own = described.find(stem);
     figures.push_back({stem + ".png", page.title + ": " + plotted(stem),
-                       joined({own == described.end() ? "" : own->second, columns_text(columns),
+                       joined({shown_in(stem, columns), columns_text(columns),
                                "Runs, numbers and command are those of sheet.png."})});
   }
   write_captions(run.path("README.md"), page.title,

@@ -113,6 +113,9 @@ std::string facts_of(const std::vector<std::string>& names, const std::vector<co
                      [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
     const bool each = said.size() > 1 && said.front().second.size() == 1;  // all differ
     std::string words;
+    if (each &&
+        std::all_of(said.begin(), said.end(), [](const auto& s) { return s.first == s.second.front(); }))
+      continue;  // the names say it already
     for (const auto& [what, who] : said) {
       if (each && who.front() == what) {
         words += (words.empty() ? "" : "; ") + what;

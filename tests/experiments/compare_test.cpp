@@ -151,7 +151,7 @@ TEST(Captions, SayOfRunsWhatTheirManifestsSay) {
                            "Fabric: wool (b1 2e-05 N m", "Damping of bending: 1e-05 s; b: 0.005 s.",
                            "Law: linear; c: dahl.", "Solver: bdf2, step 4 ms", "Device: one core."})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_NE(facts_of({"linear", "dahl"}, {&a, &c}).find("Law: linear; dahl."), std::string::npos);
+  EXPECT_EQ(facts_of({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
   EXPECT_EQ(origin_words("hysteron x", a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
   EXPECT_EQ(grouped(999), "999");
   EXPECT_EQ(grouped(1234567), "1,234,567");
