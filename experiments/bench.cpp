@@ -135,8 +135,13 @@ int common_substeps(Scene scene, const Cloth& cloth) {
   return most;
 }
 
-int bench_laws(const Setup& setup, int elements) {
-  const Json rows = law_cost_table(setup.scene, setup.options.quick ? elements / 100 + 1 : elements);
+int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
+  Options options = setup.options;
+  options.json = false;  // of its rows, not of the manifest
+  Run run(line, options, to_json(setup.scene));
+  const Json rows = law_cost_table(setup.scene, options.quick ? elements / 100 + 1 : elements);
+  write_law_costs(run, rows, !options.no_images);
+  run.finish();
   if (setup.options.json) {
     std::cout << rows.dump(2) << std::endl;
     return 0;
@@ -161,7 +166,7 @@ std::vector<KeyDescription> bench_keys() {
 int bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own));
-  if (own.laws) return bench_laws(setup, static_cast<int>(own.elements));
+  if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
   Json rows = Json::array();
   const Cloth cloth = make_cloth(setup.scene);
   Scene scene = setup.scene;

@@ -9,11 +9,11 @@
 
 #include "experiments/comma_list.h"
 #include "experiments/compared.h"
-#include "experiments/csv.h"
+#include "experiments/comparison_captions.h"
+#include "experiments/comparison_table.h"
 #include "experiments/law_page.h"
 #include "experiments/matching.h"
 #include "experiments/report.h"
-#include "sim/atomic_file.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -166,6 +166,7 @@ struct Plan {
   std::string reference;  // law that stiffness is matched to
   std::size_t laws = 0;   // different ones
   int to = -1;            // the column that is subtracted, -1: none
+  std::string varied;     // "law", where columns differ by it alone
 };
 
 Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::filesystem::path& out) {
@@ -179,6 +180,7 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
   }
   plan.laws = laws.size();
   const Flag range = shared_range(inner, variants);
+  plan.varied = varied_of(variants);
   for (const LawVariant& variant : variants) {
     double scale = 1;
     std::vector<Flag> own = variant.flags;
@@ -221,30 +223,15 @@ std::string title_of(const CommandLine& line, const std::vector<ComparedColumn>&
   return title + what;
 }
 
-void write_table(Run& run, const std::vector<ComparedColumn>& columns) {
-  std::vector<std::string> keys;
-  for (const ComparedColumn& c : columns)
-    if (c.manifest.is_object() && c.manifest.contains("metrics"))
-      for (const auto& [key, value] : c.manifest["metrics"].items())
-        if (value.is_number() && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
-  AtomicFile file(run.path("table.csv").string());
-  std::vector<std::string> head = {"column"};
-  head.insert(head.end(), keys.begin(), keys.end());
-  head.push_back("stopped");
-  file.stream() << row_of(head);
-  for (const ComparedColumn& c : columns) {
+void write_table(Run& run, const Plan& plan) {
+  std::vector<ComparisonRow> rows;
+  for (const ComparedColumn& c : plan.columns) {
+    rows.push_back({c.name, {}, c.stopped});
     const Json metrics =
         c.manifest.is_object() ? c.manifest.value("metrics", Json::object()) : Json::object();
-    std::vector<std::string> row = {c.name};
-    for (const std::string& key : keys) {
-      const bool known = metrics.contains(key) && metrics[key].is_number();
-      row.push_back(known ? number_field(metrics[key].get<double>()) : "");
-      if (known) run.metric(c.name + "." + key, metrics[key]);
-    }
-    row.push_back(c.stopped);
-    file.stream() << row_of(row);
+    for (const auto& [key, value] : metrics.items()) rows.back().metrics.emplace_back(key, value);
   }
-  file.commit();
+  write_comparison_table(run, plan.varied, rows);
 }
 
 std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
@@ -304,7 +291,7 @@ int compare(const CommandLine& line) {
   run_columns(plan.columns, jobs, [&](const ComparedColumn& c) {
     run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
   });
-  write_table(run, plan.columns);
+  write_table(run, plan);
   if (!options.no_images) {
     const ComparedPage page{title_of(line, plan.columns),
                             notes_of(choice, plan),
@@ -317,6 +304,7 @@ int compare(const CommandLine& line) {
     const auto stage = run.stage("render");
     draw_compared(run, page, plan.columns);
     plot_compared(run, page.title, plan.columns);
+    write_comparison_captions(run, page, inner.experiment, line.command, plan.columns);
   }
   run.path("report.html");
   run.finish();

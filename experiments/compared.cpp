@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <optional>
 
 #include "experiments/report_manifest.h"
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kCellWidth = 420;  // [pixels]
-constexpr std::size_t kMostNumbers = 4;
+constexpr std::size_t kMostNumbers = 5;
 constexpr const char* kDifference = "difference";  // the look of it
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
 
@@ -213,22 +214,134 @@ void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>&
 }
 
 // What each experiment is asked for; then what any run has.
-constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",    "node_count",
-                                         "recovery_angle_deg",           "2HB_N",
-                                         "set_curvature_per_m",          "turns",
-                                         "bending_friction_J",           "ridge_length_m",
-                                         "residual_curvature_rms_per_m", "max_stretch_percent"};
+constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",
+                                         "node_count",
+                                         "recovery_angle_deg",
+                                         "2HB_N",
+                                         "set_curvature_per_m",
+                                         "turns",
+                                         "decay_shape",
+                                         "decay_exponent",
+                                         "bending_friction_J",
+                                         "ridge_length_m",
+                                         "residual_curvature_rms_per_m",
+                                         "max_stretch_percent"};
+
+// The named list of the first column that has it.
+Json first_list(const std::vector<ComparedColumn>& columns, const char* name) {
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object() && c.manifest.contains(name)) return c.manifest[name];
+  return Json::array();
+}
+
+// The plot with a line for each column, from a file of its folder; none where the file has no rows.
+void plot_columns(Run& run, const std::string& name, render::Plot plot,
+                  const std::vector<ComparedColumn>& columns,
+                  const std::function<render::Series(const ComparedColumn&)>& read) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    render::Series series = read(columns[c]);
+    if (series.x.empty()) continue;
+    series.label = columns[c].name;
+    const render::Rgb8 color = render::method_color(c);
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "#%02X%02X%02X", color[0], color[1], color[2]);
+    series.color = hex;
+    if (c >= render::kMethodColors && series.style == render::Series::Style::line)
+      series.style = render::Series::Style::dashed;
+    plot.series.push_back(std::move(series));
+  }
+  if (!plot.series.empty()) run.plot(name, [&](const auto& base) { render::write_plot(base, plot); });
+}
+
+render::Series read_series(const ComparedColumn& column, const std::string& file, const std::string& x,
+                           const std::string& y) {
+  if (!column.manifest.is_object() || !fs::exists(column.folder / file)) return {};
+  return render::series_from_csv(column.folder / file, x, y, "");
+}
+
+// The experiment's own columns of metrics.csv against time.
+void plot_series(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const Json& series : first_list(columns, "series")) {
+    const std::string name = series.get<std::string>(), word = name.substr(0, name.find(" ["));
+    render::Plot plot{title, {"time [s]"}, {name}};
+    std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
+    plot_columns(run, "plot_" + word, plot, columns,
+                 [&](const ComparedColumn& c) { return read_series(c, "metrics.csv", "time", word); });
+  }
+}
+
+// Tables of its own that the experiment names in its manifest.
+void plot_curves(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const Json& curve : first_list(columns, "curves")) {
+    const std::string x = curve.at("x"), y = curve.at("y");
+    const render::Plot plot{title, {x}, {y, curve.value("logarithmic", false)}};
+    plot_columns(run, curve.at("plot"), plot, columns, [&](const ComparedColumn& c) {
+      render::Series series = read_series(c, curve.at("file"), x, y);
+      series.style = render::Series::Style::line_and_points;
+      return series;
+    });
+  }
+}
+
+// Those of kFirstNumbers that stand below a column.
+std::vector<std::string> metrics_of(const ComparedColumn& column) {
+  std::vector<std::string> keys;
+  if (!column.manifest.is_object()) return keys;
+  const Json metrics = column.manifest.value("metrics", Json::object());
+  const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
+  for (const char* key : kFirstNumbers)
+    if (metrics.contains(key) && (metrics[key].is_number() || metrics[key].is_string()) && keys.size() < most)
+      keys.push_back(key);
+  return keys;
+}
+
+// What these experiments are asked for, a bar a column.
+void plot_answers(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const char* key : {"drape_coefficient_percent", "recovery_angle_deg"}) {
+    render::Plot plot{title, {""}, {split_unit(key).text()}};
+    std::vector<double> values;
+    for (const ComparedColumn& c : columns) {
+      if (!c.manifest.is_object()) continue;
+      const Json value = c.manifest.value("metrics", Json::object()).value(key, Json());
+      if (!value.is_number()) continue;
+      plot.x.categories.push_back(c.name);
+      values.push_back(value.get<double>());
+    }
+    if (values.size() < 2) continue;
+    plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
+    plot.y.high = std::max(1.0, 1.05 * *std::max_element(values.begin(), values.end()));
+    run.plot(std::string("plot_") + key, [&](const auto& base) { render::write_plot(base, plot); });
+  }
+}
 
 }  // namespace
+
+std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> texts;
+  for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
+  return texts;
+}
+
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> keys;
+  for (const char* key : kFirstNumbers) {
+    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const ComparedColumn& c) {
+      const std::vector<std::string> own = metrics_of(c);
+      return std::find(own.begin(), own.end(), key) != own.end();
+    });
+    if (shown) keys.push_back(key);
+  }
+  return keys;
+}
 
 std::vector<std::string> numbers_of(const ComparedColumn& column) {
   std::vector<std::string> lines;
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest.is_object()) return lines;
   const Json metrics = column.manifest.value("metrics", Json::object());
-  for (const char* key : kFirstNumbers)
-    if (metrics.contains(key) && metrics[key].is_number() && lines.size() < kMostNumbers)
-      lines.push_back(metric_text(key, metrics[key].get<double>()));
+  for (const std::string& key : metrics_of(column))
+    lines.push_back(metrics[key].is_string() ? split_unit(key).name + " " + metrics[key].get<std::string>()
+                                             : metric_text(key, metrics[key].get<double>()));
   const Json seconds = column.manifest.value("wall_seconds", Json::object());
   const Json steps = column.manifest.value("steps", Json());
   double stepping = 0;
@@ -261,24 +374,9 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
 }
 
 void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
-  std::vector<std::string> names;
-  for (const ComparedColumn& c : columns)
-    if (names.empty() && c.manifest.is_object() && c.manifest.contains("series"))
-      for (const Json& name : c.manifest["series"]) names.push_back(name.get<std::string>());
-  for (const std::string& name : names) {
-    const std::string word = name.substr(0, name.find(" ["));
-    render::Plot plot{title, {"time [s]"}, {name}};
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      if (!columns[c].manifest.is_object() || !fs::exists(columns[c].folder / "metrics.csv")) continue;
-      render::Series series =
-          render::series_from_csv(columns[c].folder / "metrics.csv", "time", word, columns[c].name);
-      if (c >= render::kMethodColors) series.style = render::Series::Style::dashed;
-      plot.series.push_back(std::move(series));
-    }
-    std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
-    if (!plot.series.empty())
-      run.plot("plot_" + word, [&](const auto& base) { render::write_plot(base, plot); });
-  }
+  plot_series(run, title, columns);
+  plot_curves(run, title, columns);
+  plot_answers(run, title, columns);
 }
 
 }  // namespace hysteron::experiments

@@ -27,7 +27,13 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
 // The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
 std::vector<std::string> numbers_of(const ComparedColumn& column);
 
-// Each of the experiment's own columns of metrics.csv against time, a line a column of the page.
+// Names of the metrics among them, of any column.
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns);
+// "t = 0.50 s, hang" of each of the page's rows.
+std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+
+// Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
+// that its manifest's `curves` name; and bars of what it is asked for.
 void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns);
 
 }  // namespace hysteron::experiments

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/decay_shape.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -56,14 +57,6 @@ std::vector<double> first_mode_weights(const Overhang& flat) {
   }
   for (double& w : weight) w /= norm;
   return weight;
-}
-
-// Largest of a parabola through three equally spaced samples, the middle one the largest: where, in samples
-// from the middle, and its value.
-Eigen::Vector2d vertex_of_parabola(double before, double at, double after) {
-  const double slope = (after - before) / 2, bend = after - 2 * at + before;
-  const double where = bend < 0 ? -slope / bend : 0;
-  return {where, at + slope * where / 2};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "experiments/experiments.h"
+#include "experiments/figure_captions.h"
 #include "experiments/figures.h"
 #include "experiments/run.h"
 #include "sim/atomic_file.h"
@@ -25,18 +26,11 @@ void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
   file.commit();
 }
 
-void write_captions(const std::filesystem::path& path, const std::vector<Figure>& figures,
-                    const std::string& command) {
-  AtomicFile file(path.string());
-  file.stream() << "# The chapter's figures, from the program's own laws\n\nWong, \"Modelling Bending "
-                   "Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer Graphics Forum 2013). "
-                   "Letters as in the chapter. Written by `"
-                << command << "`; curves and points are in the CSV files.\n";
-  for (const Figure& figure : figures) {
-    file.stream() << "\n![" << figure.plot.title << "](" << figure.name << ".png)\n\n**" << figure.plot.title
-                  << ".** " << figure.caption << "\n";
-  }
-  file.commit();
+std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
+  std::vector<FigureCaption> captions;
+  for (const Figure& figure : figures)
+    captions.push_back({figure.name + ".png", figure.plot.title, figure.caption});
+  return captions;
 }
 
 }  // namespace
@@ -63,7 +57,11 @@ int figures(const CommandLine& line) {
     render::write_plot(run.folder() / figure.name, figure.plot);
     for (const char* ending : {".png", ".svg"}) run.path(figure.name + ending);
   }
-  write_captions(run.path("README.md"), all, line.command);
+  write_captions(run.path("README.md"), "The chapter's figures, from the program's own laws",
+                 "Wong, \"Modelling Bending Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer "
+                 "Graphics Forum 2013). Letters as in the chapter. Written by `" +
+                     line.command + "`; curves and points are in the CSV files.",
+                 captions_of(all));
   run.finish();
   if (!options.json) {
     for (const Figure& figure : all) std::cout << figure.name << ": " << figure.plot.title << "\n";

@@ -10,6 +10,7 @@
 #include "experiments/folding.h"
 #include "experiments/law_page.h"
 #include "experiments/report.h"
+#include "experiments/run_words.h"
 #include "sim/bending/law_parameters.h"
 
 namespace hysteron::experiments {
@@ -107,6 +108,25 @@ std::vector<render::Series> series_of(Session& session, const Folding& folding) 
   return {{"", folding.cycle(), folding.recovery_angle(), style}, width};
 }
 
+// Of the figures over cycles, which both the cloth and the law alone have.
+FigureCaption width_caption(const Scene& scene) {
+  return {
+      "plot_2HB.png", "2HB, " + what(scene),
+      "Width of the material's moment-curvature loop over cycles on a logarithmic scale: what fatigue, or "
+      "slip, leaves of the friction in bending."};
+}
+
+std::vector<FigureCaption> captions_of_cloth(const Scene& scene, const FoldChoice& choice) {
+  const std::string name = what(scene), cycles = std::to_string(choice.cycles);
+  return {
+      {"plot_recovery.png", "Recovery angle over " + cycles + " folds, " + name,
+       "A strip flexed between two clamps (De Mattia, ISO 7854): the angle between its limbs once it is let "
+       "go after a cycle, 180 degrees if it comes back flat; cycles on a logarithmic scale."},
+      width_caption(scene),
+      {"plot_loop.png", "Loops of the crown, " + name,
+       "Moment of the law against the curvature of the strip's most bent place in single cycles."}};
+}
+
 void plot(Session& session, const Folding& folding, const std::vector<render::Series>& series) {
   const std::string name = what(session.scene());
   session.plot("plot_recovery",
@@ -142,8 +162,10 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
     outcome.picture =
         session.pictures()->picture("cloth", session.pictures()->camera(), what(fold.scene) + ", let go");
     plot(session, folding, outcome.series);
+    run.path("README.md");
   }
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
+  if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));
   return outcome;
 }
 

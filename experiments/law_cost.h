@@ -12,4 +12,7 @@ namespace hysteron::experiments {
 // element.
 Json law_cost_table(const Scene& scene, int elements);
 
+// table.csv of these rows and, with pictures, plot_cost and plot_error with their captions in README.md.
+void write_law_costs(Run& run, const Json& rows, bool pictures);
+
 }  // namespace hysteron::experiments

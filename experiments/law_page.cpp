@@ -1,16 +1,16 @@
 #include "experiments/law_page.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "experiments/comma_list.h"
-#include "experiments/csv.h"
+#include "experiments/comparison_table.h"
 #include "experiments/report.h"
 #include "render/color_map.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
-#include "sim/atomic_file.h"
 #include "sim/bending/law_parameters.h"
 #include "sim/error.h"
 #include "sim/scene/assets.h"
@@ -79,26 +79,13 @@ std::vector<LawVariant> multiplied(const std::vector<LawVariant>& variants, cons
   return result;
 }
 
-void write_table(Run& run, const std::vector<Finding>& all) {
-  std::vector<std::string> header = {"law"};
-  for (const Finding& f : all)
-    if (header.size() == 1)
-      for (const auto& [name, value] : f.outcome.numbers) header.push_back(name);
-  AtomicFile file(run.path("table.csv").string());
-  std::vector<std::string> titles = header;
-  titles.push_back("failed");
-  file.stream() << row_of(titles);
+void write_table(Run& run, const std::string& varied, const std::vector<Finding>& all) {
+  std::vector<ComparisonRow> rows;
   for (const Finding& f : all) {
-    std::vector<std::string> row(header.size(), "");
-    row[0] = f.law;
-    for (std::size_t i = 0; i < f.outcome.numbers.size(); ++i)
-      row[i + 1] = number_field(f.outcome.numbers[i].second);
-    row.push_back(f.failed);
-    file.stream() << row_of(row);
-    for (const auto& [name, value] : f.outcome.numbers)
-      if (std::isfinite(value)) run.metric(f.law + "." + name, value);
+    rows.push_back({f.law, {}, f.failed});
+    for (const auto& [name, value] : f.outcome.numbers) rows.back().metrics.emplace_back(name, value);
   }
-  file.commit();
+  write_comparison_table(run, varied, rows);
 }
 
 void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
@@ -144,6 +131,21 @@ std::vector<LawVariant> variants_of(const CommandLine& line) {
   return variants;
 }
 
+std::string varied_of(const std::vector<LawVariant>& variants) {
+  std::map<std::string, std::set<std::string>> texts;
+  for (const LawVariant& variant : variants)
+    for (const Flag& flag : variant.flags) texts[is_fabric(flag) ? "fabric" : flag.path];
+  for (auto& [path, known] : texts)
+    for (const LawVariant& variant : variants) {
+      std::string own;
+      for (const Flag& flag : variant.flags)
+        if ((is_fabric(flag) ? "fabric" : flag.path) == path) own = flag.text;
+      known.insert(own);
+    }
+  std::erase_if(texts, [](const auto& text) { return text.second.size() < 2; });
+  return texts.size() == 1 ? texts.begin()->first : "column";
+}
+
 CommandLine without_lists(const CommandLine& line) {
   CommandLine one = line;
   std::erase_if(one.flags, [](const Flag& f) {
@@ -180,7 +182,7 @@ int compare_laws(const CommandLine& line, const Setup& setup, const Json& keys, 
     }
     run.progress(law.name + ": " + (finding.failed.empty() ? finding.outcome.caption : finding.failed));
     all.push_back(std::move(finding));
-    write_table(run, all);
+    write_table(run, varied_of(page.laws), all);
   }
   if (!options.no_images) draw(run, page, all);
   run.path("report.html");

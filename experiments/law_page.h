@@ -39,6 +39,8 @@ struct LawPage {
 // A name may carry further keys for itself: "linear+fabric.damping=1e-3". One variant, without a name where
 // nothing is named, where none is a list.
 std::vector<LawVariant> variants_of(const CommandLine& line);
+// The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
+std::string varied_of(const std::vector<LawVariant>& variants);
 // Whether one of the later flags takes the place of this one.
 bool is_set_again(const Flag& flag, const std::vector<Flag>& later);
 // The line without lists: what the page itself is set up with.

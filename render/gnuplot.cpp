@@ -45,6 +45,8 @@ std::string style_words(const Series& series, const std::string& color) {
       return "linespoints" + lines + dots;
     case Series::Style::dashed:
       return "lines dt 2" + lines;
+    case Series::Style::bars:
+      return "boxes lc rgb '" + color + "'";
     default:
       return "lines" + lines;
   }
@@ -54,6 +56,25 @@ std::string output_commands(const char* terminal, int width, int height, const s
   return std::string("set terminal ") + terminal + " enhanced size " + std::to_string(width) + "," +
          std::to_string(height) + " font 'DejaVu Sans,15' background rgb 'white'\nset output " +
          single_quoted(file.string()) + "\n";
+}
+
+// 1, 2, 5, 10, ... within the axis.
+std::string numbers_of_short(const char* name, const Axis& axis) {
+  std::string ticks;
+  for (int power = static_cast<int>(std::floor(std::log10(axis.low))); power <= std::log10(axis.high);
+       ++power)
+    for (const double digit : {1.0, 2.0, 5.0})
+      if (const double at = digit * std::pow(10, power); at >= axis.low && at <= axis.high)
+        ticks += (ticks.empty() ? "" : ",") + number(at);
+  return std::string("set format ") + name + " '%g'\nset " + name + "tics (" + ticks + ")\n";
+}
+
+std::string category_commands(const char* name, const std::vector<std::string>& categories) {
+  std::string ticks;
+  for (std::size_t i = 0; i < categories.size(); ++i)
+    ticks += (i ? "," : "") + label_text(categories[i]) + " " + std::to_string(i);
+  return std::string("set ") + name + "tics (" + ticks + ") rotate by -35\nset " + name +
+         "range [-0.6:" + number(static_cast<double>(categories.size()) - 0.4) + "]\n";
 }
 
 bool has_content(const std::string& file) {
@@ -105,12 +126,18 @@ std::string plot_command(const std::vector<Series>& series, std::size_t first) {
   return script + "\n";
 }
 
+bool is_short(double low, double high) { return low > 0 && high < 100 * low; }
+
 std::string axis_commands(const char* name, const Axis& axis) {
   std::string script = std::string("set ") + name + "label " + label_text(axis.label) + "\n";
   if (axis.logarithmic)
-    script += std::string("set logscale ") + name + "\nset format " + name + " '10^{%L}'\n";
+    script += std::string("set logscale ") + name + "\n" +
+              (axis.low != axis.high && is_short(axis.low, axis.high)
+                   ? numbers_of_short(name, axis)
+                   : std::string("set format ") + name + " '10^{%L}'\n");
   if (axis.low != axis.high)
     script += std::string("set ") + name + "range [" + number(axis.low) + ":" + number(axis.high) + "]\n";
+  if (!axis.categories.empty()) script += category_commands(name, axis.categories);
   return script;
 }
 

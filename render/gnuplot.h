@@ -23,6 +23,9 @@ void require_drawable(const std::filesystem::path& base, const std::vector<Serie
 std::string data_blocks(const std::vector<Series>& series, std::size_t first = 0);
 std::string plot_command(const std::vector<Series>& series, std::size_t first = 0);
 
+// Whether a logarithmic axis between these is too short for powers of ten alone: less than two decades.
+bool is_short(double low, double high);
+
 // "set xlabel", logarithmic scale and, where one is given, the range; `name` is "x" or "y".
 std::string axis_commands(const char* name, const Axis& axis);
 

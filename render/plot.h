@@ -10,7 +10,7 @@ namespace hysteron::render {
 struct Series {
   std::string label;  // empty: not in the key
   std::vector<double> x, y;
-  enum class Style { line, points, line_and_points, dashed } style = Style::line;
+  enum class Style { line, points, line_and_points, dashed, bars } style = Style::line;
   std::string color{};  // "#RRGGBB"; empty: the next of a palette that colour-blind eyes can tell apart
   double line_width = 2.2;
 };
@@ -27,7 +27,8 @@ struct Mark {
 struct Axis {
   std::string label;  // with its unit: "curvature [1/m]"
   bool logarithmic = false;
-  double low = 0, high = 0;  // low == high: from the data
+  double low = 0, high = 0;               // low == high: from the data
+  std::vector<std::string> categories{};  // names that stand at 0, 1, 2, ... instead of numbers; along x
 };
 
 struct Plot {
@@ -39,6 +40,7 @@ struct Plot {
   std::vector<Mark> marks{};
   bool axes_at_zero = false;  // lines through the origin instead of a grid
   bool key_inside = false;    // in the lower right corner, not beside the plot
+  double bar_width = 0.8;     // in units of x
 };
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
@@ -46,6 +48,11 @@ struct Plot {
 // are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
+
+// Series of bars, a group at each category: `values` by series and category, `labels` by series.  Numbers
+// that are not finite make no bar.
+std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
+                                 const std::vector<std::vector<double>>& values, double bar_width);
 
 // Writes BASE.png and BASE.svg, each whole or not at all.  Numbers that are not finite make gaps.
 // Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to

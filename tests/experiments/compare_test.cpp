@@ -4,7 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiments/comparison_table.h"
+#include "experiments/law_page.h"
 #include "experiments/matching.h"
+#include "experiments/run_words.h"
 #include "render/color_map.h"
 #include "render/comparison_sheet.h"
 #include "sim/error.h"
@@ -94,6 +97,84 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
   EXPECT_EQ(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
   ASSERT_EQ(program(line + " --resume --fabric wool-tropical").exit_code, 0);
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
+}
+
+LawVariant variant(const std::string& fabric, const std::string& law) {
+  return {fabric + law, {{"fabric", fabric}, {"law", law}}};
+}
+
+TEST(Variants, AreNamedAfterTheOneKeyInWhichTheyDiffer) {
+  EXPECT_EQ(varied_of({variant("a", "linear"), variant("a", "prandtl")}), "law");
+  EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "linear")}), "fabric");
+  EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "prandtl")}), "column");
+  EXPECT_EQ(varied_of({{"", {{"integrator", "bdf2"}}}, {"", {{"integrator", "implicit"}}}}), "integrator");
+  LawVariant damped = variant("a", "linear");
+  damped.flags.push_back({"fabric.damping", "1e-3"});
+  EXPECT_EQ(varied_of({variant("a", "linear"), damped}), "fabric.damping");
+  EXPECT_EQ(varied_of({variant("a", "linear"), damped, variant("a", "prandtl")}), "column");
+}
+
+TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
+  const Folder folder;
+  Options options;
+  options.out = folder.path().string();
+  options.quiet = true;
+  ExperimentRun run({"compare", "hysteron compare", {}, {}}, options, Json::object());
+  write_comparison_table(run, "law",
+                         {{"linear", {{"turns", 3}, {"decay_shape", "plateau"}}, ""},
+                          {"prandtl", {{"turns", 2}, {"loss_J", 0.5}, {"set_m", NAN}}, "at 1 s, crushed"}});
+  run.finish();
+  EXPECT_EQ(text_of(folder.path() / "table.csv"),
+            "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");
+  const auto metrics = Json::parse(text_of(folder.path() / "manifest.json"))["metrics"];
+  EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
+}
+
+Json manifest_with(const std::string& law, double damping) {
+  return {{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
+          {"device", "one core"},
+          {"triangles", 12345},
+          {"scene",
+           {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
+            {"mesh", "unionjack"},
+            {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
+            {"law", law},
+            {"integrator", "bdf2"},
+            {"step", 0.004}}}};
+}
+
+// What runs share is said once; what one of them has of its own, with its name.
+TEST(Captions, SayOfRunsWhatTheirManifestsSay) {
+  const Json a = manifest_with("linear", 1e-5), b = manifest_with("linear", 5e-3),
+             c = manifest_with("dahl", 1e-5);
+  const std::string text = facts_of({"a", "b", "c"}, {&a, &b, &c});
+  for (const char* part : {"Cloth: strip of 90 by 30 mm, mesh unionjack, 12,345 triangles.",
+                           "Fabric: wool (b1 2e-05 N m", "Damping of bending: 1e-05 s; b: 0.005 s.",
+                           "Law: linear; c: dahl.", "Solver: bdf2, step 4 ms", "Device: one core."})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  EXPECT_EQ(facts_of({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
+  EXPECT_EQ(origin_words("hysteron x", a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+}
+
+TEST(Compare, CaptionsItsFiguresFromTheManifests) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(program("compare swing --laws linear,prandtl --seconds 1 --out " + out +
+                    " --triangles 60 --fps 30 --device cpu --size 160x120 --compare.rows 2 --quiet")
+                .exit_code,
+            0);
+  const std::string captions = text_of(fs::path(out) / "README.md");
+  for (const char* part :
+       {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "t = 0.50 s; t = 1.00 s",
+        "Cloth: strip of 90 by 30 mm", "cotton-broad", "Solver: bdf2", "hysteron compare swing --laws"})
+    EXPECT_NE(captions.find(part), std::string::npos) << part;
+  EXPECT_EQ(text_of(fs::path(out) / "table.csv").substr(0, 4), "law,");
+  EXPECT_TRUE(fs::exists(fs::path(out) / "plot_decay.svg"));
+  EXPECT_GT(text_of(fs::path(out) / "linear/turns.csv").size(), 40u);
+  ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
+  EXPECT_NE(text_of(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
 }
 
 TEST(Compare, NamesTheColumnThatIsWrong) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -71,6 +72,56 @@ TEST_F(PlotTest, GapsAndLogarithmicAxesAreDrawn) {
   plot.series[0].y[15] = std::numeric_limits<double>::quiet_NaN();
   write_plot(folder_.file("p"), plot);
   EXPECT_EQ(folder_.names().size(), 2u);
+}
+
+// 12 to 60: ticks at 20 and 50, none that is a power of ten.
+TEST_F(PlotTest, ShortLogarithmicAxesAreNumberedWithinTheDecade) {
+  Plot plot = parabola();
+  plot.y.logarithmic = true;
+  plot.series[0].x = {1, 2, 3};
+  plot.series[0].y = {12, 30, 60};
+  write_plot(folder_.file("p"), plot);
+  const std::string svg = text_of(folder_.file("p.svg"));
+  for (const char* tick : {">20<", ">50<"}) EXPECT_NE(svg.find(tick), std::string::npos) << tick;
+  plot.series[0].y = {1, 30, 6000};
+  write_plot(folder_.file("p"), plot);
+  EXPECT_EQ(text_of(folder_.file("p.svg")).find(">20<"), std::string::npos);
+}
+
+TEST(GroupedBars, StandSideBySideAroundTheirCategory) {
+  const auto bars = grouped_bars({"a", "b"}, {{1, 2, 3}, {4, 5, 6}}, 0.4);
+  ASSERT_EQ(bars.size(), 2u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(bars[0].x[i], i - 0.2, 1e-15);
+    EXPECT_NEAR(bars[1].x[i], i + 0.2, 1e-15);
+    EXPECT_EQ(bars[1].y[i], 4 + i);
+  }
+}
+
+TEST_F(PlotTest, BarsHaveTheirCategoriesBelowAndTheirHeights) {
+  Plot plot{.title = "bars",
+            .x = {.label = ""},
+            .y = {.label = "height"},
+            .series = {},
+            .width = 600,
+            .height = 400};
+  plot.x.categories = {"short_one", "tall_one"};
+  plot.y.high = 4;
+  plot.series = grouped_bars({""}, {{1, 4}}, plot.bar_width);
+  write_plot(folder_.file("p"), plot);
+  const std::string svg = text_of(folder_.file("p.svg"));
+  for (const std::string& name : plot.x.categories) EXPECT_NE(svg.find(name), std::string::npos) << name;
+  const Image image = read_png(folder_.file("p.png"));
+  std::vector<int> blue(image.width());  // pixels of the bars in each column
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) blue[x] += image.at(x, y)[2] > image.at(x, y)[0] + 100;
+  const int tallest = *std::max_element(blue.begin(), blue.end());
+  const auto low = std::count_if(blue.begin(), blue.end(), [&](int n) { return n > 0 && n < tallest / 2; });
+  const auto high = std::count_if(blue.begin(), blue.end(), [&](int n) { return n >= tallest - 2; });
+  EXPECT_NEAR(low, high, 3) << "equally wide";
+  EXPECT_GT(high, 100);
+  EXPECT_EQ(std::count_if(blue.begin(), blue.end(), [&](int n) { return std::abs(n - tallest / 4.0) < 3; }),
+            low);
 }
 
 TEST_F(PlotTest, WhatGnuplotCannotDrawFailsInOneLineAndLeavesNothing) {
