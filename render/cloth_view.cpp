@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kColorMapUnit = 2;
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
-constexpr float kSkySpacing = 1.0f / 20;
-constexpr float kBodySkyBlur = 5.0f;  // texels of the sky maps: neighbouring directions blend
-constexpr int kLargestSide = 65536;   // [pixels] of a picture; a mistake beyond
+constexpr float kSkySpacing = 1.0f / 16;
+constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
+constexpr int kLargestSide = 65536;                        // [pixels] of a picture; a mistake beyond
 
 Eigen::Vector3f linear(const Rgb8& color) {
   const auto& table = linear_of_srgb8();
@@ -225,7 +225,7 @@ void ClothView::prepare() {
 
 void ClothView::update_body_sky() const {
   body_sky_program_.use();
-  shadows_.bind(body_sky_program_, kBodySkyBlur);
+  shadows_.bind(body_sky_program_, kBodySkyBlur, kBodySkyLift);
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
     place_body(body_sky_program_, obstacle);
