@@ -27,7 +27,7 @@ Obstacle jaw(double from, double to, double width) {
   box.kind = "box";
   box.center = {(from + to) / 2, width / 2, 0};
   box.size = Eigen::Vector3d((to - from) / 2, width / 2 + kJawOverhang, kJawThickness / 2).array() + inset;
-  box.rim = 1.2 * inset;
+  box.rim = 0.3 * inset;
   return box;
 }
 

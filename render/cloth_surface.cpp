@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "render/gl/capture.h"
 #include "sim/error.h"
 
 namespace hysteron::render {
@@ -58,7 +59,9 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
       triangles_(topology.triangles.size() / 3),
       normal_program_(
           gl, {.vertex = "normals.vert", .fragment = "", .defines = "", .captured = {"smooth_normal"}}),
-      sky_program_(gl, {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
+      sky_program_(
+          gl,
+          {.vertex = "sky.vert", .fragment = "", .defines = "#define CLOTH\n", .captured = {"vertex_sky"}}),
       arrays_(gl),
       point_arrays_(gl),
       no_arrays_(gl),
@@ -163,24 +166,13 @@ void ClothSurface::update_normals() const {
   bind_buffer_texture(kPositionUnit, position_texture_);
   bind_buffer_texture(kCornerStartUnit, corner_start_texture_);
   bind_buffer_texture(kCornerUnit, corner_texture_);
-  capture(no_arrays_, normals_);
+  capture(*gl_, no_arrays_, static_cast<GLsizei>(vertices_), normals_);
 }
 
 void ClothSurface::update_sky(const ShadowMaps& shadows) const {
   sky_program_.use();
   shadows.bind(sky_program_);
-  capture(point_arrays_, sky_);
-}
-
-void ClothSurface::capture(const GlVertexArray& arrays, const GlBuffer& output) const {
-  gl_->BindVertexArray(arrays.name());
-  gl_->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
-  gl_->Enable(GL_RASTERIZER_DISCARD);
-  gl_->BeginTransformFeedback(GL_POINTS);
-  gl_->DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices_));
-  gl_->EndTransformFeedback();
-  gl_->Disable(GL_RASTERIZER_DISCARD);
-  gl_->BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+  capture(*gl_, point_arrays_, static_cast<GLsizei>(vertices_), sky_);
 }
 
 void ClothSurface::draw() const {

@@ -47,8 +47,6 @@ class ClothSurface {
   void upload_topology(const ClothTopology& topology);
   void upload_adjacency(const ClothTopology& topology);
   void bind_attributes(const ClothTopology& topology);
-  // Runs the program in use for every vertex and keeps what it gives out.
-  void capture(const GlVertexArray& arrays, const GlBuffer& output) const;
   void bind_buffer_texture(int unit, const GlTexture& texture) const;
 
   const GlFunctions* gl_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "render/refine.h"
 #include "render/srgb.h"
 #include "sim/error.h"
 
@@ -12,7 +13,10 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kColorMapUnit = 2;
-constexpr int kLargestSide = 65536;  // [pixels] of a picture; a mistake beyond
+// Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
+constexpr float kSkySpacing = 1.0f / 16;
+constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
+constexpr int kLargestSide = 65536;                        // [pixels] of a picture; a mistake beyond
 
 Eigen::Vector3f linear(const Rgb8& color) {
   const auto& table = linear_of_srgb8();
@@ -23,17 +27,13 @@ ProgramFiles cloth_files(Show show) {
   switch (show) {
     case Show::curvature:
     case Show::friction:
-      return {.vertex = "surface.vert",
-              .fragment = "cloth.frag",
-              .defines = "#define SKY_GIVEN\n#define FIELD\n"};
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
     case Show::wireframe:
-      return {.vertex = "surface.vert",
-              .fragment = "cloth.frag",
-              .defines = "#define SKY_GIVEN\n#define WIREFRAME\n"};
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
     case Show::silhouette:
-      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = "#define SKY_GIVEN\n"};
+      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
     default:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define SKY_GIVEN\n"};
+      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
   }
 }
 
@@ -104,6 +104,8 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       shadows_(gl_),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}),
+      body_sky_program_(gl_,
+                        {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       color_map_(gl_),
       no_arrays_(gl_) {
   set_look(look_);
@@ -117,12 +119,15 @@ void ClothView::set_cloth(const ClothTopology& topology) {
   shared_positions_.reset();
   cloth_.emplace(gl_, topology);
   position_bounds_.reset();
+  triangles_.assign(topology.triangles.begin(), topology.triangles.end());
+  cloth_side_ = topology.pattern.empty() ? 0 : long_side(triangles_, topology.pattern, 2);
 }
 
 void ClothView::set_positions(std::span<const float> xyz) {
   if (!cloth_) throw Error::request("drawing a cloth: positions were given before its triangles");
   offscreen_.make_current();
   cloth_->set_positions(xyz);
+  if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
   if (!given_bounds_) position_bounds_ = box_of(xyz);
 }
 
@@ -149,7 +154,9 @@ bool ClothView::write_positions(std::string& reason) {
 
 int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& placement) {
   offscreen_.make_current();
-  obstacles_.push_back({StaticMesh(gl_, mesh), mesh_box(mesh), placement, true});
+  const Box box = mesh_box(mesh);
+  const TriangleMesh fine = refined(mesh, 2 * kSkySpacing * box.radius());
+  obstacles_.push_back({StaticMesh(gl_, fine), box, BodyMeasure(mesh), placement, true});
   return static_cast<int>(obstacles_.size()) - 1;
 }
 
@@ -212,7 +219,18 @@ void ClothView::prepare() {
   shadows_.aim(bounds(), look_.to_light, look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
+  update_body_sky();
   if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+}
+
+void ClothView::update_body_sky() const {
+  body_sky_program_.use();
+  shadows_.bind(body_sky_program_, kBodySkyBlur, kBodySkyLift);
+  for (const Obstacle& obstacle : obstacles_) {
+    if (!obstacle.visible) continue;
+    place_body(body_sky_program_, obstacle);
+    obstacle.mesh.update_sky();
+  }
 }
 
 // The part of the picture whose upper left pixel is at (left, top).
@@ -238,15 +256,42 @@ ClothView::View ClothView::view_of(const Camera& camera, int left, int top, cons
           scale * Eigen::Vector2f(static_cast<float>(left), static_cast<float>(bottom))};
 }
 
-void ClothView::draw_casters(const Program& program) const {
-  program.set("inset", look_.obstacle_inset);
-  for (const Obstacle& obstacle : obstacles_) {
-    if (!obstacle.visible) continue;
-    program.set("model", obstacle.placement);
-    obstacle.mesh.draw();
-  }
+// The placement of a body that is drawn smaller by `inset` [m] on all sides, stretched upright so that one
+// that stands on the ground keeps standing.
+Eigen::Matrix4f ClothView::standing(const Obstacle& obstacle, float inset) const {
+  const Box box = placed_box(obstacle.box, obstacle.placement);
+  const float low = box.low.z(), height = box.high.z() - low;
+  if (!ground_height_ || std::abs(low - *ground_height_) > inset) return obstacle.placement;
+  Eigen::Matrix4f stretch = Eigen::Matrix4f::Identity();
+  stretch(2, 2) = (height - inset) / (height - 2 * inset);
+  stretch(2, 3) = low - stretch(2, 2) * (low + inset);
+  return stretch * obstacle.placement;
+}
+
+void ClothView::place_body(const Program& program, const Obstacle& obstacle) const {
+  const float scale = obstacle.placement.topLeftCorner<3, 1>().norm();  // a motion may swell the body
+  const BodyMeasure& body = obstacle.measure;
+  const float inset = body_inset(body, cloth_side_ / scale, look_.obstacle_inset / scale);
+  Eigen::Vector3f keep = Eigen::Vector3f::Ones();
+  if (body.centred) keep -= inset * body.half_extent.cwiseInverse();
+  program.set("keep", keep);
+  program.set("inset", body.centred ? 0 : inset);
+  program.set("model", standing(obstacle, inset * scale));
+}
+
+void ClothView::place_cloth(const Program& program) {
+  program.set("keep", Eigen::Vector3f(1, 1, 1));
   program.set("inset", 0.0f);
   program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+}
+
+void ClothView::draw_casters(const Program& program) const {
+  for (const Obstacle& obstacle : obstacles_) {
+    if (!obstacle.visible) continue;
+    place_body(program, obstacle);
+    obstacle.mesh.draw();
+  }
+  place_cloth(program);
   if (cloth_) cloth_->draw();
 }
 
@@ -278,8 +323,7 @@ void ClothView::set_backdrop(const Program& program, const View& view) const {
 void ClothView::begin_lit(const Program& program, const View& view) const {
   program.use();
   program.set("view_projection", view.view_projection);
-  program.set("model", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
-  program.set("inset", 0.0f);
+  place_cloth(program);
   program.set("eye", view.eye);
   program.set("view_forward", view.forward);
   program.set("orthographic", view.orthographic ? 1.0f : 0.0f);
@@ -304,10 +348,9 @@ void ClothView::draw_ground(const View& view) const {
 void ClothView::draw_obstacles(const View& view) const {
   begin_lit(matte_program_, view);
   matte_program_.set("albedo", linear(look_.obstacle));
-  matte_program_.set("inset", look_.obstacle_inset);
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
-    matte_program_.set("model", obstacle.placement);
+    place_body(matte_program_, obstacle);
     obstacle.mesh.draw();
   }
 }

@@ -16,6 +16,7 @@
 #include "render/frame_target.h"
 #include "render/ground.h"
 #include "render/image.h"
+#include "render/inset.h"
 #include "render/look.h"
 #include "render/offscreen.h"
 #include "render/shadow_maps.h"
@@ -79,6 +80,7 @@ class ClothView {
   struct Obstacle {
     StaticMesh mesh;
     Box box;  // of the mesh, before it is placed
+    BodyMeasure measure;
     Eigen::Matrix4f placement;
     bool visible;
   };
@@ -92,8 +94,13 @@ class ClothView {
   };
 
   Obstacle& obstacle(int number);
+  // Places what the program in use draws: an obstacle, smaller by its inset, or the cloth as it is.
+  void place_body(const Program& program, const Obstacle& obstacle) const;
+  Eigen::Matrix4f standing(const Obstacle& obstacle, float inset) const;
+  static void place_cloth(const Program& program);
   Box bounds() const;
   void prepare();
+  void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top) const;
   View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
@@ -112,7 +119,7 @@ class ClothView {
   int part_width_, part_height_;  // of the picture drawn at once [pixels]
   FrameTarget target_;
   ShadowMaps shadows_;
-  Program backdrop_program_, matte_program_;
+  Program backdrop_program_, matte_program_, body_sky_program_;
   std::optional<Program> cloth_program_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
@@ -120,6 +127,8 @@ class ClothView {
   std::optional<ClothSurface> cloth_;
   std::unique_ptr<GlPositions> shared_positions_;  // of cloth_: below it, so that it is closed first
   std::vector<Obstacle> obstacles_;
+  std::vector<int> triangles_;  // of the cloth, until positions tell its sides
+  float cloth_side_ = 0;        // long_side() of the cloth [m]
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
   Look look_;

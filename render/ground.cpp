@@ -44,7 +44,8 @@ Ground::Ground(const GlFunctions& gl)
     : gl_(&gl),
       sky_program_(gl,
                    {.vertex = "backdrop.vert", .fragment = "ground_sky.frag", .defines = "#define GROUND\n"}),
-      light_program_(gl, {.vertex = "backdrop.vert", .fragment = "ground_light.frag", .defines = ""}),
+      light_program_(
+          gl, {.vertex = "backdrop.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
       program_(gl, {.vertex = "ground.vert", .fragment = "ground.frag", .defines = ""}),
       mesh_(gl, ground_square()),
       no_arrays_(gl),

@@ -38,7 +38,7 @@ struct Look {
   float room = 1;  // brightness of the room around; less of it leaves the key light to model the shape
   float thread_spacing = 0.45e-3f;  // [m]; cotton broadcloth has 20 to 40 threads a centimetre
   float weave = 1;                  // strength of the threads' relief and unevenness, 0 = smooth
-  // Obstacles are drawn this much smaller [m]: flat triangles laid over a round rim cut into it.
+  // Obstacles are drawn smaller by at least this [m], more below coarse cloth (inset.h).
   float obstacle_inset = 0.8e-3f;
 };
 

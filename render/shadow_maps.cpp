@@ -116,7 +116,7 @@ void ShadowMaps::draw(const std::function<void(const Program&)>& draw_casters) c
   gl_->Disable(GL_POLYGON_OFFSET_FILL);
 }
 
-void ShadowMaps::bind(const Program& program, float sky_blur) const {
+void ShadowMaps::bind(const Program& program, float sky_blur, float sky_lift) const {
   gl_->ActiveTexture(GL_TEXTURE0 + kKeyUnit);
   gl_->BindTexture(GL_TEXTURE_2D, key_map_.name());
   gl_->ActiveTexture(GL_TEXTURE0 + kSkyUnit);
@@ -132,6 +132,7 @@ void ShadowMaps::bind(const Program& program, float sky_blur) const {
   gl_->BindSampler(kDepthUnit, depth_sampler_.name());
   program.set("key_depth", kDepthUnit);
   program.set("sky_blur", sky_blur);
+  program.set("sky_lift", sky_lift);
   program.set("sky_texel", 2 * kBorder * radius_ / kSkySide);
   for (int k = 0; k < kSkyLights; ++k) {
     const std::string index = "[" + std::to_string(k) + "]";

@@ -25,8 +25,8 @@ class ShadowMaps {
   // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
   // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in
-  // the sky maps in their texels.
-  void bind(const Program& program, float sky_blur = 1.6f) const;
+  // the sky maps, `sky_lift`: height above the surface from which they are asked, both in their texels.
+  void bind(const Program& program, float sky_blur = 1.6f, float sky_lift = 1.2f) const;
   const Eigen::Vector3f& to_light() const { return to_light_; }
 
  private:

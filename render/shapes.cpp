@@ -54,8 +54,10 @@ void add_quads(TriangleMesh& mesh, std::uint32_t first, int rows, int columns) {
 }
 
 // Outline from the top of the axis to its bottom, turned about z.
-TriangleMesh turned(const std::vector<OutlinePoint>& outline) {
+TriangleMesh turned(const std::vector<OutlinePoint>& outline, float roundness) {
   TriangleMesh mesh;
+  mesh.roundness = roundness;
+  mesh.centred = true;
   for (const OutlinePoint& point : outline)
     for (int j = 0; j <= kSectors; ++j) {
       const float angle = 2 * kPi * static_cast<float>(j % kSectors) / kSectors;
@@ -100,7 +102,7 @@ TriangleMesh sphere_mesh(float radius) {
   require_positive("sphere radius", radius);
   std::vector<OutlinePoint> outline;
   add_arc(outline, {0, 0}, radius, kPi / 2, -kPi / 2, kSectors / 2);
-  return turned(outline);
+  return turned(outline, radius);
 }
 
 TriangleMesh cylinder_mesh(float radius, float height, float rim) {
@@ -114,7 +116,7 @@ TriangleMesh cylinder_mesh(float radius, float height, float rim) {
   add_line(outline, {radius, half - round}, {radius, round - half}, kBands);
   add_arc(outline, {inner, round - half}, round, 0, -kPi / 2, kRimBands);
   add_line(outline, {inner, -half}, {0, -half}, 4);
-  return turned(outline);
+  return turned(outline, round);
 }
 
 TriangleMesh capsule_mesh(float radius, float height) {
@@ -124,7 +126,7 @@ TriangleMesh capsule_mesh(float radius, float height) {
   add_arc(outline, {0, height / 2}, radius, kPi / 2, 0, kSectors / 4);
   add_line(outline, {radius, height / 2}, {radius, -height / 2}, kBands);
   add_arc(outline, {0, -height / 2}, radius, 0, -kPi / 2, kSectors / 4);
-  return turned(outline);
+  return turned(outline, radius);
 }
 
 TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
@@ -132,6 +134,8 @@ TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
   const float least = half_edges.minCoeff();
   const float round = std::clamp(rim, 1e-3f * least, least);
   TriangleMesh mesh;
+  mesh.roundness = round;
+  mesh.centred = true;
   for (int axis = 0; axis < 3; ++axis)
     for (const float sign : {-1.0f, 1.0f}) add_box_face(mesh, half_edges, round, axis, sign);
   return mesh;

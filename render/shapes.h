@@ -12,6 +12,11 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3f> positions;  // [m]
   std::vector<Eigen::Vector3f> normals;    // unit, outward
   std::vector<std::uint32_t> triangles;    // 3 a triangle, counter-clockwise from outside
+  // Least radius on which cloth may lie [m]; 0: edges, or not known.
+  float roundness = 0;
+  // Convex about the origin: made smaller by a factor along each axis.  Else along its normals, which folds
+  // over edges that are less round than the inset.
+  bool centred = false;
 
   size_t triangle_count() const { return triangles.size() / 3; }
 };

@@ -1,34 +1,54 @@
 #include "render/static_mesh.h"
 
+#include "render/gl/capture.h"
+
 namespace hysteron::render {
 namespace {
 
-void upload_vectors(const GlFunctions& gl, GLuint attribute, const GlBuffer& buffer,
+void upload_vectors(const GlFunctions& gl, const GlBuffer& buffer,
                     const std::vector<Eigen::Vector3f>& vectors) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vectors.size() * sizeof(Eigen::Vector3f)),
                 vectors.data(), GL_STATIC_DRAW);
-  gl.EnableVertexAttribArray(attribute);
-  gl.VertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
+
+void attribute(const GlFunctions& gl, GLuint index, const GlBuffer& buffer, GLint components) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+  gl.EnableVertexAttribArray(index);
+  gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 }  // namespace
 
 StaticMesh::StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh)
     : gl_(&gl),
+      vertices_(static_cast<GLsizei>(mesh.positions.size())),
       indices_count_(static_cast<GLsizei>(mesh.triangles.size())),
       arrays_(gl),
+      point_arrays_(gl),
       positions_(gl),
       normals_(gl),
+      sky_(gl),
       indices_(gl) {
+  upload_vectors(gl, positions_, mesh.positions);
+  upload_vectors(gl, normals_, mesh.normals);
+  gl.BindBuffer(GL_ARRAY_BUFFER, sky_.name());
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(4 * sizeof(float)) * vertices_, nullptr,
+                GL_DYNAMIC_COPY);
+  gl.BindVertexArray(point_arrays_.name());  // without the sky light, which is written from it
+  attribute(gl, 0, positions_, 3);
+  attribute(gl, 1, normals_, 3);
   gl.BindVertexArray(arrays_.name());
-  upload_vectors(gl, 0, positions_, mesh.positions);
-  upload_vectors(gl, 1, normals_, mesh.normals);
+  attribute(gl, 0, positions_, 3);
+  attribute(gl, 1, normals_, 3);
+  attribute(gl, 4, sky_, 4);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
   gl.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                 static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)), mesh.triangles.data(),
                 GL_STATIC_DRAW);
 }
+
+void StaticMesh::update_sky() const { capture(*gl_, point_arrays_, vertices_, sky_); }
 
 void StaticMesh::draw() const {
   gl_->BindVertexArray(arrays_.name());

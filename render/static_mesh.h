@@ -11,12 +11,14 @@ class StaticMesh {
   StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh);
   // One draw call with the program in use; attribute 0 is the position, 1 the normal.
   void draw() const;
+  // Keeps what the program in use captures at every vertex, 4 floats, as attribute 4 of draw().
+  void update_sky() const;
 
  private:
   const GlFunctions* gl_;
-  GLsizei indices_count_;
-  GlVertexArray arrays_;
-  GlBuffer positions_, normals_, indices_;
+  GLsizei vertices_, indices_count_;
+  GlVertexArray arrays_, point_arrays_;
+  GlBuffer positions_, normals_, sky_, indices_;
 };
 
 }  // namespace hysteron::render

@@ -56,7 +56,7 @@ void main() {
   vec3 fine = with_threads(normal, weave.tilt);
 
   float facing = dot(normal, to_light);
-  float reaching = key_reaching(world, normal);
+  float reaching = key_reaching(world, normal, to_light);
   float direct = max(dot(fine, to_light), 0.0) * smoothstep(0.0, 0.12, facing);
   float through = kThrough * max(-facing, 0.0);
   vec3 light = room_light(fine, seen.x, seen.y) + key_light() * reaching * (direct + through);

@@ -2,6 +2,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 light, model;
-uniform float inset;
+uniform vec3 keep;    // share of a body that is drawn along its axes
+uniform float inset;  // along its normals
 
-void main() { gl_Position = light * (model * vec4(position - inset * normal, 1)); }
+void main() { gl_Position = light * (model * vec4(keep * position - inset * normal, 1)); }

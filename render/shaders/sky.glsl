@@ -12,6 +12,7 @@ uniform mat4 sky_matrix[kSkyLights];
 uniform vec3 sky_direction[kSkyLights];
 uniform float sky_texel;  // size of a texel in the world [m]
 uniform float sky_blur;   // radius of a lookup in texels
+uniform float sky_lift;   // of the point above its surface in texels: more than the blur sees of the surface itself
 
 float sky_open(int k, vec3 point) {
   vec3 p = (sky_matrix[k] * vec4(point, 1)).xyz * 0.5 + 0.5;
@@ -39,7 +40,7 @@ vec4 light_seen(vec3 point, vec3 normal) {
     vec3 direction = sky_direction[k];
     float facing = dot(normal, direction);
     // Looked up beside the surface, on the side that faces this direction: the sheet must not hide the sky from itself.
-    float open = sky_open(k, point + sign(facing) * 1.2 * sky_texel * normal);
+    float open = sky_open(k, point + sign(facing) * sky_lift * sky_texel * normal);
     float floor_facing = dot(normal, vec3(direction.xy, -direction.z));
     vec4 weight = max(vec4(facing, -facing, floor_facing, -floor_facing), 0.0);
     vec4 told = weight * vec4(1, 1, step(0.0, facing), step(0.0, -facing));

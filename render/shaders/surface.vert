@@ -1,15 +1,12 @@
-// Every lit surface.  SKY_GIVEN: what is seen of sky and floor is an attribute, else it is looked up here.
+// Every lit surface.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 pattern;
 layout(location = 3) in float value;
-#ifdef SKY_GIVEN
-layout(location = 4) in vec4 vertex_sky;
-#else
-#include "sky.glsl"
-#endif
+layout(location = 4) in vec4 vertex_sky;  // what is seen of sky and floor
 uniform mat4 model, view_projection;
-uniform float inset;
+uniform vec3 keep;    // share of a body that is drawn along its axes
+uniform float inset;  // along its normals
 
 out vec3 world;
 out vec3 world_normal;
@@ -19,13 +16,9 @@ out vec4 sky;        // shares of the sky seen from the front and the back side,
 
 void main() {
   world_normal = mat3(model) * normal;
-  world = (model * vec4(position, 1)).xyz - inset * world_normal;
+  world = (model * vec4(keep * position - inset * normal, 1)).xyz;
   thread = pattern;
   field = value;
-#ifdef SKY_GIVEN
   sky = vertex_sky;
-#else
-  sky = light_seen(world, world_normal);
-#endif
   gl_Position = view_projection * vec4(world, 1);
 }

@@ -1,0 +1,74 @@
+// Shadows of the key light, a disc far away: percentage-closer soft shadows (Fernando 2005).  What hides the light at
+// distance d along its rays is smeared over a disc of radius kKeySize d, so an edge is sharp where cloth touches and
+// wide below a high fold.  Lengths are in map units: the map's side is 1, and its depth spans the same length.
+#include "disc.glsl"
+uniform sampler2DShadow key_map;
+uniform sampler2D key_depth;  // the same map, the depths themselves
+uniform mat4 key_matrix;
+uniform float key_texel;  // size of a texel in the world [m]
+
+const float kKeySize = 0.06;     // radius of the light over its distance: 3.4 degrees
+const float kSharpest = 1.5;     // least radius of a lookup [texels]: what the map resolves
+const float kSearchMargin = 1.3;  // blockers are looked for beyond the light's rim, else edges would begin with a step
+const float kSteepest = 5.0;     // the key light fades out on surfaces steeper than this to it
+#ifdef GROUND
+const int kSearchTaps = 48;
+const float kTapsPerTexel = 4.0;
+const float kMostTaps = 64.0;
+#else
+const int kSearchTaps = 22;
+const float kTapsPerTexel = 3.0;
+const float kMostTaps = 32.0;
+#endif
+const int kRimTaps = 8;
+
+// How much nearer to the light than a point what hides it must be at a distance `off` across the rays: more than the
+// surface itself rises there.
+float rise(float slope, float off, float texel) { return slope * (off + texel); }
+
+// Mean distance along the rays of what may hide the light from p; 0 where nothing does.  The search runs outward, each
+// ring a share wider; beyond the least radius only what stands in the cone from p to the light counts.
+float blocker_distance(vec3 p, float slope, float texel) {
+  float sum = 0.0, count = 0.0;
+  float least = kSharpest * texel, most = max(kSearchMargin * kKeySize * p.z, 2.0 * least);
+  mat2 turn = kGoldenTurn * pow(most / least, 1.0 / float(kSearchTaps - 1));
+  vec2 spoke = vec2(0.8, 0.6) * least;
+  for (int i = 0; i < kSearchTaps; ++i) {
+    float off = length(spoke), distance = p.z - texture(key_depth, p.xy + spoke).r;
+    float needed = off < kSharpest * 1.6 * texel ? rise(slope, off, texel) : off / (kSearchMargin * kKeySize);
+    float hides = distance > needed ? 1.0 : 0.0;
+    sum += hides * distance;
+    count += hides;
+    spoke = turn * spoke;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+// Share of a disc of lookups that the light reaches.  Most discs lie wholly in light or shadow: those around the rim
+// tell, and a software renderer, which pays for every lookup, skips the rest.
+float lit_share(vec3 p, float radius, float slope, float texel) {
+  int taps = int(clamp(kTapsPerTexel * radius / texel, 12.0, kMostTaps)), asked = taps;
+  float lit = 0.0;
+  vec2 spoke = vec2(1, 0);
+  for (int i = 0; i < asked; ++i) {
+    // From the rim inward.
+    float off = radius * sqrt(1.0 - (float(i) + 0.5) / float(taps));
+    lit += texture(key_map, vec3(p.xy + off * spoke, min(p.z - rise(slope, off, texel), 1.0)));
+    spoke = kGoldenTurn * spoke;
+    if (i == kRimTaps - 1 && (lit < 0.001 || lit > float(kRimTaps) - 0.001)) asked = kRimTaps;
+  }
+  return lit / float(asked);
+}
+
+// Share of the key light that reaches a point, tested beside the surface on the side that faces the light: a thin
+// sheet must neither shade itself nor let its shadow float.
+float key_reaching(vec3 point, vec3 normal, vec3 to_light) {
+  float facing = dot(normal, to_light);
+  vec3 p = (key_matrix * vec4(point + sign(facing) * key_texel * normal, 1)).xyz * 0.5 + 0.5;
+  vec2 from_middle = abs(p.xy - 0.5);
+  if (max(from_middle.x, from_middle.y) > 0.56) return 1.0;
+  float texel = 1.0 / float(textureSize(key_map, 0).x);
+  float slope = min(sqrt(1.0 - min(facing * facing, 1.0)) / max(abs(facing), 1e-3), kSteepest) + 0.1;
+  float distance = blocker_distance(p, slope, texel);
+  return distance > 0.0 ? lit_share(p, max(kKeySize * distance, kSharpest * texel), slope, texel) : 1.0;
+}

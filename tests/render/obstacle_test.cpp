@@ -1,0 +1,194 @@
+// Bodies below coarse cloth: what is drawn of them, and the room's light on them.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "render/inset.h"
+#include "render/refine.h"
+#include "render/srgb.h"
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr int kSide = 300;
+constexpr float kLeast = 0.8e-3f;  // [m]
+
+Look red_bodies() {
+  Look look;
+  look.obstacle = {220, 40, 40};
+  look.front = look.back = {40, 40, 220};
+  look.weave = 0;
+  return look;
+}
+
+bool is_red(const std::uint8_t* pixel) { return pixel[0] > 1.5 * pixel[2]; }
+
+int red_pixels(const Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) count += is_red(image.at(x, y));
+  return count;
+}
+
+// In the column through the middle.
+int red_rows(const Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y) count += is_red(image.at(image.width() / 2, y));
+  return count;
+}
+
+class ObstacleTest : public testing::Test {
+ protected:
+  std::unique_ptr<ClothView> view_of(const test::Cloth& cloth) {
+    auto view = std::make_unique<ClothView>(*offscreen_, PictureSize{kSide, kSide});
+    view->set_cloth(cloth.topology());
+    view->set_positions(cloth.positions);
+    view->set_look(red_bodies());
+    return view;
+  }
+
+  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
+};
+
+// A square of `cells` a side, 0.3 m, laid around a horizontal cylinder about the y axis through the origin:
+// its vertices touch the upper half, the rest hangs straight down.
+test::Cloth around_cylinder(int cells, float radius) {
+  test::Cloth cloth = test::flat_square(cells, 0.3f, 0.0f);
+  const float quarter = 0.5f * std::numbers::pi_v<float> * radius;
+  for (size_t i = 0; i < cloth.positions.size(); i += 3) {
+    float& x = cloth.positions[i];
+    const float way = std::abs(x), angle = std::min(way, quarter) / radius;
+    cloth.positions[i + 2] = radius * std::cos(angle) - std::max(way - quarter, 0.0f);
+    x = std::copysign(radius * std::sin(angle), x);
+  }
+  return cloth;
+}
+
+// Sides of 20 mm on 40 mm: the sagitta 1.3 mm is more than the least inset.
+TEST_F(ObstacleTest, NoCylinderShowsThroughTheClothAroundIt) {
+  constexpr float kRadius = 0.04f;
+  for (const int cells : {12, 15, 30}) {
+    auto view = view_of(around_cylinder(cells, kRadius));
+    view->add_obstacle(cylinder_mesh(kRadius, 0.2f, 0.002f), placed({0, 0, 0}, {0, 1, 0}));
+    for (const Eigen::Vector3f& eye : {Eigen::Vector3f(0, -0.2f, 0.8f), Eigen::Vector3f(0.6f, -0.1f, 0.4f)})
+      EXPECT_EQ(red_pixels(view->draw(Camera::perspective(eye, {0, 0, 0}, 18))), 0) << cells << " cells";
+  }
+}
+
+// From above the drape hides its pedestal, however coarse it is.
+TEST_F(ObstacleTest, NoRimShowsThroughACoarseDrape) {
+  for (const int rings : {7, 8, 11, 16}) {
+    auto view = view_of(test::draped_disc(rings, 4 * rings));
+    view->add_obstacle(cylinder_mesh(0.045f, 0.12f, 0.002f), placed({0, 0, 0.06f}, {0, 0, 1}));
+    EXPECT_EQ(red_pixels(view->draw(Camera::top({{-0.1f, -0.1f, 0}, {0.1f, 0.1f, 0.12f}}, 1))), 0)
+        << rings << " rings";
+  }
+}
+
+// A plate of 2 mm beside cloth of 50 mm sides keeps three tenths of its height.
+TEST_F(ObstacleTest, AThinPlateIsStillSeen) {
+  constexpr float kThick = 2e-3f;
+  auto view = view_of(test::flat_square(4, 0.2f, 0.1f));
+  view->add_obstacle(box_mesh({0.02f, 0.02f, kThick / 2}, 0.5e-3f), placed({0, 0, 0}, {0, 0, 1}));
+  const Camera camera = Camera::perspective({0, -0.2f, 0}, {0, 0, 0}, 4);
+  const double rows = 0.3 * kThick / camera.metres_per_pixel({0, -0.02f, 0}, kSide);
+  EXPECT_NEAR(red_rows(view->draw(camera)), rows, 2);
+}
+
+TEST_F(ObstacleTest, ABodyOnTheGroundKeepsStandingOnIt) {
+  const Camera camera = Camera::perspective({0, -0.5f, 0.02f}, {0, 0, 0.02f}, 20);
+  std::vector<int> lowest;
+  for (const int cells : {40, 4}) {
+    auto view = view_of(test::flat_square(cells, 0.2f, 0.2f));
+    view->add_obstacle(cylinder_mesh(0.03f, 0.06f, 1e-3f), placed({0, 0, 0.03f}, {0, 0, 1}));
+    view->set_ground(0.0f);
+    const Image image = view->draw(camera);
+    int row = kSide - 1;
+    while (row > 0 && !is_red(image.at(kSide / 2, row))) --row;
+    lowest.push_back(row);
+  }
+  EXPECT_NEAR(lowest[0], lowest[1], 1);
+}
+
+TEST(Inset, IsTheSagittaOnRoundBodiesAndAShareOfTheSideAtEdges) {
+  EXPECT_FLOAT_EQ(cut_depth(0.02f, 0.1f), 0.02f * 0.02f / 0.6f);
+  const float edge = 0.02f / 4 / (0.5f + std::sqrt(3.0f) / 2);
+  EXPECT_FLOAT_EQ(cut_depth(0.02f, 0), edge);
+  EXPECT_FLOAT_EQ(cut_depth(0.02f, 1e-3f), edge);
+  const BodyMeasure sphere(sphere_mesh(0.1f));
+  EXPECT_FLOAT_EQ(body_inset(sphere, 0.01f, kLeast), kLeast) << "the cloth would float";
+  EXPECT_GT(body_inset(sphere, 0.04f, kLeast), 2 * kLeast);
+  const BodyMeasure plate(box_mesh({0.1f, 0.1f, 0.5e-3f}, 0.1e-3f));
+  EXPECT_LT(body_inset(plate, 0.04f, kLeast), 0.5e-3f) << "the plate would be turned inside out";
+}
+
+TEST(Inset, SeesTheLongSidesOfACloth) {
+  const test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
+  EXPECT_NEAR(long_side(cloth.triangles, cloth.positions, 3), 0.05f * std::sqrt(2.0f), 1e-6);
+  EXPECT_EQ(long_side({}, cloth.positions, 3), 0);
+}
+
+// A cuboid of eight corners.
+TriangleMesh cuboid(const Eigen::Vector3f& half) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3f sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    mesh.positions.emplace_back(sign.cwiseProduct(half));
+    mesh.normals.emplace_back(sign.normalized());
+  }
+  for (const auto& [a, b, c, d] :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    for (const int k : {a, b, c, a, c, d}) mesh.triangles.push_back(static_cast<std::uint32_t>(k));
+  return mesh;
+}
+
+TEST(Refine, KeepsTheSurfaceClosedAndLeavesNoLongSide) {
+  constexpr float kLongest = 0.011f;
+  const TriangleMesh fine = refined(cuboid({0.1f, 0.05f, 0.01f}), kLongest);
+  double volume = 0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
+  for (size_t t = 0; t < fine.triangles.size(); t += 3) {
+    const std::uint32_t* corner = &fine.triangles[t];
+    Eigen::Matrix3f points;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = corner[k], b = corner[(k + 1) % 3];
+      points.col(k) = fine.positions[a];
+      EXPECT_LE((fine.positions[a] - fine.positions[b]).norm(), kLongest);
+      ++sides[{a, b}];
+    }
+    volume += points.determinant() / 6;
+  }
+  EXPECT_NEAR(volume, 0.2 * 0.1 * 0.02, 1e-8);
+  for (const auto& [side, count] : sides) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(sides.count({side.second, side.first}), 1u) << "a gap";
+  }
+  EXPECT_EQ(test::error_of([] { refined(cuboid({1, 1, 1}), 0); }).exit_code(), 2);
+}
+
+// With the key light off: the corners of a bare cuboid see all of the sky, its middle below a sheet does not.
+TEST_F(ObstacleTest, APlateOfEightCornersIsDarkBelowASheet) {
+  const Camera camera = Camera::perspective({0, -0.6f, 0.13f}, {0, 0, 0.01f}, 25);
+  std::vector<double> light;
+  for (const float height : {0.02f, 0.3f}) {
+    auto view = view_of(test::flat_square(20, 0.1f, height));
+    Look look = red_bodies();
+    look.room = 19.0f / 9;  // the key light's 1.9 - 0.9 room is 0
+    view->set_look(look);
+    view->add_obstacle(cuboid({0.15f, 0.15f, 0.01f}), Eigen::Matrix4f::Identity());
+    view->set_bounds({{-0.15f, -0.15f, -0.01f}, {0.15f, 0.15f, 0.3f}});
+    // A point 1 cm before the middle, seen below the sheet's near edge.
+    const Image image = view->draw(camera);
+    light.push_back(linear_of_srgb8()[image.at(kSide / 2, kSide / 2 + 3)[0]]);
+  }
+  EXPECT_LT(light[0], 0.6 * light[1]);
+}
+
+}  // namespace
+}  // namespace hysteron::render
