@@ -61,7 +61,12 @@ std::string rows_text(const ComparedPage& page, const std::vector<ComparedColumn
   for (const std::string& moment : shown_moments(page, columns)) text += (text.empty() ? "" : "; ") + moment;
   text = "Rows: " + text + " (each column's picture nearest to that time, in look " + page.look +
          ", from one camera).";
-  if (!page.to.empty()) text += " Below each, its difference to " + page.to + ", in colours.";
+  if (page.to >= 0) {
+    const std::string& to = columns[static_cast<std::size_t>(page.to)].name;
+    text += page.curvature ? " Below each, its curvature less that of " + to +
+                                 " at the same vertex and moment, on its own shape; its root mean square."
+                           : " Below each, its difference to " + to + ", in colours.";
+  }
   if (page.outlines)
     text += " Last row: the outlines of all columns over each other, in the columns' colours.";
   return text;
