@@ -141,6 +141,7 @@ Decay decay_of(const std::vector<Amplitude>& all, double largest) {
     return decay;
   }
   if (!take_from(std::max(first, first_small(all, largest)))) return decay;
+  if (all.back().value > (1 - kLeastFall) * all[decay.first].value) return decay;
   fit(all, decay);
   if (*decay.exponent_stderr <= kKnownTo)
     decay.shape = shape_of(*decay.exponent);

@@ -44,12 +44,14 @@ enum class DecayShape {
   hyperbolic,   // from 1.5
   steeper,      // from 2.5
   plateau,      // a turn takes less than kPlateau: nothing brakes, and p has no meaning
-  unknown,      // p is not known to 0.5, or too few amplitudes are small
+  unknown,  // p is not known to 0.5, or too few amplitudes are small, or they fall by less than kLeastFall
 };
 std::string name_of(DecayShape shape);
 
 constexpr double kPlateau = 0.01;            // of the amplitude, in a turn
 constexpr std::size_t kLeastAmplitudes = 5;  // three numbers are fitted
+// Of the first one by the last: within less, p would be that of what disturbs them.
+constexpr double kLeastFall = 0.2;
 // Between turns of one mode the amplitude falls by less and never grows by more: what comes before the last
 // turn that breaks this is several modes at once.
 constexpr double kFallsLess = 0.25, kGrowsLess = 0.05;

@@ -26,8 +26,8 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
   std::vector<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_directory() && !name.starts_with('.') && name != "frames" && name != "mesh")
-      found.push_back(entry.path());
+    const bool sequence = name == "frames" || name.starts_with("frames-") || name == "film" || name == "mesh";
+    if (entry.is_directory() && !name.starts_with('.') && !sequence) found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
   return found;

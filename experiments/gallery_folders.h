@@ -28,9 +28,9 @@ struct ExhibitGroup {
 };
 
 // Subfolders of a gallery's folder by experiment: first what is to be looked at, then what is measured.  The
-// subfolders of one without a manifest stand beside it, those of a run are its parts; empty folders, frames/
-// and mesh/ are passed over.  Throws Error::request, naming the file, if a manifest or another JSON file is
-// broken or if there is nothing to show.
+// subfolders of one without a manifest stand beside it, those of a run are its parts; empty folders and those
+// of sequences (frames/, frames-LOOK/, film/, mesh/) are passed over.  Throws Error::request, naming the
+// file, if a manifest or another JSON file is broken or if there is nothing to show.
 std::vector<ExhibitGroup> exhibits_in(const std::filesystem::path& gallery);
 
 }  // namespace hysteron::experiments

@@ -58,12 +58,15 @@ std::string output_commands(const char* terminal, int width, int height, const s
          single_quoted(file.string()) + "\n";
 }
 
-// 1, 2, 5, 10, ... within the axis.
+// 1, 2, 5, 10, ... within the axis; more where few of them would be.
 std::string numbers_of_short(const char* name, const Axis& axis) {
+  const bool few = axis.high < 5 * axis.low;
+  const std::vector<double> digits =
+      few ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9} : std::vector<double>{1, 2, 5};
   std::string ticks;
   for (int power = static_cast<int>(std::floor(std::log10(axis.low))); power <= std::log10(axis.high);
        ++power)
-    for (const double digit : {1.0, 2.0, 5.0})
+    for (const double digit : digits)
       if (const double at = digit * std::pow(10, power); at >= axis.low && at <= axis.high)
         ticks += (ticks.empty() ? "" : ",") + number(at);
   return std::string("set format ") + name + " '%g'\nset " + name + "tics (" + ticks + ")\n";

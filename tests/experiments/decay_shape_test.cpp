@@ -136,6 +136,8 @@ TEST(DecayShape, IsNotNamedWhereAmplitudesAreFewOrNoisy) {
   EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).shape, DecayShape::unknown);
   EXPECT_FALSE(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).exponent);
   EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4)}), kAny).shape, DecayShape::hyperbolic);
+  EXPECT_EQ(decay_of(series_of({1, 0.97, 0.94, 0.91, 0.88, 0.85}), kAny).shape, DecayShape::unknown)
+      << "15 %";
   EXPECT_EQ(decay_of(series_of({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81}), kAny).shape, DecayShape::unknown);
 }
 

@@ -201,6 +201,14 @@ TEST_F(Gallery, PlaysFramesThatAreThere) {
   EXPECT_EQ(count_of(html, "alt=\"frames/1029.png\""), 1);
 }
 
+// Sequences in other looks, and a comparison's film, are no exhibits.
+TEST_F(Gallery, PassesOverOtherSequences) {
+  const int before = count_of(page(), "<figure>");
+  for (const char* folder : {"frames-silhouette", "film"})
+    write_picture(results_ / "z-drape" / folder / "0000.png", 32, 18);
+  EXPECT_EQ(count_of(page(), "<figure>"), before);
+}
+
 TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   write_text(results_ / "z-drape/README.md",
              "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");
