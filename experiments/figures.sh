@@ -2,21 +2,30 @@
 # The chapter's figures and the comparisons that it announces, by one command:
 #   experiments/figures.sh                  into out/figures, with index.html over all of them
 #   experiments/figures.sh --quick          small versions
-#   experiments/figures.sh --out DIR ...    other options go to every run (--device cuda, --fabric wool-tropical)
+#   experiments/figures.sh drape crease     only these: laws crumple swing drape crease fold cost
+#   experiments/figures.sh --out DIR ...    other options, KEY=VALUE in one word, go to every run (--device=cuda,
+#                                           --fabric=wool-tropical)
+# Each figure is a PNG, plots an SVG as well; captions stand in README.md beside them and on the page.
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 
+all_parts=(laws crumple swing drape crease fold cost)
 out=$root/out/figures
-quick=() more=()
+quick=() more=() parts=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --out) out=$2 && shift ;;
     --out=*) out=${1#--out=} ;;
     --quick) quick=(--quick) ;;
-    *) more+=("$1") ;;
+    --*) more+=("$1") ;;
+    *)
+      [[ " ${all_parts[*]} " == *" $1 "* ]] || { echo "no such part: $1; there are: ${all_parts[*]}" >&2; exit 2; }
+      parts+=("$1")
+      ;;
   esac
   shift
 done
+[[ ${#parts[@]} -gt 0 ]] || parts=("${all_parts[@]}")
 
 if [[ -n ${HYSTERON:-} ]]; then
   program=$HYSTERON # built elsewhere
@@ -54,21 +63,41 @@ tuned_damping() {
   printf '%s' "$middle"
 }
 
-mkdir -p "$out"
 # 4.2(b), 4.3, 4.4: laws alone.
-hysteron figures --quiet --out "$out/chapter-figures"
-# 4.1: permanent wrinkles, an existing method and ours.
-hysteron compare crumple --laws linear,pabst,narain,prandtl --light raking "${quick[@]}" "${more[@]}" --out "$out/compare-crumple"
+draw_laws() { hysteron figures --quiet --out "$out/chapter-figures"; }
+
+# 4.1: permanent wrinkles, existing methods and ours.
+draw_crumple() {
+  hysteron compare crumple --laws linear,pabst,narain,prandtl --light raking "$@" --out "$out/compare-crumple"
+}
+
 # Damping of oscillations: viscosity tuned for one swing against friction in bending.
-damping=$(tuned_damping)
-rm -rf "$out/.tuning"
-hysteron compare swing --laws "linear,linear+fabric.damping=$damping,pabst,obrien,prandtl" "${quick[@]}" "${more[@]}" --out "$out/compare-swing"
-# Drape with hysteresis and without.
-hysteron compare drape --laws linear,pabst,prandtl "${quick[@]}" "${more[@]}" --out "$out/compare-drape"
-# Crease angles; fatigue over cycles.
-hysteron compare crease --laws linear,narain,prandtl --crease.fold rod "${quick[@]}" "${more[@]}" --out "$out/compare-crease"
-hysteron fold "${quick[@]}" "${more[@]}" --out "$out/fold"
-# What a step costs, by law.
-hysteron bench --laws --json "${quick[@]}" "${more[@]}" --out "$out/bench" >"$out/cost.json"
+draw_swing() {
+  local damping
+  damping=$(tuned_damping)
+  rm -rf "$out/.tuning"
+  hysteron compare swing --laws "linear,linear+fabric.damping=$damping,pabst,obrien,prandtl" "$@" \
+    --out "$out/compare-swing"
+}
+
+# Drape with hysteresis and without, and by how much curvature differs.
+draw_drape() {
+  hysteron compare drape --laws linear,pabst,narain,prandtl --compare.to linear --compare.difference curvature \
+    --compare.rows 2 "$@" --out "$out/compare-drape"
+}
+
+# Crease angles.
+draw_crease() {
+  hysteron compare crease --laws linear,narain,prandtl --crease.fold rod "$@" --out "$out/compare-crease"
+}
+
+# Fatigue over cycles.
+draw_fold() { hysteron fold "$@" --out "$out/fold"; }
+
+# What a law costs.
+draw_cost() { hysteron bench --laws "$@" --out "$out/bench"; }
+
+mkdir -p "$out"
+for part in "${parts[@]}"; do "draw_$part" "${quick[@]}" "${more[@]}"; done
 hysteron report "$out"
 say "figures: $out/index.html"
