@@ -38,12 +38,12 @@ fi
 
 hysteron() {
   say "hysteron $*"
-  "$program" "$@"
+  command "$program" "$@"
 }
 
 # lost ARGUMENT...: what friction and viscosity in bending have taken in a small swing [J].
 lost() {
-  "$program" swing --quick --no-images --quiet --json --triangles 100 --out "$out/.tuning" "$@" "${more[@]}" |
+  command "$program" swing --quick --no-images --quiet --json --triangles 100 --out "$out/.tuning" "$@" "${more[@]}" |
     awk -F'[:,]' '/"(bending_friction|viscous)_J"/ { sum += $2 } END { printf "%.9g", sum }'
 }
 

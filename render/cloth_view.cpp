@@ -12,6 +12,9 @@
 namespace hysteron::render {
 namespace {
 
+// Of a pixel: the standard pattern of D3D 11 and Vulkan.  Eight lie elsewhere on every driver, which shows
+// along every edge when pictures are compared.
+constexpr int kSamplesAtOnce = 4;
 constexpr int kColorMapUnit = 2;
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
@@ -100,7 +103,8 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       size_(checked(offscreen, size)),
       part_width_(part_side(size.width, size_.tile)),
       part_height_(part_side(size.height, size_.tile)),
-      target_(gl_, part_width_ * size.supersample, part_height_ * size.supersample, size.samples),
+      target_(gl_, part_width_ * size.supersample, part_height_ * size.supersample,
+              std::min(size.samples, kSamplesAtOnce)),
       shadows_(gl_),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}),

@@ -27,8 +27,8 @@ namespace hysteron::render {
 
 struct PictureSize {
   int width = 1280, height = 720;
-  // Of every edge, a pixel.  Beyond the driver's maximum (4 in software) the picture is drawn again, shifted
-  // by a fraction of a pixel, until there are as many.
+  // Of every edge, a pixel.  They are drawn four at a time, which every driver puts at the same places; the
+  // picture is drawn again, shifted by a fraction of a pixel, until there are as many.
   int samples = 8;
   int supersample = 1;  // 2: drawn twice as large and averaged, where pictures of two drivers are compared
   // Largest side drawn at once [pixels]; larger pictures are drawn in parts, which bounds the driver's
