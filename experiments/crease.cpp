@@ -68,9 +68,11 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   Question question;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
-  question.bounds = {{-0.05f * length, 0, 0},
-                     {length, width, (crease.scene.obstacle.size() == 2 ? 0.5f : 0.7f) * length}};
-  question.floor = 0.0f;
+  // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
+  const bool pressed = crease.scene.obstacle.size() == 2;
+  const float low = (pressed ? 0 : -0.35f) * length;
+  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.5f : 0.85f) * length}};
+  question.floor = low;
   question.columns = {"opening [degree]", "plate_force [N]"};
   question.measure = [&](const Moment& m) -> std::vector<double> {
     const bool plate =

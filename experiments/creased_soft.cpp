@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTurn = 0.6, kSettle = 0.1;  // durations [s]
 constexpr int kKeys = 36;                     // of the hand's way around the rod
 constexpr double kGrip = 0.2;                 // of the specimen's length, at either end
-constexpr double kAbove = 2e-3;               // of the strip over the visible ground [m]
+constexpr double kAbove = 2e-3;               // of the strip over z = 0 [m]
 constexpr double kSlack = 2e-4;               // of the way around the rod that is left loose
 constexpr double kPleatRadius = 1.5;          // of the pleat's line, in thicknesses
 
