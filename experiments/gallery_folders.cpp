@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Others follow in the order of their names.
-constexpr const char* kOrder[] = {"drape",   "swing",   "crease",   "fold",       "crumple",
-                                  "compare", "render",  "kes",      "cantilever", "buckle",
+constexpr const char* kOrder[] = {"compare", "drape",   "swing",    "crease",     "fold",
+                                  "crumple", "render",  "kes",      "cantilever", "buckle",
                                   "law",     "figures", "fit",      "accuracy",   "stability",
                                   "bench",   "speed",   "validate", "scenes"};
 

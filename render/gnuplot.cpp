@@ -169,6 +169,10 @@ void write_both(const std::filesystem::path& base, int width, int height, const 
     throw Error::machine("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
   if (result.exit_code != 0 || !has_content(png.temporary()) || !has_content(svg.temporary()))
     throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+  if (result.first_error_line.find("Cannot load default config file") != std::string::npos)
+    throw Error::machine("plot " + base.string() +
+                         ": gnuplot finds no fonts and would leave all letters out (" +
+                         result.first_error_line + "); install fontconfig and fonts-dejavu-core");
   png.commit();
   svg.commit();
 }

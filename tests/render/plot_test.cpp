@@ -132,6 +132,15 @@ TEST_F(PlotTest, WhatGnuplotCannotDrawFailsInOneLineAndLeavesNothing) {
   EXPECT_TRUE(folder_.names().empty());
 }
 
+// Without fonts gnuplot draws a picture without a letter and ends well.
+TEST_F(PlotTest, WithoutFontsIsRefused) {
+  setenv("FONTCONFIG_FILE", "/nonexistent", 1);
+  const Error error = error_of([&] { write_plot(folder_.file("p"), parabola()); });
+  unsetenv("FONTCONFIG_FILE");
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_NE(std::string(error.what()).find("fonts-dejavu-core"), std::string::npos);
+}
+
 TEST(Plot, MissingGnuplotNamesThePackage) {
   const ScratchFolder folder;
   const std::string before = std::getenv("PATH");
