@@ -14,7 +14,7 @@ body { margin: 0 auto; max-width: 1080px; padding: 1.5rem 1rem 4rem; background:
 a { color: var(--accent); text-underline-offset: .15em; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; }
 h2 { font-size: 1.1rem; margin: 2.2rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid var(--line); }
-h1, h2, h3, p { overflow-wrap: anywhere; }
+h1, h2, h3, p, summary, figcaption { overflow-wrap: anywhere; }
 p.about { color: var(--soft); margin: 0 0 1rem; }
 pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: .7rem .9rem; margin: 0;
   overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .85rem; }
