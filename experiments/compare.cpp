@@ -109,8 +109,7 @@ ColumnFabric fabric_of(const CommandLine& line) {
 }
 
 CommandLine with(CommandLine line, const LawVariant& variant) {
-  std::erase_if(line.flags, [&](const Flag& f) { return is_set_again(f, variant.flags); });
-  line.flags.insert(line.flags.end(), variant.flags.begin(), variant.flags.end());
+  line.flags = with_later(line.flags, variant.flags);
   return line;
 }
 
@@ -153,10 +152,7 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
 
 std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own) {
   std::vector<std::string> words = {inner.experiment};
-  std::vector<Flag> flags = inner.flags;
-  std::erase_if(flags, [&](const Flag& f) { return is_set_again(f, own); });
-  flags.insert(flags.end(), own.begin(), own.end());
-  for (const Flag& flag : flags) words.push_back("--" + flag.path + "=" + flag.text);
+  for (const Flag& flag : with_later(inner.flags, own)) words.push_back("--" + flag.path + "=" + flag.text);
   return words;
 }
 

@@ -33,10 +33,8 @@ bool is_list(const std::string& text) {
 // The same line for one variant, into a folder of its name.
 CommandLine line_of(const CommandLine& line, const LawVariant& law, const std::filesystem::path& folder) {
   CommandLine one = line;
-  std::erase_if(one.flags, [&](const Flag& f) {
-    return f.path == "out" || f.path == "json" || is_set_again(f, law.flags);
-  });
-  one.flags.insert(one.flags.end(), law.flags.begin(), law.flags.end());
+  std::erase_if(one.flags, [](const Flag& f) { return f.path == "out" || f.path == "json"; });
+  one.flags = with_later(one.flags, law.flags);
   one.flags.push_back({"out", (folder / law.name).string()});
   one.command += " (" + law.name + ")";
   return one;
@@ -113,10 +111,14 @@ void draw(Run& run, const LawPage& page, const std::vector<Finding>& all) {
 
 }  // namespace
 
-bool is_set_again(const Flag& flag, const std::vector<Flag>& later) {
-  return std::any_of(later.begin(), later.end(), [&](const Flag& own) {
-    return own.path == flag.path || (is_fabric(own) && is_fabric(flag));
+std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later) {
+  std::erase_if(flags, [&](const Flag& flag) {
+    return std::any_of(later.begin(), later.end(), [&](const Flag& own) {
+      return own.path == flag.path || (is_fabric(own) && is_fabric(flag));
+    });
   });
+  flags.insert(flags.end(), later.begin(), later.end());
+  return flags;
 }
 
 std::vector<LawVariant> variants_of(const CommandLine& line) {

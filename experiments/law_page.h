@@ -41,8 +41,8 @@ struct LawPage {
 std::vector<LawVariant> variants_of(const CommandLine& line);
 // The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
 std::string varied_of(const std::vector<LawVariant>& variants);
-// Whether one of the later flags takes the place of this one.
-bool is_set_again(const Flag& flag, const std::vector<Flag>& later);
+// The flags and behind them the later ones, which take the place of those that set the same.
+std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
 // The line without lists: what the page itself is set up with.
 CommandLine without_lists(const CommandLine& line);
 

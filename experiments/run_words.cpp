@@ -19,12 +19,6 @@ double number_of(const Json& json, const char* key) {
   return value.is_number() ? value.get<double>() : 0;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
 struct Fact {
   const char* name;
   std::string (*words)(const Json& manifest);
@@ -90,7 +84,7 @@ std::string law_words(const Json& manifest) {
   const Json given = scene.value("param", Json::object());
   for (const auto& [key, value] : given.items())
     parameters.push_back(key + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-  return scene.value("law", "") + (parameters.empty() ? "" : " (" + joined(parameters) + ")");
+  return scene.value("law", "") + (parameters.empty() ? "" : " (" + join(parameters, ", ") + ")");
 }
 
 std::string solver_words(const Json& manifest) {
@@ -121,7 +115,7 @@ std::string facts_of(const std::vector<std::string>& names, const std::vector<co
         words += (words.empty() ? "" : "; ") + what;
       } else {
         const bool named = each || !words.empty();
-        words += (words.empty() ? "" : "; ") + (named ? joined(who) + ": " : "") + what;
+        words += (words.empty() ? "" : "; ") + (named ? join(who, ", ") + ": " : "") + what;
       }
     }
     if (!words.empty()) text += (text.empty() ? "" : " ") + std::string(fact.name) + ": " + words + ".";

@@ -22,7 +22,8 @@ class ShadowMaps {
   // `casters`: box of everything that throws a shadow; `to_light`: direction to the key light;
   // `room`: brightness of the room (Look).
   void aim(const Box& casters, const Eigen::Vector3f& to_light, float room);
-  // Draws all maps; `draw_casters` draws with the depth program in use, setting "model" and "inset".
+  // Draws all maps; `draw_casters` draws with the depth program in use, setting "model", "keep"
+  // and "inset".
   void draw(const std::function<void(const Program&)>& draw_casters) const;
   // Gives the program in use the maps and how to look things up in them; `sky_blur`: radius of a lookup in
   // the sky maps, `sky_lift`: height above the surface from which they are asked, both in their texels.
