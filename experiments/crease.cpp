@@ -18,10 +18,12 @@ using C = CreaseChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
+    {"crease.release", at<&C::release>, "", any(), "slow | quick", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
     {"crease.force", at<&C::force>, "N", positive(), "", "of the plate"},
     {"crease.radius", at<&C::radius>, "m", positive(), "", "of the rod"},
     {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "between the limbs of the pleat at rest"},
     {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the whole load"},
+    {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
     {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
 };
 // clang-format on
@@ -29,7 +31,7 @@ const KeyRow<C> kRows[] = {
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "implicit";
+  scene.integrator = "quasi-static";
   scene.step = 1.0 / 240;
   scene.self_contact = true;
   scene.cloth.length = 0.04;

@@ -19,7 +19,7 @@ constexpr double kFinest = 0.8;   // elements there, in thicknesses
 constexpr double kGrowth = 1.25;  // of columns from there on
 constexpr double kWidest = 0.05;  // column, of the length
 constexpr double kLoop = 0.1;     // radius of the hand's turn, of the length
-constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3, kLift = 0.1;  // durations [s]
+constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3;  // durations [s]
 constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
 constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
 constexpr double kRise = 0.04;   // of the plate [m]
@@ -100,7 +100,7 @@ Obstacle plate_of(const Scene& scene, const CreaseTimes& times, double lowest) {
                        key(times.folded + kSettle, -kRise),
                        key(times.pressed, lowest - ready - kRise),
                        key(times.released, lowest - ready - kRise),
-                       key(times.released + kLift, 0)};
+                       key(times.lifted, 0)};
   return plate;
 }
 
@@ -113,7 +113,8 @@ Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
   times.folded = kFold + kLower;
   times.pressed = times.folded + kSettle + kPress;
   times.released = times.pressed + choice.hold;
-  times.end = times.released + choice.recovery;
+  times.lifted = times.released + choice.lifting();
+  times.end = times.lifted + choice.recovery;
   scene.seconds = times.end;
   scene.cloth.shape = "strip";
   const double ground = scene.fabric.thickness;  // the specimen lies on the plane's shell

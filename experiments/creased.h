@@ -8,17 +8,22 @@
 namespace hysteron::experiments {
 
 struct CreaseChoice {
-  std::string fold = "plate";  // plate | rod | pleat
-  double force = 10;           // of the plate [N] (ISO 2313)
-  double radius = 0.01;        // of the rod [m]
-  double pleat = 60;           // angle between the limbs of the pleated specimen at rest [degree]
-  double hold = 0.2;           // under the whole load [s]
-  double recovery = 1;         // time to recover [s]
+  std::string fold = "plate";    // plate | rod | pleat
+  std::string release = "slow";  // slow: from equilibrium to equilibrium | quick: let go in motion
+  double force = 10;             // of the plate [N] (ISO 2313)
+  double radius = 0.01;          // of the rod [m]
+  double pleat = 60;             // angle between the limbs of the pleated specimen at rest [degree]
+  double hold = 0.2;             // under the whole load [s]
+  double lift = 1;               // time in which the plate of a slow release rises [s]
+  double recovery = 1;           // time to recover [s]
+
+  // Of the plate: that of a quick release is gone in a tenth of a second.
+  double lifting() const { return release == "slow" ? lift : 0.1; }
 };
 
 // When things happen [s].
 struct CreaseTimes {
-  double folded, pressed, released, end;
+  double folded, pressed, released, lifted, end;
 };
 
 struct Crease {

@@ -56,7 +56,8 @@ CreaseTimes times_of(const CreaseChoice& choice) {
   times.folded = kTurn;
   times.pressed = times.folded + kSettle;
   times.released = times.pressed + choice.hold;
-  times.end = times.released + choice.recovery;
+  times.lifted = times.released;  // no plate
+  times.end = times.lifted + choice.recovery;
   return times;
 }
 

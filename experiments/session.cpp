@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <iostream>
 
-#include "experiments/record.h"
 #include "experiments/report.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/recovery.h"
@@ -146,6 +145,39 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
   }
 }
 
+Moment Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+                       double fastest) {
+  const Moment moment{simulation_->time(), x, fastest};
+  std::vector<double> row = {moment.time, moment.fastest};
+  for (double value : question.measure(moment)) row.push_back(value);
+  for (const auto& [name, joules] : simulation_->ledger().rows()) row.push_back(joules);
+  series.row(row);
+  const bool pictured = !question.pictured || question.pictured(moment);
+  if (pictures_ && pictured) pictures_->frame(*run_);
+  watch_folds(x);
+  watch_intersections(x);
+  if (pictured) export_mesh(meshes_++, x);
+  run_->progress(question.progress(moment));
+  return moment;
+}
+
+// Steps without inertia until one of them moves no vertex farther than kStill thicknesses.
+bool Session::find_rest(const Question& question, Record& series) {
+  constexpr int kMostSteps = 20;
+  constexpr double kStill = 0.01;
+  simulation_->become_static();
+  std::vector<Eigen::Vector3d> before = simulation_->positions();
+  double way = INFINITY;
+  for (int step = 0; step < kMostSteps && way > kStill * setup_.scene.fabric.thickness; ++step) {
+    simulation_->advance(1);
+    const std::vector<Eigen::Vector3d> x = simulation_->positions();
+    way = fastest(x, before, 1);
+    before = x;
+  }
+  record(question, series, before, way / setup_.scene.step);
+  return way <= kStill * setup_.scene.fabric.thickness;
+}
+
 bool Session::simulate(const Question& question) {
   if (!setup_.options.no_images) {
     pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, question.bounds, question.floor);
@@ -155,33 +187,23 @@ bool Session::simulate(const Question& question) {
   columns.insert(columns.end(), question.columns.begin(), question.columns.end());
   const std::vector<std::string> energy = ledger_columns();
   columns.insert(columns.end(), energy.begin(), energy.end());
-  Record record(run_->path("metrics.csv"), columns);
+  Record series(run_->path("metrics.csv"), columns);
   run_->note("series", question.columns);
 
   const int stride = steps_per_frame(setup_);
   const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
   std::vector<Eigen::Vector3d> before = simulation_->positions();
   bool settled = false;
-  for (int frame = 0, meshes = 0;; ++frame) {
+  for (int frame = 0;; ++frame) {
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
-    const Moment moment{simulation_->time(), x, fastest(x, before, stride * setup_.scene.step)};
-    const Ledger ledger = simulation_->ledger();
-    std::vector<double> row = {moment.time, moment.fastest};
-    for (double value : question.measure(moment)) row.push_back(value);
-    for (const auto& [name, joules] : ledger.rows()) row.push_back(joules);
-    record.row(row);
-    const bool pictured = !question.pictured || question.pictured(moment);
-    if (pictures_ && pictured) pictures_->frame(*run_);
-    watch_folds(x);
-    watch_intersections(x);
-    if (pictured) export_mesh(meshes++, x);
-    run_->progress(question.progress(moment));
+    const Moment moment = record(question, series, x, fastest(x, before, stride * setup_.scene.step));
     settled = frame > 0 && question.settled && question.settled(moment);
     if (settled || simulation_->steps() >= steps) break;
     simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
     before = x;
   }
-  record.finish();
+  if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
+  series.finish();
   return settled;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/pictures.h"
+#include "experiments/record.h"
 #include "experiments/run.h"
 #include "render/camera.h"
 #include "render/plot.h"
@@ -28,6 +29,7 @@ struct Question {
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Moment&)> measure;
   std::function<bool(const Moment&)> settled;   // ends the run early
+  bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   std::function<bool(const Moment&)> pictured;  // which moments are drawn and exported; empty: all of them
   std::function<std::string(const Moment&)> progress;
 };
@@ -48,8 +50,8 @@ class Session {
   long intersections() const { return intersections_; }  // of all recorded moments, where they are counted
   Pictures* pictures() { return pictures_.get(); }       // null with --no-images
 
-  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled
-  // (returned).
+  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled, and
+  // then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const Question& question);
   // Draws a plot as Run::plot does.
   void plot(const std::string& name, const render::Plot& plot);
@@ -57,6 +59,10 @@ class Session {
   void finish(const std::string& title);
 
  private:
+  // A moment of the series: its row, pictures and checks.
+  Moment record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+                double fastest);
+  bool find_rest(const Question& question, Record& series);
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
@@ -69,6 +75,7 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
+  int meshes_ = 0;          // exported so far
   long intersections_ = 0;  // pairs of triangles, of all recorded moments
   double folded_ = 0;       // largest share of sharply folded edges
 };

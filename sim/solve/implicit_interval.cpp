@@ -16,6 +16,15 @@ constexpr double kAim = 0.9, kFastestGrowth = 2, kFastestFall = 0.3;
 }  // namespace
 
 template <class Real, class Device>
+void Stepper<Real, Device>::become_static() {
+  if (!all_implicit_)
+    throw Error::request("integrator = " + scene_.integrator +
+                         " has no equilibrium solve: use implicit | bdf2 | quasi-static");
+  implicit_->become_static(scene_);
+  scene_.tolerance = 0;  // of steps in time
+}
+
+template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
   std::vector<Eigen::Vector3d> result;
   if (!implicit_) return result;

@@ -21,13 +21,13 @@ double sum_of(const Buffer<Real, Device>& values) {
 }
 
 template <class Real>
-NewtonLimits newton_limits(const Scene& scene) {
+NewtonLimits newton_limits(const Scene& scene, bool statics) {
   NewtonLimits limits;
   limits.residual = scene.newton_residual;
   // Single precision resolves positions of a metre to 6e-8 m.
   constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
   limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
-  if (scene.integrator == "quasi-static") {
+  if (statics) {
     limits.iterations = 400;
     limits.first_shift = 1e4;  // as in a step of 10 ms
     limits.least_shift = 1e-4;
@@ -58,7 +58,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       bending_(bending),
       potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_),
       solver_(std::move(solver)),
-      newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene)),
+      newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene, static_)),
       size_(device, 1),
       end_(device, vertices_),
       reference_(device, vertices_),
@@ -68,6 +68,14 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       x_before_(device, two_step_ ? vertices_ : 0),
       v_before_(device, two_step_ ? vertices_ : 0),
       way_(device, self_contact ? vertices_ : 0) {}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
+  static_ = true;
+  two_step_ = false;
+  newton_.set_limits(newton_limits<Real>(scene, true));
+  last_h_ = 0;  // velocities that were are no guess
+}
 
 template <class Real, class Device>
 std::size_t ImplicitStep<Real, Device>::bytes() const {

@@ -38,6 +38,8 @@ class ImplicitStep {
 
   // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
   NewtonOutcome solve(const VertexState<Real>& state, double h, double share);
+  // Steps are equilibria from now on.
+  void become_static(const Scene& scene);
   // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
   // caller's.
   void accept(const VertexState<Real>& state, VertexLedger* ledger);

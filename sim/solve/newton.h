@@ -37,6 +37,7 @@ class Newton {
   // Minimises the potential over the vertices that are not held, from x on.  `over` turns corrections into
   // velocities [s].  Each accepted iterate lowers the potential, up to rounding.
   NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass, double over);
+  void set_limits(const NewtonLimits& limits) { limits_ = limits; }
   std::size_t bytes() const { return direction_.bytes() + trial_.bytes() + rhs_.bytes() + sums_.bytes(); }
 
   // The parts of minimise(); public because nvcc allows no device lambda in a private member function.

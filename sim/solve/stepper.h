@@ -47,6 +47,7 @@ class Stepper : public Simulation {
   int dimension() const override { return bending_.dimension(); }
   std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
                                                std::string& reason) override;
+  void become_static() override;
   std::vector<Eigen::Vector3d> handle_forces() override;
   Ledger ledger() override;
   double largest_stretch() override { return membrane_.largest_stretch(x_.data()); }
