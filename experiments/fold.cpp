@@ -55,14 +55,14 @@ struct Request {
 Request read(const CommandLine& line) {
   Request request;
   const Keys own = bind(kRows, request.choice);
-  request.setup = set_up(line, defaults(), own);
+  request.setup = set_up(line, defaults(), own, [&](Setup& setup) {
+    if (request.choice.law_alone) return;
+    setup.scene.triangles = std::min(setup.scene.triangles, 400);
+    request.choice.cycles = std::min(request.choice.cycles, 10);
+  });
   Scene& scene = request.setup.scene;
   request.own_fatigue = scene.param.contains("fatigue.dc");
   give_fatigue(scene, request.choice);
-  if (request.setup.options.quick && !request.choice.law_alone) {
-    scene.triangles = std::min(scene.triangles, 400);
-    request.choice.cycles = std::min(request.choice.cycles, 10);
-  }
   request.keys = to_json(own);
   return request;
 }

@@ -30,7 +30,7 @@ const KeyRow<Options> kRows[] = {
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count triangles that pass through each other in every recorded moment, by exact predicates; on where cloth touches itself"},
-    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question"},
+    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given win"},
     {"resume", at<&O::resume>, "", any(), "", "go on from a checkpoint"},
     {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
     {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
