@@ -144,6 +144,7 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
   if (session.only_explain()) return {};
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
+  if (!request.setup.options.no_images) run.path("README.md");
   Folding folding(fold, session);
   session.simulate(question_of(fold, folding));
   folding.finish();
@@ -162,7 +163,6 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
     outcome.picture =
         session.pictures()->picture("cloth", session.pictures()->camera(), what(fold.scene) + ", let go");
     plot(session, folding, outcome.series);
-    run.path("README.md");
   }
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
   if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));

@@ -135,6 +135,7 @@ int swing(const CommandLine& line) {
   }
   Session session(line, setup);
   if (session.only_explain()) return 0;
+  if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;
   const auto& rest = session.cloth().mesh.rest;
@@ -178,7 +179,6 @@ int swing(const CommandLine& line) {
   if (session.pictures()) {
     plot(session);
     plot_decay(session, amplitudes, decay);
-    run.path("README.md");
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
   if (session.pictures()) write_run_captions(run.folder(), captions_of(setup.scene));
