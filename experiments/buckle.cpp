@@ -141,6 +141,8 @@ void plot(Session& session, const Table& table, const Southwell& found, double r
   session.plot("plot_deflection", bending);
 }
 
+void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 320); }
+
 }  // namespace
 
 std::vector<KeyDescription> buckle_keys() {
@@ -150,8 +152,7 @@ std::vector<KeyDescription> buckle_keys() {
 
 int buckle(const CommandLine& line) {
   B choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice));
-  if (setup.options.quick) setup.scene.triangles = std::min(setup.scene.triangles, 320);
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   const Buckling kind = buckling_of(choice.kind);
   const double length = setup.scene.cloth.length;  // that bends
   const Scene measured = measured_scene(setup.scene, choice, kind);

@@ -66,6 +66,8 @@ void plot(Session& session) {
   session.plot("plot_drop", drop);
 }
 
+void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 128); }
+
 }  // namespace
 
 std::vector<KeyDescription> cantilever_keys() {
@@ -75,9 +77,8 @@ std::vector<KeyDescription> cantilever_keys() {
 
 int cantilever(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice));
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Scene& scene = setup.scene;
-  if (setup.options.quick) scene.triangles = std::min(scene.triangles, 128);
   if (choice.gamma > 0) {
     if (!names_law(line)) scene.law = "linear";
     scene.fabric.density =

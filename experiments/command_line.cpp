@@ -82,6 +82,8 @@ void refuse_unknown(const Command& command) {
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const std::string prefix = std::string(command.experiment->name) + ": ";
+  if (word == "--resume" && command.experiment->simulates)
+    throw Error::request(prefix + "--resume is not built yet for single runs; compare has it");
   if (!word.starts_with('-')) throw Error::request(prefix + "unexpected argument \"" + word + "\"");
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
@@ -112,7 +114,11 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
   if (!command.experiment->run) return line;
   refuse_unknown(command);
   for (const auto& [path, option] : command.flags) {
-    for (const std::string& text : option->reduced_results()) line.flags.push_back({path, text});
+    for (const std::string& text : option->reduced_results()) {
+      if (path == "out" && text.empty())
+        throw Error::request(line.experiment + ": --out is empty: name where to write");
+      line.flags.push_back({path, text});
+    }
   }
   return line;
 }

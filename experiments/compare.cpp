@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/comma_list.h"
+#include "experiments/command_line.h"
 #include "experiments/compared.h"
 #include "experiments/comparison_captions.h"
 #include "experiments/comparison_table.h"
@@ -26,6 +27,7 @@ struct CompareChoice {
   int rows = 4;
   bool no_outlines = false;
   int jobs = 0;
+  bool resume = false;
   std::string match = "fabric";
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";
@@ -42,6 +44,7 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "moments on the page"},
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
+    {"resume", at<&C::resume>, "", any(), "", "keeps columns that the same program has finished in this folder"},
     {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "to which energy is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, where ffmpeg is there"},
@@ -150,13 +153,14 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
   return flags;
 }
 
-std::vector<std::string> words_of(const CommandLine& inner, const std::vector<Flag>& own) {
-  std::vector<std::string> words = {inner.experiment};
-  for (const Flag& flag : with_later(inner.flags, own)) words.push_back("--" + flag.path + "=" + flag.text);
+std::vector<std::string> words_of(const CommandLine& line) {
+  std::vector<std::string> words = {line.experiment};
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
   return words;
 }
 
 struct Plan {
+  std::vector<CommandLine> lines;  // of the columns
   std::vector<ComparedColumn> columns;
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
@@ -187,7 +191,9 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
     own.push_back(range);
     for (const Flag& flag : asked_for_the_page(inner, choice, out, column.name == choice.to))
       own.push_back(flag);
-    column.words = words_of(inner, own);
+    plan.lines.push_back(inner);
+    plan.lines.back().flags = with_later(inner.flags, own);
+    column.words = words_of(plan.lines.back());
     column.folder = out / column.name;
     plan.columns.push_back(std::move(column));
     plan.scales.push_back(scale);
@@ -251,6 +257,21 @@ std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan)
   return {note};
 }
 
+int explain_columns(const Plan& plan) {
+  for (std::size_t c = 0; c < plan.lines.size(); ++c) {
+    std::cout << plan.columns[c].name << ":" << std::endl;
+    experiment_named(plan.lines[c].experiment).run(plan.lines[c]);
+  }
+  return 0;
+}
+
+// Where another's files stand, that is said before the columns run.
+void claim_files(Run& run, bool with_images) {
+  for (const char* name : {"table.csv", "report.html"}) run.path(name);
+  if (!with_images) return;
+  for (const char* name : {"sheet.png", "README.md"}) run.path(name);
+}
+
 }  // namespace
 
 std::vector<KeyDescription> compare_keys() {
@@ -275,15 +296,18 @@ int compare(const CommandLine& line) {
   if (options.out.empty())
     options.out = "out/compare-" + std::filesystem::path(line.names[0]).stem().string();
 
+  if (!choice.to.empty()) choice.to = column_name(choice.to);
   const CommandLine inner = line_of_columns(line, choice);
   Plan plan = plan_of(inner, choice, options.out);
-  ColumnJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
+  if (options.explain) return explain_columns(plan);
+  ColumnJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
                   last_text(inner.flags, "device", "auto") != "cpu",
                   choice.difference == "curvature" ? plan.to : -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
+  claim_files(run, !options.no_images);
   run_columns(plan.columns, jobs, [&](const ComparedColumn& c) {
     run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
   });
@@ -302,7 +326,6 @@ int compare(const CommandLine& line) {
     plot_compared(run, page.title, plan.columns);
     write_comparison_captions(run, page, inner.experiment, line.command, plan.columns);
   }
-  run.path("report.html");
   run.finish();
   write_report(run.folder());
   return 0;

@@ -205,12 +205,11 @@ void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>&
                                     "-i",     strips};
   if (page.video == "mp4")
     words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
-  words.push_back((run.folder() / name).string());
+  words.push_back(run.path(name).string());
   const render::ProcessResult result = render::run_process(words, "");
-  if (result.started && result.exit_code == 0)
-    run.path(name);
-  else
-    run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
+  if (result.started && result.exit_code == 0) return;
+  run.forget(name);
+  run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
 }
 
 // What each experiment is asked for; then what any run has.

@@ -111,10 +111,11 @@ std::string caption_of(const Recovered& recovered) {
   return text;
 }
 
+void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }
+
 Recovered crease_once(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice));
-  if (setup.options.quick) setup.scene.triangles = std::min(setup.scene.triangles, 500);
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   const bool pressed = choice.fold == "plate";
   const double plate = !pressed                ? 0.0
                        : setup.options.explain ? 2 * setup.scene.fabric.thickness

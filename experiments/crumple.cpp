@@ -138,13 +138,14 @@ void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
   }
 }
 
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
+  setup.options.fps = std::min(setup.options.fps, kQuickFps);
+}
+
 LawOutcome crumple_once(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice));
-  if (setup.options.quick) {
-    setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
-    setup.options.fps = std::min(setup.options.fps, kQuickFps);
-  }
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Session session(line, setup);
   LawOutcome outcome;
   if (session.only_explain()) return outcome;

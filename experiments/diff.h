@@ -40,6 +40,9 @@ Measures worst_of(const Measures& a, const Measures& b);
 // "flip = 0.2 must be <= 0.1 (--max-flip)" for every limit that is broken; not a number breaks a limit.
 std::vector<std::string> broken_limits(const Measures& found, const Measures& limits);
 
+// In the folder of --out, for the heat maps of two folders' pictures.
+inline constexpr const char* kHeatFolder = "heat";
+
 struct DiffFlags {
   Measures limits = no_limits();
   double pixels_per_degree = render::kPixelsPerDegree;  // of the eye that FLIP assumes

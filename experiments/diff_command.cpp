@@ -55,9 +55,18 @@ void make_folder_of(const fs::path& file) {
     throw Error::machine("cannot create the folder of " + file.string() + ": " + failure.message());
 }
 
+// Inputs are not written onto.
+void require_other(const fs::path& out, const fs::path& input) {
+  std::error_code missing;
+  if (fs::equivalent(out, input, missing))
+    throw Error::request("--out " + out.string() + " is " + input.string() +
+                         ", which is compared: give another name");
+}
+
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
     throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures");
+  for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   const Comparison comparison = compare_files(a, b, flags);
   const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits);
   if (!flags.out.empty()) {
@@ -110,7 +119,7 @@ FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags
     diff.rows.push_back({name, found, broken_limits(found, flags.limits)});
     diff.worst = diff.rows.size() == 1 ? found : worst_of(diff.worst, found);
     if (!flags.out.empty()) {
-      const fs::path heat = fs::path(flags.out) / "heat" / name;
+      const fs::path heat = fs::path(flags.out) / kHeatFolder / name;
       make_folder_of(heat);
       render::write_png(heat, comparison.heat);
     }
@@ -136,6 +145,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
   if (!flags.out.empty()) {
     require_outside(flags.out, a);
     require_outside(flags.out, b);
+    for (const fs::path& folder : {a, b}) require_other(fs::path(flags.out) / kHeatFolder, folder);
   }
   const std::vector<std::string> names = paired_pictures(a, b);
   std::size_t width = std::string("picture").size();

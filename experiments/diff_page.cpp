@@ -100,7 +100,7 @@ std::string most_different(const FolderDiff& diff, const DiffFlags& flags) {
         "<div class=\"charts\">\n" +
         thumbnail(diff.a / row->name, (diff.a / row->name).string() + ", flip " + shown(row->measures.flip)) +
         thumbnail(diff.b / row->name, (diff.b / row->name).string()) +
-        thumbnail(fs::path(flags.out) / "heat" / row->name, scale) + "</div>\n";
+        thumbnail(fs::path(flags.out) / kHeatFolder / row->name, scale) + "</div>\n";
   return html;
 }
 

@@ -156,6 +156,12 @@ void draw_maps(Session& session) {
                       pictures.picture(look, pictures.camera(), what), render::PngEffort::best);
 }
 
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, 1000);
+  setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
+  setup.options.fps = std::min(setup.options.fps, 10.0);
+}
+
 }  // namespace
 
 std::vector<KeyDescription> drape_keys() {
@@ -165,12 +171,7 @@ std::vector<KeyDescription> drape_keys() {
 
 int drape(const CommandLine& line) {
   DrapeChoice choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice));
-  if (setup.options.quick) {
-    setup.scene.triangles = std::min(setup.scene.triangles, 1000);
-    setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
-    setup.options.fps = std::min(setup.options.fps, 10.0);
-  }
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
   add_apparatus(setup.scene, choice);
   Session session(line, setup);

@@ -109,12 +109,17 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
   return text;
 }
 
-Setup set_up(const CommandLine& line, Setup setup, const Keys& own) {
+Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
+             const std::function<void(Setup&)>& quick) {
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
   setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
   if (!setup.options.scene.empty()) apply_scene_file(setup.scene, setup.options.scene, extra);
   apply_flags(setup.scene, line.flags, extra);
+  if (setup.options.quick && quick) {
+    quick(setup);  // which may ask what the flags say
+    apply_flags(setup.scene, line.flags, extra);
+  }
   check_scene(setup.scene);
   check_options(setup.options);
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
@@ -127,13 +132,19 @@ std::vector<KeyDescription> descriptions(const Keys& keys) {
   return result;
 }
 
-void set_keys(const CommandLine& line, const Keys& keys) {
-  for (const Flag& flag : line.flags) {
-    if (flag.path == "fabric" || flag.path.starts_with("fabric.")) continue;
-    const std::string origin = "--" + flag.path;
-    const BoundKey& key = find_key(keys, flag.path, origin);
-    assign(key, parse_text(key.description, flag.text), origin);
-  }
+void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {
+  const auto apply = [&] {
+    for (const Flag& flag : line.flags) {
+      if (flag.path == "fabric" || flag.path.starts_with("fabric.")) continue;
+      const std::string origin = "--" + flag.path;
+      const BoundKey& key = find_key(keys, flag.path, origin);
+      assign(key, parse_text(key.description, flag.text), origin);
+    }
+  };
+  apply();
+  if (!quick || !*std::get<bool*>(find_key(keys, "quick", "--quick").field)) return;
+  quick();
+  apply();
 }
 
 std::vector<KeyDescription> fabric_keys() {

@@ -1,6 +1,7 @@
 // The subcommands of `hysteron`.  To add one: declare its function here, list it in experiments.cpp.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,20 +33,23 @@ struct Experiment {
 // All subcommands of the interface, in the order of --help.
 const std::vector<Experiment>& experiments();
 
-// A scene and options, resolved and checked: defaults < scene file < flags.  `own` are the experiment's own
-// keys, bound to its own struct.  Throws Error::request, Error::machine.
+// A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
+// experiment's own keys, bound to its own struct; `quick` is what --quick makes of scene, options and those
+// keys.  Throws Error::request, Error::machine.
 struct Setup {
   Scene scene;
   Options options;
 };
-Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {});
+Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
+             const std::function<void(Setup&)>& quick = {});
 
 // Descriptions of bound keys, for Experiment::own_keys.
 std::vector<KeyDescription> descriptions(const Keys& keys);
 
-// For experiments without a scene.  Sets `keys` from the flags; those of a fabric are left to fabric_of().
-// Throws Error::request.
-void set_keys(const CommandLine& line, const Keys& keys);
+// For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
+// the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws
+// Error::request.
+void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
 // --fabric, --fabric.b1, --fabric.b2, --fabric.k0.
 std::vector<KeyDescription> fabric_keys();
 // The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a

@@ -54,8 +54,8 @@ int figures(const CommandLine& line) {
   for (const Figure& figure : all) {
     write_curves(run.path(figure.name + ".csv"), figure.plot);
     if (options.no_images) continue;
-    render::write_plot(run.folder() / figure.name, figure.plot);
     for (const char* ending : {".png", ".svg"}) run.path(figure.name + ending);
+    render::write_plot(run.folder() / figure.name, figure.plot);
   }
   write_captions(run.path("README.md"), "The chapter's figures, from the program's own laws",
                  "Wong, \"Modelling Bending Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer "

@@ -55,14 +55,14 @@ struct Request {
 Request read(const CommandLine& line) {
   Request request;
   const Keys own = bind(kRows, request.choice);
-  request.setup = set_up(line, defaults(), own);
+  request.setup = set_up(line, defaults(), own, [&](Setup& setup) {
+    if (request.choice.law_alone) return;
+    setup.scene.triangles = std::min(setup.scene.triangles, 400);
+    request.choice.cycles = std::min(request.choice.cycles, 10);
+  });
   Scene& scene = request.setup.scene;
   request.own_fatigue = scene.param.contains("fatigue.dc");
   give_fatigue(scene, request.choice);
-  if (request.setup.options.quick && !request.choice.law_alone) {
-    scene.triangles = std::min(scene.triangles, 400);
-    request.choice.cycles = std::min(request.choice.cycles, 10);
-  }
   request.keys = to_json(own);
   return request;
 }
@@ -144,6 +144,7 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
   if (session.only_explain()) return {};
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
+  if (!request.setup.options.no_images) run.path("README.md");
   Folding folding(fold, session);
   session.simulate(question_of(fold, folding));
   folding.finish();
@@ -162,7 +163,6 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
     outcome.picture =
         session.pictures()->picture("cloth", session.pictures()->camera(), what(fold.scene) + ", let go");
     plot(session, folding, outcome.series);
-    run.path("README.md");
   }
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
   if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));

@@ -193,12 +193,11 @@ std::vector<KeyDescription> kes_keys() {
 
 int kes(const CommandLine& line) {
   KesFlags flags;
-  set_keys(line, keys_of(flags));
-  if (flags.options.quick) {
+  set_keys(line, keys_of(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
     flags.strip.steps = std::min(flags.strip.steps, kQuickStripSteps);
-  }
+  });
   if (flags.on == "law") refuse_strip_keys(line);
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");

@@ -1,4 +1,6 @@
 // `hysteron law`: flags of the law alone.
+#include <filesystem>
+
 #include "experiments/experiments.h"
 #include "experiments/law.h"
 #include "sim/error.h"
@@ -57,6 +59,9 @@ int law(const CommandLine& line) {
   for (const Flag& flag : line.flags) apply(flag);
   if (flags.in.empty() || flags.out.empty()) throw Error::request("needs --in K.csv and --out M.csv");
 
+  std::error_code missing;
+  if (std::filesystem::equivalent(flags.in, flags.out, missing))
+    throw Error::request("--out " + flags.out + " is the input: give another file");
   return run_law_command({flags.law, {flags.b1, flags.b2, flags.k0}, flags.param, flags.in, flags.out});
 }
 

@@ -1,6 +1,7 @@
 #include "experiments/law_page.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -70,11 +71,31 @@ std::vector<LawVariant> multiplied(const std::vector<LawVariant>& variants, cons
   for (const LawVariant& variant : variants)
     for (const std::string& name : names) {
       LawVariant one = variant;
-      if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + name;
+      if (names.size() > 1 && name.empty())
+        throw Error::request(path + " has a comma without a name before it (--" + path + ")");
+      if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + column_name(name);
       if (!name.empty()) add_flags(one.flags, path, name);
       result.push_back(std::move(one));
     }
   return result;
+}
+
+bool are_same(const std::vector<Flag>& a, const std::vector<Flag>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Flag& x, const Flag& y) { return x.path == y.path && x.text == y.text; });
+}
+
+// Each has a folder: those of files with equal stems are numbered.
+void name_apart(std::vector<LawVariant>& variants) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    std::string& name = variants[i].name;
+    for (std::size_t j = 0; j < i; ++j)
+      if (are_same(variants[i].flags, variants[j].flags))
+        throw Error::request(name + " is named twice: columns must differ");
+    const std::string stem = name;
+    for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);
+  }
 }
 
 void write_table(Run& run, const std::string& varied, const std::vector<Finding>& all) {
@@ -129,8 +150,22 @@ std::vector<LawVariant> variants_of(const CommandLine& line) {
   variants = multiplied(variants, "law", names_in(line, is_law, every_law));
   variants = multiplied(variants, "integrator",
                         names_in(line, is_integrator, {"semi-implicit", "implicit", "bdf2"}));
-  if (variants.size() == 1) variants[0].name = names_in(line, is_law, every_law)[0];
+  if (variants.size() == 1 && last_text(line.flags, "law", "") != "")
+    variants[0].name = column_name(names_in(line, is_law, every_law)[0]);
+  name_apart(variants);
   return variants;
+}
+
+std::string column_name(const std::string& text) {
+  std::istringstream parts(text);
+  std::string name;
+  for (std::string part; std::getline(parts, part, '+');) {
+    const std::size_t value = part.find('=') + 1;  // 0 without one
+    const std::filesystem::path file = part.substr(value);
+    const bool is_file = file.has_parent_path() || file.extension() == ".toml";
+    name += (name.empty() ? "" : "+") + part.substr(0, value) + (is_file ? file.stem() : file).string();
+  }
+  return name.empty() || name.front() == '.' ? "column" + name : name;
 }
 
 std::string varied_of(const std::vector<LawVariant>& variants) {

@@ -37,8 +37,11 @@ struct LawPage {
 
 // What --fabric, --law and --integrator name, each `all` or names apart by commas: every combination of them.
 // A name may carry further keys for itself: "linear+fabric.damping=1e-3". One variant, without a name where
-// nothing is named, where none is a list.
+// nothing is named, where none is a list.  Throws Error::request where two are the same.
 std::vector<LawVariant> variants_of(const CommandLine& line);
+// Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
+// "wool".
+std::string column_name(const std::string& text);
 // The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
 std::string varied_of(const std::vector<LawVariant>& variants);
 // The flags and behind them the later ones, which take the place of those that set the same.

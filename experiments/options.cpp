@@ -30,8 +30,7 @@ const KeyRow<Options> kRows[] = {
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count triangles that pass through each other in every recorded moment, by exact predicates; on where cloth touches itself"},
-    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question"},
-    {"resume", at<&O::resume>, "", any(), "", "go on from a checkpoint"},
+    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given win"},
     {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
     {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
     {"json", at<&O::json>, "", any(), "", "the manifest on stdout"},
@@ -96,7 +95,6 @@ void check_options(const Options& options) {
     if (look == "difference" && options.reference.empty())
       throw Error::request("look = difference needs the run that it is taken from (--reference DIR)");
   }
-  if (options.resume) throw Error::request("--resume is not built yet");
 }
 
 }  // namespace hysteron::experiments

@@ -27,7 +27,6 @@ struct Options {
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
   bool check_intersections = false;                  // check-intersections  of every moment that is recorded
   bool quick = false;                                // quick      a small version of the same question
-  bool resume = false;                               // resume
   bool explain = false;                              // explain    print what the scene includes, and stop
   bool quiet = false;                                // quiet      no progress on stderr
   bool json = false;                                 // json       the manifest on stdout
@@ -41,8 +40,7 @@ Keys bind_options(Options& options);
 // Those of experiments that simulate nothing: out, no-images, quick, quiet, json.
 Keys bind_output_options(Options& options);
 
-// A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction, options that are not
-// built yet: Error::request.
+// A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction: Error::request.
 void check_options(const Options& options);
 
 }  // namespace hysteron::experiments

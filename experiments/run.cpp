@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <iostream>
 
 #include "experiments/version.h"
@@ -41,29 +40,6 @@ Json first_entries(const CommandLine& line, const Json& scene) {
   return entries;
 }
 
-bool stays_inside(const fs::path& name) {
-  return name.is_relative() && !name.empty() && std::find(name.begin(), name.end(), "..") == name.end();
-}
-
-// An earlier run's pictures must not stand beside this run's.  Only what its manifest lists is removed.
-void remove_earlier_run(const fs::path& folder) {
-  std::ifstream stream(folder / "manifest.json");
-  const Json earlier = Json::parse(stream, nullptr, false);
-  if (!earlier.is_object() || !earlier.contains("hysteron") || !earlier.contains("files")) return;
-  for (const Json& name : earlier["files"]) {
-    std::error_code ignored;
-    if (!name.is_string() || !stays_inside(name.get<std::string>())) continue;
-    const fs::path file = folder / name.get<std::string>();
-    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
-  }
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
-}
-
 }  // namespace
 
 std::string program_version() {
@@ -73,9 +49,10 @@ std::string program_version() {
 Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options, to_json(setup.scene)) {}
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys)
-    : folder_(options.out), json_(options.json), quiet_(options.quiet), entries_(first_entries(line, keys)) {
-  make_folder(folder_);
-  remove_earlier_run(folder_);
+    : folder_(options.out, line),
+      json_(options.json),
+      quiet_(options.quiet),
+      entries_(first_entries(line, keys)) {
   write_manifest(false);
 }
 
@@ -90,10 +67,18 @@ Run::~Run() {
 }
 
 fs::path Run::path(const std::string& name) {
-  const fs::path file = folder_ / name;
-  make_folder(file.parent_path());
-  if (!std::count(files_.begin(), files_.end(), name)) files_.push_back(name);
+  if (std::count(files_.begin(), files_.end(), name)) return folder() / name;
+  const fs::path file = folder_.place_for(name), relative = name;
+  files_.push_back(name);
+  const bool is_new =
+      known_.insert(is_numbered(relative) ? relative.parent_path() / relative.extension() : relative).second;
+  if (is_new && !finished_) write_manifest(false);
   return file;
+}
+
+void Run::forget(const std::string& name) {
+  std::error_code ignored;
+  if (std::erase(files_, name) > 0) fs::remove(folder() / name, ignored);
 }
 
 void Run::note(const std::string& key, Json value) { entries_[key] = std::move(value); }
@@ -109,10 +94,11 @@ void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage
 
 void Run::plot(const std::string& name, const std::function<void(const fs::path&)>& draw) {
   const Stage stage(*this, "render");
+  for (const char* ending : {".png", ".svg"}) path(name + ending);
   try {
-    draw(folder_ / name);
-    for (const char* ending : {".png", ".svg"}) path(name + ending);
+    draw(folder() / name);
   } catch (const Error& error) {
+    for (const char* ending : {".png", ".svg"}) forget(name + ending);
     entries_["plots_missing"].push_back(name + ": " + error.what());
     progress(name + ": " + error.what());
   }
@@ -135,7 +121,7 @@ Json Run::manifest(bool complete) const {
 }
 
 void Run::write_manifest(bool complete) const {
-  AtomicFile file((folder_ / "manifest.json").string());
+  AtomicFile file((folder() / "manifest.json").string());
   file.stream() << manifest(complete).dump(2) << "\n";
   file.commit();
 }

@@ -6,10 +6,12 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "experiments/experiments.h"
+#include "experiments/run_folder.h"
 
 namespace hysteron::experiments {
 
@@ -23,8 +25,7 @@ std::string program_version();
 // of an exception, keeps its files and a manifest with "complete": false.
 class Run {
  public:
-  // Creates the folder.  Files that an earlier run listed in its manifest there are removed.  Throws
-  // Error::machine.
+  // Takes the folder as RunFolder does.  Throws Error::request, Error::machine.
   Run(const CommandLine& line, const Setup& setup);
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
   Run(const CommandLine& line, const Options& options, const Json& keys);
@@ -32,10 +33,13 @@ class Run {
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
-  // in the manifest.
+  // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
+  // sequence the first file stands for all.  Throws Error::request where it would replace another's file.
   std::filesystem::path path(const std::string& name);
+  // The file of that name could not be written: what there is of it goes, and it is not listed.
+  void forget(const std::string& name);
 
   // Entries of the manifest's top level: device, renderer, positions, triangles, hinges, steps,
   // seconds_simulated, bytes_device, state_hash, and others.
@@ -78,12 +82,14 @@ class Run {
   Json manifest(bool complete) const;
   void write_manifest(bool complete) const;
 
-  std::filesystem::path folder_;
+  RunFolder folder_;
   bool json_, quiet_, finished_ = false;
   Json entries_;  // of the manifest, in its order; null where not known
   Json metrics_ = Json::object();
   std::map<std::string, double> seconds_;
   std::vector<std::string> files_;
+  std::set<std::filesystem::path>
+      known_;  // files and, by folder and ending, sequences, in the manifest on disk
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -79,11 +79,10 @@ std::vector<KeyDescription> stability_keys() {
 
 int stability(const CommandLine& line) {
   F flags;
-  set_keys(line, keys_of(flags));
-  if (flags.options.quick) {
+  set_keys(line, keys_of(flags), [&] {
     flags.effort.work = std::min(flags.effort.work, kQuickWork);
     flags.limit_steps = std::min(flags.limit_steps, kQuickLimitSteps);
-  }
+  });
   std::vector<std::string> names = flags.sweep == "all" ? sweep_names() : split(flags.sweep);
   if (flags.sweep == "all") names.push_back(kLimitSweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0;

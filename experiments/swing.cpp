@@ -115,15 +115,16 @@ std::vector<FigureCaption> captions_of(const Scene& scene) {
        "Kinetic and bending energy, and what friction in bending, viscosity and the integrator have taken."}};
 }
 
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, 300);
+  setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
+  setup.options.fps = std::min(setup.options.fps, 20.0);
+}
+
 }  // namespace
 
 int swing(const CommandLine& line) {
-  Setup setup = set_up(line, defaults());
-  if (setup.options.quick) {
-    setup.scene.triangles = std::min(setup.scene.triangles, 300);
-    setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
-    setup.options.fps = std::min(setup.options.fps, 20.0);
-  }
+  Setup setup = set_up(line, defaults(), {}, limit_to_quick);
   const float length = static_cast<float>(setup.scene.cloth.length),
               width = static_cast<float>(setup.scene.cloth.width);
   if (setup.scene.pin.empty()) {
@@ -134,6 +135,7 @@ int swing(const CommandLine& line) {
   }
   Session session(line, setup);
   if (session.only_explain()) return 0;
+  if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;
   const auto& rest = session.cloth().mesh.rest;
@@ -177,7 +179,6 @@ int swing(const CommandLine& line) {
   if (session.pictures()) {
     plot(session);
     plot_decay(session, amplitudes, decay);
-    run.path("README.md");
   }
   session.finish("Swing: " + setup.scene.fabric.name + ", law " + setup.scene.law);
   if (session.pictures()) write_run_captions(run.folder(), captions_of(setup.scene));

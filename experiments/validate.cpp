@@ -181,11 +181,10 @@ std::vector<KeyDescription> validate_keys() {
 
 int validate(const CommandLine& line) {
   F flags;
-  set_keys(line, keys_of(flags));
-  if (flags.options.quick) {
+  set_keys(line, keys_of(flags), [&] {
     flags.triangles = std::min(flags.triangles, 400.0);
     flags.seconds = std::min(flags.seconds, 1.0);
-  }
+  });
   if (flags.options.out.empty()) flags.options.out = "out/validate";
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   std::vector<Drape> drapes = planned(flags);

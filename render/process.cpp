@@ -2,15 +2,14 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <string_view>
-
-extern char** environ;
 
 namespace hysteron::render {
 namespace {
@@ -38,20 +37,39 @@ class Pipe {
   int out_ = -1, in_ = -1;
 };
 
-// The child's side: our pipes at its stdin and stderr, its stdout joined to stderr so that it stays out of
-// ours.
+// Between fork and exec: our pipes at its stdin and stderr, its stdout joined to stderr so that it stays out
+// of ours.  It gets SIGTERM when the thread that started it is gone: we may be killed, and it is not to
+// compute for nobody.
+[[noreturn]] void become(char* const* arguments, const Pipe& input, const Pipe& errors, const Pipe& failure,
+                         pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // gone before it could be asked for
+  if (::dup2(input.out(), STDIN_FILENO) >= 0 && ::dup2(errors.in(), STDOUT_FILENO) >= 0 &&
+      ::dup2(errors.in(), STDERR_FILENO) >= 0)
+    ::execvp(arguments[0], arguments);
+  const int reason = errno;
+  [[maybe_unused]] const ssize_t told = ::write(failure.in(), &reason, sizeof reason);
+  ::_exit(EXIT_FAILURE);
+}
+
+// False if there is no such program.
 bool spawn(const std::vector<std::string>& words, const Pipe& input, const Pipe& errors, pid_t& child) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input.out(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.in(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.in(), STDERR_FILENO);
-  const int failure = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return failure == 0;
+  Pipe failure;  // closed by a successful exec
+  const pid_t parent = ::getpid();
+  child = ::fork();
+  if (child == 0) become(arguments.data(), input, errors, failure, parent);
+  if (child < 0) return false;
+  failure.close_in();
+  int reason = 0;
+  ssize_t read;
+  while ((read = ::read(failure.out(), &reason, sizeof reason)) < 0 && errno == EINTR) {
+  }
+  if (read <= 0) return true;
+  ::waitpid(child, nullptr, 0);
+  return false;
 }
 
 // Writes the input while reading the errors: a child that fills one pipe must not wait for us forever.

@@ -6,11 +6,26 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "sim/error.h"
 
 namespace hysteron {
 namespace {
+namespace fs = std::filesystem;
+
+// What is to be replaced: a link keeps its name, and devices and pipes are not for replacing.
+std::string plain_file(const std::string& target) {
+  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  std::error_code failure;
+  fs::path file = target;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links)
+    file = file.parent_path() / fs::read_symlink(file, failure);
+  const fs::file_status status = fs::symlink_status(file, failure);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    throw Error::request("cannot write " + target + ": it is no plain file; give another name");
+  return file.string();
+}
 
 // Unique within the process (worker threads) and between processes; same folder, so that rename is atomic.
 std::string temporary_name(const std::string& target) {
@@ -25,7 +40,8 @@ Error failure(const std::string& attempt, const std::string& file, int code) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& target) : target_(target), temporary_(temporary_name(target)) {
+AtomicFile::AtomicFile(const std::string& target)
+    : target_(plain_file(target)), temporary_(temporary_name(target_)) {
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
   if (!stream_) throw failure("cannot create", target_, errno);

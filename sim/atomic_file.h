@@ -8,10 +8,11 @@ namespace hysteron {
 
 // Writes beside the target under a temporary name and renames on commit(), so that a reader (or a full
 // disk, or a killed run) never leaves half a file under the final name.  Without commit() the temporary
-// file is removed on destruction.
+// file is removed on destruction.  Of a link the file is replaced that it leads to.
 class AtomicFile {
  public:
-  // Opens the temporary file (binary).  Throws Error::machine with the file's name and the system's reason.
+  // Opens the temporary file (binary).  Throws Error::machine with the file's name and the system's reason,
+  // Error::request for a device or a pipe.
   explicit AtomicFile(const std::string& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

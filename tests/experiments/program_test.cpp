@@ -99,6 +99,39 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
+// More than --quick takes by itself.
+TEST(Program, TakesTheTrianglesThatAreAskedForThoughItIsQuick) {
+  const char* const lines[] = {"drape --triangles 1500",   "swing --triangles 600",
+                               "crease --triangles 800",   "fold --triangles 700",
+                               "crumple --triangles 2000", "cantilever --triangles 300",
+                               "buckle --triangles 600"};
+  for (const std::string line : lines) {
+    const std::string asked = program(line + " --explain --device cpu").out;
+    EXPECT_NE(asked.find(" triangles, "), std::string::npos) << line;
+    EXPECT_EQ(program(line + " --quick --explain --device cpu").out, asked) << line;
+  }
+}
+
+TEST(Program, TakesTheSecondsAndPicturesASecondThatAreAskedForThoughItIsQuick) {
+  const Folder folder;
+  const Outcome outcome = program(
+      "swing --quick --triangles 40 --seconds 0.5 --fps 40 --device cpu --no-images --quiet --json --out " +
+      (folder.path() / "a").string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json manifest = Json::parse(outcome.out);
+  EXPECT_NEAR(manifest["seconds_simulated"].get<double>(), 0.5, 1e-9);
+  const std::string table = text_of(folder.path() / "a" / "metrics.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 21);  // a row a fortieth of a second
+}
+
+TEST(Program, TestsALawInTheStepsThatAreAskedForThoughItIsQuick) {
+  const Folder folder;
+  ASSERT_EQ(program("kes --quick --steps 1234 --no-images --quiet --out " + (folder.path() / "k").string())
+                .exit_code,
+            0);
+  EXPECT_EQ(Json::parse(text_of(folder.path() / "k" / "manifest.json"))["scene"]["steps"], 1234);
+}
+
 TEST(Program, DrivesALawThroughAFileOfCurvatures) {
   const Folder folder;
   const std::string in = folder.path() / "k.csv", out = folder.path() / "m.csv";

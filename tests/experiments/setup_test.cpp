@@ -38,6 +38,48 @@ TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {
   EXPECT_EQ(setup.options.out, "out/drape");
 }
 
+TEST(Setup, PutsFlagsOverQuickOverTheSceneFile) {
+  const Folder folder;
+  const std::string file = folder.path() / "scene.toml";
+  std::ofstream(file) << "triangles = 5000\nseconds = 9\nstarch = 7\nfps = 60\n";
+  double starch = 0;
+  const Field field = &starch;
+  const Keys own = {{describe("starch", field, "g", positive(), "", "the experiment's own key"), field}};
+  const auto quick = [&](experiments::Setup& setup) {
+    setup.scene.triangles = std::min(setup.scene.triangles, 100);
+    setup.scene.seconds = std::min(setup.scene.seconds, 1.0);
+    setup.options.fps = std::min(setup.options.fps, 10.0);
+    starch = std::min(starch, 2.0);
+  };
+  const std::vector<Flag> flags = {{"scene", file}, {"triangles", "300"}, {"fps", "30"}};
+  std::vector<Flag> quick_flags = flags;
+  quick_flags.push_back({"quick", "true"});
+  const auto small = set_up(drape_with(quick_flags), {default_scene(), {}}, own, quick);
+  EXPECT_EQ(small.scene.triangles, 300);
+  EXPECT_EQ(small.scene.seconds, 1);
+  EXPECT_EQ(small.options.fps, 30);
+  EXPECT_EQ(starch, 2);
+  EXPECT_EQ(set_up(drape_with(flags), {default_scene(), {}}, own, quick).scene.seconds, 9);
+  quick_flags.push_back({"starch", "5"});
+  set_up(drape_with(quick_flags), {default_scene(), {}}, own, quick);
+  EXPECT_EQ(starch, 5);
+}
+
+TEST(Setup, OfExperimentsWithoutASceneLetsFlagsWinOverQuickToo) {
+  bool is_quick = false;
+  double work = 9, steps = 9;
+  const Field fields[] = {&is_quick, &work, &steps};
+  Keys keys;
+  for (int i = 0; const char* path : {"quick", "work", "steps"})
+    keys.push_back({describe(path, fields[i], "", any(), "", ""), fields[i]}), ++i;
+  const auto quick = [&] { work = steps = 1; };
+  set_keys(drape_with({{"steps", "5"}}), keys, quick);
+  EXPECT_EQ(work, 9);
+  set_keys(drape_with({{"quick", "true"}, {"steps", "5"}}), keys, quick);
+  EXPECT_EQ(work, 1);
+  EXPECT_EQ(steps, 5);
+}
+
 TEST(Setup, RefusesPicturesWithoutSize) {
   EXPECT_EQ(refusal({{"size", "0x720"}}),
             "size = 0x720 must be WIDTHxHEIGHT with sides in [16, 16384] pixels (--size)");
