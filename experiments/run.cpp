@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
 #include <iostream>
 
+#include "experiments/json_file.h"
 #include "experiments/version.h"
 #include "sim/atomic_file.h"
 #include "sim/error.h"
@@ -47,8 +47,7 @@ bool stays_inside(const fs::path& name) {
 
 // An earlier run's pictures must not stand beside this run's.  Only what its manifest lists is removed.
 void remove_earlier_run(const fs::path& folder) {
-  std::ifstream stream(folder / "manifest.json");
-  const Json earlier = Json::parse(stream, nullptr, false);
+  const Json earlier = json_or_none(folder / "manifest.json");
   if (!earlier.is_object() || !earlier.contains("hysteron") || !earlier.contains("files")) return;
   for (const Json& name : earlier["files"]) {
     std::error_code ignored;
