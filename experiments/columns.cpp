@@ -1,10 +1,10 @@
 #include "experiments/columns.h"
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
 #include <thread>
 
+#include "experiments/json_file.h"
 #include "experiments/parallel.h"
 #include "experiments/version.h"
 #include "render/process.h"
@@ -16,7 +16,6 @@ namespace hysteron::experiments {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // What was asked of a finished column, and of which program: it stands in its folder.
 constexpr const char* kAsked = "asked.json";
@@ -25,15 +24,10 @@ Json asked(const ComparedColumn& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", column.words}};
 }
 
-Json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  return Json::parse(stream, nullptr, false);
-}
-
 bool is_finished(const ComparedColumn& column) {
-  const Json manifest = read_json(column.folder / "manifest.json");
+  const Json manifest = json_or_none(column.folder / "manifest.json");
   return manifest.is_object() && manifest.value("complete", false) &&
-         read_json(column.folder / kAsked) == asked(column);
+         json_or_none(column.folder / kAsked) == asked(column);
 }
 
 std::vector<std::string> command_of(const ComparedColumn& column, int threads, int gpu) {
@@ -51,7 +45,7 @@ std::vector<std::string> command_of(const ComparedColumn& column, int threads, i
 void run_column(ComparedColumn& column, int threads, int gpu) {
   fs::remove(column.folder / kAsked);
   const render::ProcessResult result = render::run_process(command_of(column, threads, gpu), "");
-  column.manifest = read_json(column.folder / "manifest.json");
+  column.manifest = json_or_none(column.folder / "manifest.json");
   if (!result.started) throw Error::machine("cannot start the run " + column.name);
   if (result.exit_code == 2) throw Error::request(column.name + ": " + result.first_error_line);
   if (result.exit_code != 0 && result.exit_code != 3)
@@ -77,7 +71,7 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
     ComparedColumn& column = columns[i];
     column.kept = jobs.resume && is_finished(column);
     if (column.kept)
-      column.manifest = read_json(column.folder / "manifest.json");
+      column.manifest = json_or_none(column.folder / "manifest.json");
     else
       run_column(column, its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1);
     const std::lock_guard lock(one_at_a_time);

@@ -4,11 +4,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
 #include "sim/atomic_file.h"
 #include "sim/error.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -65,13 +66,6 @@ int position(const std::vector<std::string_view>& header, const std::string& wan
   return found;
 }
 
-std::ifstream opened(const std::filesystem::path& file, const std::string& reader) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
-    throw Error::machine(reader + ": cannot read " + file.string() + ": no such file, or not readable");
-  return in;
-}
-
 }  // namespace
 
 const Column* Table::find(const std::string& name) const {
@@ -82,7 +76,7 @@ const Column* Table::find(const std::string& name) const {
 
 Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                const std::vector<std::string>& optional, const std::string& reader) {
-  std::ifstream in = opened(file, reader);
+  std::istringstream in(whole_file(file, reader + ": cannot read " + file.string()));
   Place place{reader, file.string(), 1};
   std::string header_line;
   std::getline(in, header_line);
@@ -112,7 +106,6 @@ Table read_csv(const std::filesystem::path& file, const std::vector<std::string>
       table.columns[i].values.push_back(number(row[size_t(source[i])], table.columns[i].name, place));
     table.lines.push_back(place.line);
   }
-  if (in.bad()) throw Error::machine(reader + ": reading " + file.string() + " failed");
   if (table.lines.empty()) throw place.error("no rows, at least one is needed");
   return table;
 }

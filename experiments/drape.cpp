@@ -6,6 +6,7 @@
 #include "experiments/session.h"
 #include "render/caption.h"
 #include "sim/contact/penalty.h"
+#include "sim/error.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -52,6 +53,13 @@ Setup defaults() {
   setup.options.camera_direction = {0.35, -1.0, 0.62};
   setup.options.camera_fov = 24;
   return setup;
+}
+
+// Otherwise nothing hangs over it, and no ring is there to be covered.
+void check_disc(const Scene& scene, const DrapeChoice& choice) {
+  if (choice.disc < scene.cloth.radius) return;
+  throw Error::request("drape.disc = " + number_text(choice.disc) +
+                       " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m");
 }
 
 // Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
@@ -173,6 +181,7 @@ int drape(const CommandLine& line) {
   DrapeChoice choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
+  check_disc(setup.scene, choice);
   add_apparatus(setup.scene, choice);
   Session session(line, setup);
   if (session.only_explain()) return 0;

@@ -143,7 +143,7 @@ std::string body_of(const Exhibit& exhibit) {
     links = " · " + html_link(exhibit.name + "/manifest.json", "manifest.json") + links;
   }
   for (const char* page : {"report.html", "README.md"}) {
-    if (fs::exists(exhibit.folder / page)) links += " · " + html_link(exhibit.name + "/" + page, page);
+    if (is_there(exhibit.folder / page)) links += " · " + html_link(exhibit.name + "/" + page, page);
   }
   html += pictures_html(exhibit);
   if (!manifest.is_null())

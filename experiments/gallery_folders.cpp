@@ -1,9 +1,10 @@
 #include "experiments/gallery_folders.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 
+#include "experiments/json_file.h"
+#include "experiments/manifest_check.h"
 #include "experiments/report_manifest.h"
 #include "experiments/report_pictures.h"
 #include "sim/error.h"
@@ -22,21 +23,37 @@ std::ptrdiff_t place_of(const std::string& experiment) {
   return std::find(std::begin(kOrder), std::end(kOrder), experiment) - std::begin(kOrder);
 }
 
+// A link to a folder through which it was reached has no last subfolder.
+void refuse_loop(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_symlink(folder, ignored)) return;
+  const fs::path target = fs::canonical(folder, ignored);
+  for (fs::path above = folder.parent_path(); !above.empty(); above = above.parent_path()) {
+    if (fs::canonical(above, ignored) == target)
+      throw Error::request(folder.string() + " is a link back to " + above.string() + ": remove it");
+    if (above == above.parent_path()) return;
+  }
+}
+
 std::vector<fs::path> subfolders(const fs::path& folder) {
   std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  std::error_code failure, ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
     const bool sequence = name == "frames" || name.starts_with("frames-") || name == "film" || name == "mesh";
-    if (entry.is_directory() && !name.starts_with('.') && !sequence) found.push_back(entry.path());
+    if (!entry.is_directory(ignored) || name.starts_with('.') || sequence) continue;
+    refuse_loop(entry.path());
+    found.push_back(entry.path());
   }
+  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(found.begin(), found.end());
   return found;
 }
 
-Json read_json(const fs::path& file) {
-  std::ifstream stream(file);
-  Json json = Json::parse(stream, nullptr, false);
-  if (json.is_discarded()) throw Error::request(file.string() + " is no JSON: it was cut off or edited");
+// A list, a table or another run's manifest.
+Json read_list(const fs::path& file) {
+  Json json = read_json(file);
+  if (is_manifest(json)) check_manifest(json, file);
   return json;
 }
 
@@ -49,7 +66,7 @@ Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<
     if (file.filename() == "manifest.json") {
       exhibit.manifest = read_manifest(file);
     } else {
-      exhibit.lists.emplace_back(file, read_json(file));
+      exhibit.lists.emplace_back(file, read_list(file));
     }
   }
   for (const fs::path& sub : subfolders(folder)) {

@@ -1,13 +1,14 @@
 #include "experiments/gallery_pictures.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "experiments/gallery_about.h"
 #include "experiments/report_manifest.h"
 #include "experiments/report_page.h"
 #include "experiments/report_pictures.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -36,7 +37,9 @@ std::string words_of(std::string stem) {
 // Captions that the run wrote into FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
 std::map<std::string, std::string> written_captions(const fs::path& folder) {
   std::map<std::string, std::string> captions;
-  std::ifstream stream(folder / "README.md");
+  const fs::path readme = folder / "README.md";
+  if (!is_there(readme)) return captions;
+  std::istringstream stream(whole_file(readme, "cannot read " + readme.string()));
   std::string file;
   for (std::string line; std::getline(stream, line);) {
     const std::size_t open = line.find("]("), close = line.rfind(')');
@@ -63,7 +66,7 @@ std::string subject_words(const Json& manifest) {
 
 // Plots are written as PNG and SVG.
 bool is_drawn(const fs::path& file) {
-  return is_plot(file) || fs::exists(fs::path(file).replace_extension(".svg"));
+  return is_plot(file) || is_there(fs::path(file).replace_extension(".svg"));
 }
 
 struct Picture {
@@ -76,7 +79,7 @@ struct Picture {
 std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& prefix) {
   std::vector<fs::path> files = files_ending(exhibit.folder, ".png");
   for (const fs::path& file : files_ending(exhibit.folder, ".svg")) {
-    if (!fs::exists(fs::path(file).replace_extension(".png"))) files.push_back(file);
+    if (!is_there(fs::path(file).replace_extension(".png"))) files.push_back(file);
   }
   std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     const auto rank = [](const fs::path& f) { return f.stem() == "sheet" ? 0 : is_drawn(f) ? 2 : 1; };
@@ -103,7 +106,7 @@ std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& pref
 
 std::string figure(const Exhibit& exhibit, const Picture& picture) {
   const fs::path drawing = fs::path(picture.file).replace_extension(".svg");
-  const bool drawn = fs::exists(drawing);
+  const bool drawn = is_there(drawing);
   const bool as_drawing = drawn && (drawing == picture.file || fs::file_size(drawing) <= kLargestDrawing);
   const std::string words = exhibit.name + ": " + picture.caption.substr(0, picture.caption.find(". "));
   const std::string image = as_drawing ? embedded_image(bytes_of(drawing), "image/svg+xml", words)

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iostream>
 #include <sstream>
-#include <utility>
 
 #include "experiments/csv.h"
 #include "sim/bending/recovery.h"
@@ -33,14 +32,19 @@ void check_curve(const VirginCurve& curve) {
   if (!(curve.k0 >= 0) || !std::isfinite(curve.k0)) refuse("k0", curve.k0, "1/m", "finite and >= 0");
 }
 
+// "law: k.csv:3: "
+std::string in_row(const Table& table, const std::filesystem::path& file, size_t row) {
+  return "law: " + file.string() + ":" + std::to_string(table.lines[row]) + ": ";
+}
+
 void check_time(const Table& table, const std::filesystem::path& file) {
   const Column* time = table.find(kTime);
   if (!time) return;
   for (size_t row = 1; row < time->values.size(); ++row) {
     if (time->values[row] < time->values[row - 1]) {
-      throw Error::request("law: " + file.string() + ":" + std::to_string(table.lines[row]) +
-                           ": time = " + with_unit(time->values[row], "s") + " must be >= " +
-                           with_unit(time->values[row - 1], "s") + ", the time of the row before");
+      throw Error::request(in_row(table, file, row) + "time = " + with_unit(time->values[row], "s") +
+                           " must be >= " + with_unit(time->values[row - 1], "s") +
+                           ", the time of the row before");
     }
   }
 }
@@ -50,8 +54,31 @@ void check_edit(const Table& table, const std::filesystem::path& file) {
   if (!edit) return;
   for (size_t row = 0; row < edit->values.size(); ++row) {
     if (edit->values[row] != 0 && edit->values[row] != 1) {
-      throw Error::request("law: " + file.string() + ":" + std::to_string(table.lines[row]) +
-                           ": edit = " + with_unit(edit->values[row], "must be 0 or 1"));
+      throw Error::request(in_row(table, file, row) +
+                           "edit = " + with_unit(edit->values[row], "must be 0 or 1"));
+    }
+  }
+}
+
+constexpr double kSharpest = 1e6;  // [1/m] of a bend; fibres are thicker than its radius, 1 um
+
+void check_curvature(const Table& table, const std::filesystem::path& file) {
+  const std::vector<double>& curvature = table.find(kCurvature)->values;
+  for (size_t row = 0; row < curvature.size(); ++row) {
+    if (std::abs(curvature[row]) > kSharpest)
+      throw Error::request(in_row(table, file, row) + "curvature = " + with_unit(curvature[row], "1/m") +
+                           " must be within +-" + with_unit(kSharpest, "1/m"));
+  }
+}
+
+// Parameters of any size are allowed; what they make of a curvature may be beyond all numbers.
+void check_results(const Table& results, const Table& table, const std::filesystem::path& file) {
+  for (size_t row = 0; row < table.lines.size(); ++row) {
+    for (const Column& column : results.columns) {
+      if (!std::isfinite(column.values[row]))
+        throw Error::request(
+            in_row(table, file, row) + "at curvature = " + with_unit(results.columns[0].values[row], "1/m") +
+            " the law's " + column.name + " is no finite number; take smaller b1, b2, k0 or parameters");
     }
   }
 }
@@ -90,17 +117,20 @@ int run_law_command(const LawOptions& options) {
   check_curve(options.curve);
   const LawRequest request{options.law, options.curve, options.parameters};
   const Table table = read_csv(options.in, {kCurvature}, {kTime, kEdit}, "law");
+  check_curvature(table, options.in);
   check_time(table, options.in);
   check_edit(table, options.in);
   const std::vector<LawRow> rows = rows_of(table);
-  LawRun run = run_law(request, rows);
+  const LawRun run = run_law(request, rows);
+  const Table results{{{kCurvature, table.find(kCurvature)->values},
+                       {"moment [N]", run.moment},
+                       {"tangent [N m]", run.tangent},
+                       {"stored [J/m2]", run.stored},
+                       {"dissipated [J/m2]", run.dissipated}},
+                      {}};
+  check_results(results, table, options.in);
   std::cout << recovery_summary(request, rows, run);
-  write_csv(options.out, {{{kCurvature, table.find(kCurvature)->values},
-                           {"moment [N]", std::move(run.moment)},
-                           {"tangent [N m]", std::move(run.tangent)},
-                           {"stored [J/m2]", std::move(run.stored)},
-                           {"dissipated [J/m2]", std::move(run.dissipated)}},
-                          {}});
+  write_csv(options.out, results);
   return 0;
 }
 

@@ -1,4 +1,5 @@
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -47,6 +48,8 @@ int main(int count, char** words) {
     return fail(experiment, error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
     return fail(experiment, "out of memory; use fewer triangles (--triangles)", 1);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(experiment, "cannot use " + error.path1().string() + ": " + error.code().message(), 1);
   } catch (const std::exception& error) {
     return fail(experiment, std::string("unexpected failure: ") + error.what(), 1);
   }

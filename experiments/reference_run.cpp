@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "experiments/json_file.h"
+#include "experiments/manifest_check.h"
 #include "sim/error.h"
 #include "sim/mesh/surface.h"
 
 namespace hysteron::experiments {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
-  std::ifstream stream(folder_ / "manifest.json");
-  const Json manifest = Json::parse(stream, nullptr, false);
+  const fs::path file = folder_ / "manifest.json";
+  const Json manifest = json_or_none(file);
+  if (manifest.is_object()) check_manifest(manifest, file);
   if (manifest.is_object() && manifest.contains("frames"))
-    for (const Json& moment : manifest["frames"].at("moments")) time_.push_back(moment.at("s"));
-  if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply"))
+    for (const Json& moment : manifest["frames"].value("moments", Json::array()))
+      time_.push_back(moment["s"]);
+  std::error_code ignored;
+  if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
     throw Error::request("reference = " + folder_.string() +
                          " must be the folder of a run with pictures and --export ply (--reference)");
 }

@@ -74,7 +74,7 @@ std::string plots(const fs::path& folder) {
     html += embedded_picture(bytes_of(file), "image/svg+xml", file.stem().string());
   }
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (is_plot(file) && !fs::exists(fs::path(file).replace_extension(".svg"))) {
+    if (is_plot(file) && !is_there(fs::path(file).replace_extension(".svg"))) {
       html += embedded_picture(bytes_of(file), "image/png", file.stem().string());
     }
   }
@@ -90,9 +90,9 @@ std::string pictures(const fs::path& folder) {
 }
 
 Json manifest_in(const fs::path& folder) {
-  const fs::path file = folder / "manifest.json";
-  if (!fs::exists(file)) throw Error::request("no run in " + folder.string() + ": it has no manifest.json");
-  return read_manifest(file);
+  if (!has_manifest(folder))
+    throw Error::request("no run in " + folder.string() + ": it has no manifest.json");
+  return read_manifest(folder / "manifest.json");
 }
 
 }  // namespace

@@ -1,15 +1,16 @@
 #include "experiments/report_check.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "experiments/gallery.h"
 #include "experiments/report.h"
+#include "experiments/report_manifest.h"
 #include "experiments/report_page.h"
+#include "experiments/report_pictures.h"
 #include "render/image.h"
 #include "sim/error.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -46,18 +47,19 @@ bool same_pixels(const std::string& a, const std::string& b) {
 }
 
 std::optional<std::string> text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string{std::istreambuf_iterator<char>(stream), {}};
+  if (!is_there(file)) return std::nullopt;
+  return whole_file(file, "cannot read " + file.string());
 }
 
 // Folders below this one with a report.html, by name.
 std::vector<fs::path> reports_below(const fs::path& folder) {
   std::vector<fs::path> found;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, failure)) {
     if (entry.path().filename() == "report.html" && entry.path().parent_path() != folder)
       found.push_back(entry.path().parent_path());
   }
+  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -77,7 +79,7 @@ std::vector<StalePage> stale_pages(const fs::path& folder) {
     const std::optional<std::string> written = text_of(of / name);
     if (!written || !same_page(*written, page)) stale.push_back({of / name, of, !written});
   };
-  if (fs::exists(folder / "manifest.json")) {
+  if (has_manifest(folder)) {
     check(folder, "report.html", report_page(folder));
   } else {
     check(folder, "index.html", gallery_page(folder));

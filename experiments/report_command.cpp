@@ -5,6 +5,7 @@
 #include "experiments/gallery.h"
 #include "experiments/report.h"
 #include "experiments/report_check.h"
+#include "experiments/report_manifest.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -28,7 +29,8 @@ const KeyRow<ReportFlags> kRows[] = {
 fs::path folder_of(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   const fs::path folder = path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
-  if (!fs::is_directory(folder)) throw Error::request("no folder " + name);
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) throw Error::request("no folder " + name);
   return folder;
 }
 
@@ -59,7 +61,7 @@ int report(const CommandLine& line) {
     if (flags.check) {
       exit_code = std::max(exit_code, check(folder));
     } else {
-      const bool one_run = fs::exists(folder / "manifest.json");
+      const bool one_run = has_manifest(folder);
       std::cout << (one_run ? write_report(folder) : write_gallery(folder)).string() << std::endl;
     }
   }

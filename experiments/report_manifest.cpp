@@ -2,27 +2,40 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <sstream>
 
+#include "experiments/json_file.h"
+#include "experiments/manifest_check.h"
 #include "experiments/report_page.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
+namespace {
 
-bool is_manifest(const Json& json) {
-  if (!json.is_object() || !json.contains("hysteron") || !json.contains("scene")) return false;
-  const Json& program = json["hysteron"];
-  return program.is_object() && program.contains("version") && program.contains("commit") &&
-         json["scene"].is_object();
+// The first key without which a JSON is no manifest; "" if it has all.
+std::string missing_in(const Json& json) {
+  if (!json.is_object() || !json.contains("hysteron") || !json["hysteron"].is_object())
+    return "object hysteron";
+  for (const char* key : {"version", "commit"})
+    if (!json["hysteron"].contains(key)) return std::string("hysteron.") + key;
+  return json.contains("scene") && json["scene"].is_object() ? "" : "object scene";
+}
+
+}  // namespace
+
+bool is_manifest(const Json& json) { return missing_in(json).empty(); }
+
+bool has_manifest(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(folder / "manifest.json", ignored));
 }
 
 Json read_manifest(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw Error::machine("cannot read " + file.string());
-  Json manifest = Json::parse(stream, nullptr, false);
-  if (!is_manifest(manifest)) throw Error::request(file.string() + " is no manifest of hysteron");
+  Json manifest = read_json(file, "manifest of hysteron");
+  if (const std::string missing = missing_in(manifest); !missing.empty())
+    throw Error::request(file.string() + " is no manifest of hysteron: it has no " + missing);
+  check_manifest(manifest, file);
   return manifest;
 }
 

@@ -12,6 +12,9 @@ namespace hysteron::experiments {
 // read.
 Json read_manifest(const std::filesystem::path& file);
 
+// Also one that cannot be read, which read_manifest then says.
+bool has_manifest(const std::filesystem::path& folder);
+
 // Whether the JSON of a file is a manifest.
 bool is_manifest(const Json& json);
 

@@ -1,8 +1,6 @@
 #include "experiments/report_pictures.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <thread>
 
@@ -11,7 +9,7 @@
 #include "experiments/report_page.h"
 #include "render/contact_sheet.h"
 #include "render/palette.h"
-#include "sim/error.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -22,7 +20,8 @@ constexpr int kFrameWidth = 480;  // [pixels]
 
 // Columns of a CSV file as its first line names them; empty if the file has no row.
 std::vector<std::string> columns_of(const fs::path& file) {
-  std::ifstream stream(file);
+  if (!is_there(file)) return {};
+  std::istringstream stream(whole_file(file, "cannot read " + file.string()));
   std::string header, row, name;
   if (!std::getline(stream, header) || !std::getline(stream, row)) return {};
   std::vector<std::string> columns;
@@ -32,20 +31,24 @@ std::vector<std::string> columns_of(const fs::path& file) {
 
 }  // namespace
 
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
 std::vector<fs::path> files_ending(const fs::path& folder, const std::string& ending) {
   std::vector<fs::path> files;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.is_regular_file() && entry.path().extension() == ending) files.push_back(entry.path());
+    if (entry.is_regular_file(ignored) && entry.path().extension() == ending) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
 std::vector<std::uint8_t> bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error::machine("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = whole_file(file, "cannot read " + file.string());
+  return {bytes.begin(), bytes.end()};
 }
 
 bool is_plot(const fs::path& file) { return file.filename().string().starts_with("plot_"); }

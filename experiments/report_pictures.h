@@ -8,6 +8,9 @@
 
 namespace hysteron::experiments {
 
+// Not a link that leads nowhere, or to itself.
+bool is_there(const std::filesystem::path& file);
+
 // Files of the folder with that ending (".png"), by name; none if it is no folder.
 std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
                                                 const std::string& ending);

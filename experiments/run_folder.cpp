@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
 #include "experiments/comma_list.h"
+#include "experiments/json_file.h"
 #include "sim/error.h"
 
 namespace hysteron::experiments {
@@ -59,11 +59,7 @@ bool is_behind_a_link(const fs::path& folder, const fs::path& name) {
 Json run_before(const fs::path& folder) {
   const fs::path file = folder / kManifest;
   if (!stands(file)) return {};
-  Json manifest;
-  if (is_plain(file)) {
-    std::ifstream stream(file);
-    manifest = Json::parse(stream, nullptr, false);
-  }
+  const Json manifest = is_plain(file) ? json_or_none(file) : Json();
   if (!manifest.is_object() || !manifest.contains("hysteron"))
     throw Error::request(file.string() + " is not of a run and is not replaced" + kElsewhere);
   return manifest;

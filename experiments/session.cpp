@@ -57,6 +57,11 @@ void note_recovery(Run& run, Simulation& simulation, const Scene& scene) {
   run.metric("residual_curvature_formula_rms_per_m", std::sqrt(by_formula / elements));
 }
 
+const Setup& checked(const Setup& setup) {
+  check_duration(setup.scene);
+  return setup;
+}
+
 }  // namespace
 
 void explain(const Cloth& cloth, const Simulation& simulation) {
@@ -79,7 +84,7 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
 }
 
 Session::Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth)
-    : setup_(setup),
+    : setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
       simulation_(make_simulation(setup.scene, cloth_)),
       rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)) {

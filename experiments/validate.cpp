@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/comma_list.h"
 #include "experiments/csv.h"
 #include "experiments/experiments.h"
+#include "experiments/json_file.h"
 #include "experiments/report.h"
 #include "experiments/run.h"
 #include "render/plot.h"
@@ -71,8 +71,7 @@ Json result_of(const std::string& name, const std::vector<Flag>& own, const F& f
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   for (const Flag& flag : own) line.command += " --" + flag.path + " " + flag.text;
   subcommand(line);
-  std::ifstream manifest(out / "manifest.json");
-  return Json::parse(manifest);
+  return read_json(out / "manifest.json");
 }
 
 std::vector<Drape> planned(const F& flags) {

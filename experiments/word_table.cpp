@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 
 #include "experiments/csv.h"
 #include "experiments/report_manifest.h"
 #include "experiments/report_page.h"
 #include "sim/error.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -90,9 +89,7 @@ std::string column_name(std::string name) {
 }  // namespace
 
 WordTable read_words(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error::machine("cannot read " + file.string());
-  const std::string text{std::istreambuf_iterator<char>(stream), {}}, name = file.string();
+  const std::string name = file.string(), text = whole_file(file, "cannot read " + name);
   WordTable table;
   for (Reader reader{text, name}; !reader.done(); ++reader.at, ++reader.line) {
     std::vector<std::string> row = reader.row();

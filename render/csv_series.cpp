@@ -1,9 +1,10 @@
 #include <cstdlib>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "render/plot.h"
 #include "sim/error.h"
+#include "sim/whole_file.h"
 
 namespace hysteron::render {
 namespace {
@@ -43,10 +44,9 @@ double number_in(const std::vector<std::string>& cells, size_t column, const std
 
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label) {
-  std::ifstream file(csv);
+  std::istringstream file(file_named(csv, "reading " + csv.string()));
   std::string line;
-  if (!file || !std::getline(file, line))
-    throw Error::request("reading " + csv.string() + ": the file is missing or empty");
+  if (!std::getline(file, line)) throw Error::request("reading " + csv.string() + ": the file is empty");
   const auto names = cells_of(line);
   const size_t x_column = column_named(names, x, csv.string()),
                y_column = column_named(names, y, csv.string());

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <csetjmp>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -13,6 +11,7 @@
 #include "render/palette.h"
 #include "sim/atomic_file.h"
 #include "sim/error.h"
+#include "sim/whole_file.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -95,6 +94,20 @@ std::string damage_of(std::span<const std::uint8_t> bytes) {
   return "the file ends too early";
 }
 
+// What a header announces, against what the rest of the file can hold: "" if it may be so.
+std::string excess_of(int width, int height, std::size_t bytes) {
+  constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
+  constexpr std::int64_t kMostDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
+  const std::int64_t least = height * ((std::int64_t{width} + 7) / 8);  // of one bit a pixel
+  const std::string announced =
+      "its header announces " + std::to_string(width) + "x" + std::to_string(height) + " pixels, ";
+  if (std::int64_t{width} * height > kMostPixels)
+    return announced + "more than the " + std::to_string(kMostPixels) + " that are read";
+  if (least > kMostDeflated * static_cast<std::int64_t>(bytes))
+    return announced + "more than its bytes can hold";
+  return "";
+}
+
 std::vector<std::uint8_t> encoded(const Pixels& pixels, PngEffort effort) {
   std::vector<std::uint8_t> out;
   out.reserve(pixels.row_bytes * pixels.height / 4 + 1024);
@@ -133,6 +146,8 @@ Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   const bool known = stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) != 0;
+  const std::string excess = known ? excess_of(width, height, bytes.size()) : "";
+  if (!excess.empty()) throw Error::request("reading " + name + ": " + excess);
   const std::string damage = known ? damage_of(bytes) : "";
   if (!damage.empty()) throw Error::request("reading " + name + ": a broken PNG picture: " + damage);
   const int kept = channels == 2 || channels == 4 ? 4 : 3;
@@ -147,9 +162,7 @@ Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
 }
 
 Image read_png(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error::request("reading " + path.string() + ": the file cannot be opened");
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::string bytes = file_named(path, "reading " + path.string());
   return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path.string());
 }
 

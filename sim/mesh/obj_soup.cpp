@@ -1,5 +1,6 @@
-// tinyobjloader resolves faces, groups and relative indices; it reads a malformed number as 0 and may round
-// the last bit, so that the vertices' numbers are read, and refused, here.
+// tinyobjloader resolves faces and relative indices; it reads a malformed number as 0, wraps one of more than
+// 32 bits and may round the last bit.  Numbers are read, and refused, here, and it sees only what it
+// resolves.
 #include "sim/mesh/obj_soup.h"
 
 #include <tiny_obj_loader.h>
@@ -7,20 +8,23 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 #include <string_view>
 
 #include "sim/error.h"
-#include "sim/mesh/mesh_text.h"
 #include "sim/mesh/quad.h"
+#include "sim/whole_file.h"
 
 namespace hysteron {
 namespace {
 
-// The file's own vertices, and the lines on which vertices and faces stand.
+// The file's own vertices, the lines on which vertices and faces stand, and what the loader needs of each
+// line.
 struct Lines {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<int> vertex_line, face_line;
+  std::string resolved;
 };
 
 Error bad_line(const std::string& what, int line, const std::string& problem) {
@@ -47,6 +51,29 @@ double finite_number(std::string_view word, const std::string& what, int line) {
   return value;
 }
 
+// "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or from -1
+// backwards.
+void check_corner(std::string_view corner, const std::string& what, int line) {
+  for (std::size_t at = 0, place = 0; place < 3; ++place) {
+    const std::size_t end = std::min(corner.find('/', at), corner.size());
+    std::int32_t index = 0;
+    const auto [rest, code] = std::from_chars(corner.data() + at, corner.data() + end, index);
+    const bool left_out = place == 1 && end == at && end < corner.size();
+    const bool whole = code == std::errc() && rest == corner.data() + end && index != 0;
+    if (!left_out && !whole) break;
+    if (end == corner.size()) return;
+    at = end + 1;
+  }
+  throw bad_line(what, line,
+                 "corner \"" + std::string(corner) +
+                     "\" must be a vertex, vertex/texture or vertex/texture/normal, as whole numbers of 32 "
+                     "bits other than 0");
+}
+
+void add_words(const std::vector<std::string_view>& word, std::size_t count, std::string& line) {
+  for (std::size_t i = 0; i < count; ++i) line.append(i ? " " : "").append(word[i]);
+}
+
 void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
   if (word.empty()) return;
   if (word[0] == "v") {
@@ -54,14 +81,20 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
     lines.vertex.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line),
                               finite_number(word[3], what, line));
     lines.vertex_line.push_back(line);
+    lines.resolved += "v 0 0 0";  // counted only
   } else if (word[0] == "vt") {
     if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
     for (int i = 1; i <= 2; ++i) finite_number(word[i], what, line);
+    add_words(word, 3, lines.resolved);
+  } else if (word[0] == "vn") {
+    lines.resolved += "vn 0 0 1";  // counted only
   } else if (word[0] == "f") {
     if (word.size() != 4 && word.size() != 5)
       throw bad_line(what, line,
                      "a face of " + std::to_string(word.size() - 1) +
                          " corners; allowed are triangles and quads, triangulate the mesh first");
+    for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line);
+    add_words(word, word.size(), lines.resolved);
     lines.face_line.push_back(line);
   }
 }
@@ -72,6 +105,7 @@ Lines scan(const std::string& text, const std::string& what) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     scan_line(words(std::string_view(text).substr(at, end - at)), what, ++number, lines);
+    lines.resolved += '\n';
     at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
   return lines;
@@ -86,11 +120,11 @@ std::string one_line(std::string text) {
 // Faces of three or four corners in the file's order, which the loader keeps.
 class Faces {
  public:
-  Faces(const std::string& text, const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
+  Faces(const std::string& what, const Lines& lines) : what_(what), lines_(lines) {
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warning, error;
-    std::istringstream in(text);
+    std::istringstream in(lines.resolved);
     if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
       throw Error::request(what + ": " + one_line(error));
     for (const auto& shape : shapes) {
@@ -150,9 +184,8 @@ class Faces {
 }  // namespace
 
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
-  const std::string text = read_mesh_text(file);
-  Lines lines = scan(text, what);
-  ObjSoup soup = Faces(text, what, lines).take_soup();
+  Lines lines = scan(whole_file(file, "cannot read mesh " + file), what);
+  ObjSoup soup = Faces(what, lines).take_soup();
   soup.vertex = std::move(lines.vertex);
   soup.vertex_line = std::move(lines.vertex_line);
   return soup;

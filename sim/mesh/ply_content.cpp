@@ -2,7 +2,6 @@
 
 #include <CGAL/IO/PLY/PLY_reader.h>
 
-#include <exception>
 #include <sstream>
 
 #include "sim/error.h"
@@ -37,16 +36,59 @@ std::vector<std::int64_t> corners(Element& element) {
   return {};
 }
 
-// False where a number is missing or malformed, or a list too long for the memory.
-bool read_item(Element& element, std::istream& in) {
-  try {
-    for (std::size_t p = 0; p < element.number_of_properties(); ++p) {
+// A binary integer of so many bytes, as two's complement.
+std::int64_t binary_integer(std::istream& in, std::size_t bytes, bool big_endian, bool with_sign) {
+  unsigned char byte[8] = {};
+  in.read(reinterpret_cast<char*>(byte), static_cast<std::streamsize>(bytes));
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < bytes; ++i)
+    value |= std::uint64_t{byte[big_endian ? bytes - 1 - i : i]} << 8 * i;
+  const std::uint64_t half = std::uint64_t{1} << (8 * bytes - 1);
+  return static_cast<std::int64_t>(value) -
+         (with_sign && value >= half ? static_cast<std::int64_t>(2 * half) : 0);
+}
+
+// Whether a list that begins here has room in what is left of the file: the reader allocates what it
+// announces, and goes through all of it behind the end.
+bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file_bytes, std::istream& in) {
+  const std::streamoff begin = in.tellg();
+  std::int64_t count = -1;
+  if (header.ascii)
+    in >> count;
+  else
+    count =
+        binary_integer(in, bytes_of(list.count_type), header.big_endian, !list.count_type.starts_with('u'));
+  if (begin < 0 || in.fail() || count < 0) return false;
+  in.clear();  // the end of the file, where the list is empty
+  const std::size_t left = file_bytes - static_cast<std::size_t>(in.tellg());
+  in.seekg(begin);
+  const std::size_t least = header.ascii ? 2 : bytes_of(list.type);  // a number and a separator
+  return static_cast<std::size_t>(count) <= (left + 1) / least;
+}
+
+// Reads items of the file, each with the properties that its header announces.
+struct ItemReader {
+  const PlyHeader& header;
+  std::size_t file_bytes;
+  std::istream& in;
+
+  // False where a number is missing or malformed, or a list longer than the file.
+  bool read(const PlyElement& announced, Element& element) const {
+    for (std::size_t p = 0; p < announced.property.size(); ++p) {
+      const PlyProperty& property = announced.property[p];
+      if (property.is_list() && !has_room(property, header, file_bytes, in)) return false;
       element.property(p)->get(in);
       if (in.fail()) return false;
     }
-  } catch (const std::exception&) {
-    return false;
+    return true;
   }
+};
+
+// Whether both readers understood the same header.
+bool agree(Reader& reader, const PlyHeader& header) {
+  if (reader.number_of_elements() != header.element.size()) return false;
+  for (std::size_t e = 0; e < header.element.size(); ++e)
+    if (reader.element(e).number_of_properties() != header.element[e].property.size()) return false;
   return true;
 }
 
@@ -58,7 +100,8 @@ bool is_at_end(std::istream& in) { return (in >> std::ws).eof(); }
 PlyContent read_ply_content(const std::string& text, const PlyHeader& header, const std::string& what) {
   std::istringstream in(text);
   Reader reader(false);
-  if (!reader.init(in)) throw Error::request(what + ": the header is malformed");
+  if (!reader.init(in) || !agree(reader, header)) throw Error::request(what + ": the header is malformed");
+  const ItemReader items{header, text.size(), in};
   PlyContent content;
   const PlyElement* const vertices = header.find("vertex", "vertices");
   const PlyElement* const faces = header.find("face", "faces");
@@ -66,7 +109,7 @@ PlyContent read_ply_content(const std::string& text, const PlyHeader& header, co
     const PlyElement& announced = header.element[e];
     Element& element = reader.element(e);
     for (std::size_t i = 0; i < announced.count; ++i) {
-      if (!read_item(element, in))
+      if (!items.read(announced, element))
         throw Error::request(what + ": item " + std::to_string(i) + " of the " +
                              std::to_string(announced.count) + " of \"" + announced.name +
                              "\": a number is missing or malformed");

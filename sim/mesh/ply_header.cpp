@@ -9,9 +9,7 @@
 #include "sim/error.h"
 
 namespace hysteron {
-namespace {
 
-// Bytes of a binary number; 0: PLY has no such type.
 std::size_t bytes_of(std::string_view type) {
   static const std::pair<std::string_view, std::size_t> kTypes[] = {
       {"char", 1},   {"int8", 1},    {"uchar", 1},  {"uint8", 1},  {"short", 2}, {"int16", 2},
@@ -21,6 +19,8 @@ std::size_t bytes_of(std::string_view type) {
     if (name == type) return bytes;
   return 0;
 }
+
+namespace {
 
 // Fewest bytes of one item: an ASCII number takes a digit and a separator, a list may be empty.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
@@ -76,6 +76,7 @@ class HeaderReader {
     if (!known)
       throw bad("needs \"format\" with ascii, binary_little_endian or binary_big_endian, and a version");
     header_.ascii = word[1] == "ascii";
+    header_.big_endian = word[1] == "binary_big_endian";
   }
 
   void read_element(const std::vector<std::string>& word) {
@@ -94,7 +95,8 @@ class HeaderReader {
     PlyProperty property{word.back(), word[word.size() - 2], list ? word[2] : ""};
     for (const std::string& type : {property.type, property.count_type})
       if (!type.empty() && bytes_of(type) == 0) throw bad("the type \"" + type + "\" is unknown");
-    if (list && bytes_of(property.count_type) > 4) throw bad("a list counts its items in integers");
+    const bool counts = bytes_of(property.count_type) <= 4 && !property.count_type.starts_with("float");
+    if (list && !counts) throw bad("a list counts its items in integers");
     header_.element.back().property.push_back(std::move(property));
   }
 

@@ -8,6 +8,9 @@
 
 namespace hysteron {
 
+// Bytes of a binary number; 0: PLY has no such type.
+std::size_t bytes_of(std::string_view type);
+
 struct PlyProperty {
   std::string name, type;
   std::string count_type;  // of a list; empty: a single number
@@ -35,7 +38,7 @@ struct PlyElement {
 };
 
 struct PlyHeader {
-  bool ascii = false;
+  bool ascii = false, big_endian = false;
   std::vector<PlyElement> element;
   std::size_t bytes = 0;  // of the header itself
 

@@ -1,10 +1,10 @@
 # Sources of the cloth mesh, relative to the project's root.
 set(HYSTERON_MESH_SOURCES
     sim/atomic_file.cpp
+    sim/whole_file.cpp
     sim/mesh/builders.cpp
     sim/mesh/delaunay.cpp
     sim/mesh/disc.cpp
-    sim/mesh/mesh_text.cpp
     sim/mesh/obj_soup.cpp
     sim/mesh/ply_header.cpp
     sim/mesh/random_points.cpp

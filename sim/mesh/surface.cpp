@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "sim/error.h"
-#include "sim/mesh/mesh_text.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/ply_content.h"
 #include "sim/mesh/quad.h"
+#include "sim/whole_file.h"
 
 namespace hysteron {
 namespace {
@@ -94,7 +94,7 @@ Surface read_obj_surface(const std::string& file) {
 }
 
 Surface read_ply(const std::string& file) {
-  const std::string what = "mesh " + file, text = read_mesh_text(file);
+  const std::string what = "mesh " + file, text = whole_file(file, "cannot read mesh " + file);
   const PlyHeader header = read_ply_header(text, what);
   check_ply_header(header, what);
   PlyContent content = read_ply_content(text, header, what);

@@ -60,7 +60,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"precision", at<&S::precision>, "", any(), "double | float", "of the simulation"},
     {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: all cores"},
     {"seconds", at<&S::seconds>, "s", at_least(0), "", "simulated time"},
-    {"gravity", at<&S::gravity>, "m/s^2", any(), "", "acceleration"},
+    {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
     {"self-contact", at<&S::self_contact>, "", any(), "", "cloth cannot pass through itself"},
     {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "per area; 0: from weight and thickness"},

@@ -58,6 +58,15 @@ void check_mesh(const Scene& scene) {
                        (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
+// The triangles of a file are its own.
+void check_one_mesh(const Scene& scene) {
+  const ClothShape& cloth = scene.cloth;
+  if (cloth.shape != "file" || cloth.file.empty() || !scene.origin.count("mesh")) return;
+  throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
+                       ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
+                       ") both say what the triangles are: leave one out");
+}
+
 void check_method(const Scene& scene) {
   if (scene.force == "chapter" && scene.element != "hinge") {
     throw Error::request("force = chapter (" + origin_of(scene, "force") + ") needs element = hinge, not " +
@@ -170,11 +179,37 @@ void check_parameters(const Scene& scene) {
   }
 }
 
-void check_command(const Scene& scene, const Command& command, const std::string& path) {
-  const auto place = [&](const std::string& key) {
-    const std::string full = path + "." + key;
-    return origin_of(scene, scene.origin.count(full) ? full : path);
+// Otherwise a time that names the phase could mean either.
+void check_phases(const Scene& scene) {
+  const auto table = [&](std::size_t i) {
+    const std::string path = "phase[" + std::to_string(i) + "]";
+    return path + " (" + origin_of(scene, path) + ")";
   };
+  for (std::size_t i = 0; i < scene.phase.size(); ++i) {
+    const std::string& name = scene.phase[i].name;
+    for (std::size_t j = 0; j < i && !name.empty(); ++j)
+      if (scene.phase[j].name == name)
+        throw Error::request(table(i) + " is called \"" + name + "\" like " + table(j) +
+                             ": phases need names of their own");
+  }
+}
+
+// Where a key of a table stands, or the table if the key was left out.
+std::string origin_in(const Scene& scene, const std::string& path, const std::string& key) {
+  const std::string full = path + "." + key;
+  return origin_of(scene, scene.origin.count(full) ? full : path);
+}
+
+// What falls due when the scene is over is never done.
+void check_due(const Scene& scene, const Command& command, const std::string& path) {
+  if (command.time < scene.seconds) return;
+  throw Error::request(path + ".time = " + number_text(command.time) + " s (" +
+                       origin_in(scene, path, "time") + ") must be < " +
+                       shown(scene, "seconds", scene.seconds, "s") + ", the end of the scene");
+}
+
+void check_command(const Scene& scene, const Command& command, const std::string& path) {
+  const auto place = [&](const std::string& key) { return origin_in(scene, path, key); };
   if ((command.low.array() > command.high.array()).any())
     throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") + ")");
   if (command.kind == "edit" && scene.law != "grinspun-edit") {
@@ -208,9 +243,19 @@ void check_steps(const Scene& scene) {
                          " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
 }
 
+void check_duration(const Scene& scene) {
+  if (scene.seconds > 0 && scene.step > scene.seconds)
+    throw Error::request(shown(scene, "step", scene.step, "s") +
+                         " must be <= " + shown(scene, "seconds", scene.seconds, "s"));
+  for (std::size_t i = 0; i < scene.command.size(); ++i)
+    check_due(scene, scene.command[i], "command[" + std::to_string(i) + "]");
+}
+
 void check_scene(const Scene& scene) {
   check_fabric(scene);
   check_mesh(scene);
+  check_one_mesh(scene);
+  check_phases(scene);
   check_method(scene);
   check_steps(scene);
   check_parameters(scene);

@@ -10,4 +10,5 @@ set(HYSTERON_SCENE_SOURCES
     sim/scene/phases.cpp
     sim/scene/scene_checks.cpp
     sim/scene/scene_reader.cpp
-    sim/scene/toml_file.cpp)
+    sim/scene/toml_file.cpp
+    sim/scene/toml_text.cpp)

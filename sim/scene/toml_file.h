@@ -20,7 +20,7 @@ struct TomlNode {
 };
 
 // Reads a whole file.  Throws Error::machine if it cannot be read, Error::request with file and line if it is
-// no TOML or holds what no key can take (dates, mixed arrays).
+// no TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
 TomlNode read_toml(const std::string& file);
 
 // "scene.toml:7"

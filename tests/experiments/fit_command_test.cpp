@@ -130,6 +130,7 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   says({{"profile", "p.csv"}}, "needs --fabric.density");
   says({{"loop", file}, {"law", "wongg"}}, "wongg");
   says({{"loop", file}, {"stops", "99"}}, "stops = 99");
+  says({{"loop", file}, {"stops", "0"}}, "stops = 0 must be in [1, ");
   says({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
 }
 

@@ -245,6 +245,51 @@ TEST_F(Gallery, NamesABrokenManifest) {
   EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
 }
 
+// A manifest that lacks a key, or has one of another type, is named with the key and in words.
+TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
+  const fs::path file = results_ / "a-kes/manifest.json";
+  const Json whole = Json::parse(text_of(file));
+  const auto says = [&](const char* path, const Json& value, const std::string& problem) {
+    Json changed = whole;
+    changed[Json::json_pointer(path)] = value;
+    for (const fs::path& place : {file, results_ / "speed/again.json"}) {
+      write_text(place, changed.dump());
+      EXPECT_EQ(refusal(), place.string() + " is no manifest of hysteron: " + problem);
+      if (place == file) write_text(place, whole.dump());
+    }
+    fs::remove(results_ / "speed/again.json");
+  };
+  says("/metrics", "many", "metrics is a text, must be an object");
+  says("/wall_seconds", nullptr, "wall_seconds is null, must be an object");
+  says("/wall_seconds/total", "long", "wall_seconds.total is a text, must be a number");
+  says("/seconds_simulated", Json::array(), "seconds_simulated is a list, must be a number");
+  says("/complete", 1, "complete is a number, must be true or false");
+  says("/scene/fabric", "cotton", "scene.fabric is a text, must be an object");
+  says("/scene/laws", {"linear", 7}, "scene.laws holds a number where a name must be");
+  says("/scene/fabric/provenance", {{"b1", {{"source", "kes"}}}},
+       "scene.fabric.provenance has an entry without confidence");
+  says("/frames", {{"moments", {{{"s", "now"}}}}}, "frames.moments has a time s that is no number");
+  write_text(file, R"({"hysteron":{"version":"0"}})");
+  EXPECT_EQ(refusal(), file.string() + " is no manifest of hysteron: it has no hysteron.commit");
+  write_text(file, std::string(100000, '['));
+  EXPECT_EQ(refusal(), file.string() + " is no manifest of hysteron: it nests more than 64 deep");
+}
+
+TEST_F(Gallery, PassesOverLinksThatLeadNowhereAndRefusesThoseThatLeadBack) {
+  const std::string before = page();
+  for (const char* name :
+       {"loop", "a-kes/loop", "a-kes/loop.png", "z-drape/README.md", "z-drape/metrics.csv"})
+    fs::create_symlink(fs::path(name).filename(), results_ / name);
+  EXPECT_EQ(page(), before);
+  fs::create_directory_symlink("../..", results_ / "z-drape/above");
+  EXPECT_EQ(refusal(), (results_ / "z-drape/above").string() + " is a link back to " +
+                           folder_.path().string() + ": remove it");
+  fs::remove(results_ / "z-drape/above");
+  fs::remove(results_ / "a-kes/manifest.json");
+  fs::create_symlink("manifest.json", results_ / "a-kes/manifest.json");
+  EXPECT_EQ(page().find("a-kes/manifest.json"), std::string::npos);
+}
+
 TEST_F(Gallery, NamesABrokenListAndABrokenTable) {
   write_text(results_ / "speed/bench.json", "[{\"law\":");
   EXPECT_NE(refusal().find("results/speed/bench.json is no JSON"), std::string::npos) << refusal();

@@ -65,6 +65,18 @@ TEST_F(LawCommand, RefusesWhatItCannotUnderstand) {
   EXPECT_NE(refusal().find("k.csv:2: edit = 2 must be 0 or 1"), std::string::npos);
 }
 
+TEST_F(LawCommand, RefusesWhatNoNumberCanHold) {
+  write("curvature [1/m]\n50\n1e300\n");
+  EXPECT_NE(refusal().find("k.csv:3: curvature = 1e+300 1/m must be within +-1e+06 1/m"), std::string::npos)
+      << refusal();
+  options_.law = "linear";
+  options_.curve = {1e306, 1e306, 50};
+  write("curvature [1/m]\n50\n\n-1000\n");
+  EXPECT_NE(refusal().find("k.csv:4: at curvature = -1000 1/m the law's moment [N] is no finite number"),
+            std::string::npos)
+      << refusal();
+}
+
 TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
   const auto moments = [&] {
     EXPECT_EQ(run_law_command(options_), 0);

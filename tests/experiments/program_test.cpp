@@ -32,6 +32,36 @@ TEST(Program, ExitsWithTwoForAWrongRequestAndOneForAFailingMachine) {
   EXPECT_EQ(program("list fabrics >/dev/full #").exit_code, 1);
 }
 
+TEST(Program, RefusesRunsThatWouldDoNothing) {
+  const Folder folder;
+  const std::string out = " --quiet --no-images --out " + (folder.path() / "out").string();
+  const auto refusal = [&](const std::string& words) {
+    const Outcome outcome = program(words + out);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder.path() / "out")) << words;
+    return outcome.err;
+  };
+  for (const char* name : {"swing", "cantilever", "drape"})
+    EXPECT_EQ(
+        refusal(std::string(name) + " --step 0.5 --seconds 0.1"),
+        std::string("hysteron ") + name + ": step = 0.5 s (--step) must be <= seconds = 0.1 s (--seconds)\n");
+  EXPECT_EQ(refusal("drape --drape.disc 0.2"),
+            "hysteron drape: drape.disc = 0.2 m must be < cloth.radius = 0.15 m\n");
+}
+
+TEST(Program, SaysInOneLineThatAPathLeadsToItself) {
+  const Folder folder;
+  const std::string loop = (folder.path() / "loop").string();
+  fs::create_symlink("loop", loop);
+  EXPECT_EQ(program("report " + loop).err, "hysteron report: no folder " + loop + "\n");
+  EXPECT_EQ(program("diff " + loop + " " + loop).err,
+            "hysteron diff: cannot use " + loop + ": Too many levels of symbolic links\n");
+  fs::create_symlink("manifest.json", folder.path() / "manifest.json");
+  EXPECT_EQ(program("report " + folder.path().string()).err, "hysteron report: cannot read " +
+                                                                 (folder.path() / "manifest.json").string() +
+                                                                 ": Too many levels of symbolic links\n");
+}
+
 TEST(Program, ListsTheFabricsWithTheirSource) {
   const Outcome outcome = program("list fabrics");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -107,6 +107,24 @@ TEST(Png, ATruncatedPictureIsRefused) {
   EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
 }
 
+// The header announces far more than stands behind it.
+TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
+  const auto refusal = [](std::uint32_t width, std::uint32_t height) {
+    auto bytes = encode_png(gradient(60, 60, 3));
+    for (int i = 0; i < 4; ++i) {
+      bytes[16 + i] = static_cast<std::uint8_t>(width >> (24 - 8 * i));
+      bytes[20 + i] = static_cast<std::uint8_t>(height >> (24 - 8 * i));
+    }
+    const Error error = error_of([&] { decode_png(bytes, "a.png"); });
+    EXPECT_EQ(error.exit_code(), 2);
+    return std::string(error.what());
+  };
+  EXPECT_EQ(refusal(16000000, 20),
+            "reading a.png: its header announces 16000000x20 pixels, more than the 268435456 that are read");
+  EXPECT_EQ(refusal(12000000, 20),
+            "reading a.png: its header announces 12000000x20 pixels, more than its bytes can hold");
+}
+
 // A bit in the header's size, in the compressed rows, in a check sum.
 TEST(Png, AWrongBitIsFound) {
   const ScratchFolder folder;

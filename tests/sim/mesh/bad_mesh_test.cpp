@@ -38,7 +38,7 @@ TEST_F(BadObj, FolderInsteadOfAFile) {
   const std::string file = folder_.file(".");
   const Error error = test::error_of([&] { read_obj(file, 0); });
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_EQ(std::string(error.what()), "cannot read mesh " + file + ": not a readable file");
+  EXPECT_EQ(std::string(error.what()), "cannot read mesh " + file + ": it is a folder");
 }
 
 TEST_F(BadObj, EmptyFile) { expect("", "no triangles; a cloth needs at least one"); }
@@ -73,6 +73,25 @@ TEST_F(BadObj, IndexZeroIsRefusedWithItsLine) {
   EXPECT_NE(message.find("mesh " + file), std::string::npos);
   EXPECT_NE(message.find("line 4"), std::string::npos);
   EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+// 4294967297 is 1 in 32 bits.
+TEST_F(BadObj, IndicesBeyond32Bits) {
+  const std::string allowed =
+      "\" must be a vertex, vertex/texture or vertex/texture/normal, as whole numbers of 32 bits other than "
+      "0";
+  for (const std::string corner : {"4294967297", "-4294967299", "1/99999999999", "1//99999999999", "1/",
+                                   "1/2/", "1/1/1/1", "1.5", "one"})
+    expect(kTriangle + ("f " + corner + " 2 3\n"), "line 4: corner \"" + corner + allowed);
+}
+
+// Records that no cloth needs may say what they like: tags announce how much is to be allocated for them.
+TEST_F(BadObj, OtherRecordsArePassedOver) {
+  const std::string file =
+      folder_.write("other.obj", std::string(kTriangle) +
+                                     "vn x y z\nl 1 99999999999\np 0\nt crease 2147483647/2147483647/-1 1\n"
+                                     "vw 1 9 9\nmtllib /dev/zero\nusemtl none\nf 1//-1 2//-1 3//-1\n");
+  EXPECT_EQ(read_obj(file, 0).faces(), 1);
 }
 
 TEST_F(BadObj, FaceWithTooFewOrTooManyCorners) {

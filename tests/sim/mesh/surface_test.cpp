@@ -195,6 +195,19 @@ TEST_F(BadSurface, BinaryThatBreaksOff) {
   expect(bytes.substr(0, bytes.size() - 3), "item 7 of the 8 of \"face\": a number is missing or malformed");
 }
 
+// Nothing is allocated for a list before it is known to be there.
+TEST_F(BadSurface, ListsLongerThanTheFile) {
+  const std::string problem = "item 0 of the 1 of \"face\": a number is missing or malformed";
+  const std::string faces = "property list uint int vertex_indices\n";
+  for (const std::string count : {"4294967295", "99999999999", "100", "-1", "x"})
+    expect(ascii(3, 1, kCorners + count + " 0 1 2\n", kVertices, faces), problem);
+  std::string binary = ascii(1, 1, "", kVertices, faces) + std::string(12, '\0');
+  binary.replace(binary.find("ascii"), 5, "binary_little_endian");
+  expect(binary + std::string(4, '\xFF') + std::string(12, '\0'), problem);
+  expect(ascii(3, 1, kCorners + "3 0 1 2\n", kVertices, "property list float int vertex_indices\n"),
+         "line 8: a list counts its items in integers");
+}
+
 TEST_F(BadSurface, PositionsThatAreNotFinite) {
   ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
   mesh.rest[2].y() = std::numeric_limits<double>::quiet_NaN();

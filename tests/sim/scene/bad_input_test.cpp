@@ -12,6 +12,18 @@ struct BadScene {
   std::vector<const char*> naming;  // what else the message must say
 };
 
+// Names as parts of a key, and lists in lists, as no one writes them; kept as long as the tests.
+const std::string& nested(int parts) {
+  static std::string text;
+  text = "step = 1e-3\na";
+  for (int i = 1; i < parts; ++i) text += ".a";
+  return text += " = 1\n";
+}
+const std::string& deep_list(int depth) {
+  static std::string text;
+  return text = "a = " + std::string(depth, '[') + "\n";
+}
+
 void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
 
 class BadSceneFile : public testing::TestWithParam<BadScene> {};
@@ -35,6 +47,27 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, BadSceneFile,
     testing::Values(
         BadScene{"NoToml", "step = = 3\n", 1, {"TOML"}},
+        BadScene{"KeyBeyondAscii", "\n[\xC3\xA9]\n", 2, {"TOML", "malformed"}},
+        BadScene{"ThreeBrackets", "step = 1e-3\n[[[pin]]\n\n", 2, {"TOML", "malformed"}},
+        BadScene{"BraceForAKey", "[}]\n", 1, {"TOML", "malformed"}},
+        BadScene{"OpenBraceForAKey", "[{]\n", 1, {"TOML", "malformed"}},
+        BadScene{"BraceInLists", "a=[[}\n", 1, {"TOML", "malformed"}},
+        BadScene{"CommentForAKey", "[#]", 1, {"TOML", "malformed"}},
+        BadScene{"LongKey", nested(100000).c_str(), 2, {"TOML", "a key has more than 32 parts"}},
+        BadScene{"DeepList", deep_list(100000).c_str(), 1, {"TOML"}},
+        BadScene{"TextOfTwoLines", "\nlaw = \"a\\nb\"\n", 2, {"a line break or another control character"}},
+        BadScene{"HeavyGravity",
+                 "gravity = [0, 0, -1e30]\n",
+                 1,
+                 {"gravity = [0, 0, -1e+30] m/s^2 must be in [-10000, 10000]"}},
+        BadScene{"MeshBesideAFile",
+                 "mesh = \"random\"\n[cloth]\nshape = \"file\"\nfile = \"a.obj\"\n",
+                 4,
+                 {"mesh = random", "and cloth.file = a.obj", "leave one out"}},
+        BadScene{"PhasesOfOneName",
+                 "[[phase]]\nname = \"hang\"\n[[phase]]\nname = \"fall\"\n[[phase]]\nname = \"hang\"\n",
+                 5,
+                 {"phase[2]", "is called \"hang\" like phase[0]"}},
         BadScene{"UnknownKey", "\n\nstpe = 1e-3\n", 3, {"unknown key stpe", "did you mean step?"}},
         BadScene{
             "UnknownNestedKey", "[fabric]\nb3 = 1\n", 2, {"unknown key fabric.b3", "did you mean fabric.b"}},
@@ -131,6 +164,40 @@ INSTANTIATE_TEST_SUITE_P(
                  2,
                  {"obstacle[0] moves 0.1", "in a step of 0.01 s", "0.02 m", "step below 0.001"}}),
     [](const testing::TestParamInfo<BadScene>& test) { return std::string(test.param.name); });
+
+// What the file says up to a quotation mark, a comment or a comma does not count for the key behind it.
+TEST(LongKey, CountsThePartsOfOneKeyOnly) {
+  const TextFile file("[cloth]\nposition = [0.1, 0.2, 0.3] # a.b.c." + std::string(80, '.') +
+                      "\n[param]\nmemory = \"" + std::string(80, '.') + "\"\n");
+  Scene scene = default_scene();
+  EXPECT_NO_THROW(apply_scene_file(scene, file.path()));
+  EXPECT_EQ(scene.param.at("memory"), std::string(80, '.'));
+}
+
+Failure duration_of(const std::string& text, const std::vector<Flag>& flags = {}) {
+  const TextFile file(text);
+  Scene scene = default_scene();
+  apply_scene_file(scene, file.path());
+  apply_flags(scene, flags);
+  return failure_of([&] { check_duration(scene); });
+}
+
+TEST(Duration, OfASceneThatEndsBeforeItsFirstStepIsRefused) {
+  const Failure failure = duration_of("step = 0.02\n", {{"seconds", "0.01"}});
+  EXPECT_EQ(failure.exit_code, 2);
+  EXPECT_NE(failure.message.find(":1) must be <= seconds = 0.01 s (--seconds)"), std::string::npos)
+      << failure.message;
+  EXPECT_EQ(duration_of("step = 0.02\nseconds = 0.02\n").exit_code, 0);
+  EXPECT_EQ(duration_of("step = 0.02\nseconds = 0\n").exit_code, 0);  // the start alone
+}
+
+TEST(Duration, HasRoomForEveryCommand) {
+  const Failure failure = duration_of("seconds = 1\n[[command]]\n[[command]]\ntime = 1.0\n");
+  EXPECT_EQ(failure.exit_code, 2);
+  EXPECT_NE(failure.message.find("command[1].time = 1 s"), std::string::npos) << failure.message;
+  EXPECT_NE(failure.message.find(":4) must be < seconds = 1 s"), std::string::npos) << failure.message;
+  EXPECT_EQ(duration_of("seconds = 1\n[[command]]\ntime = 0.99\n").exit_code, 0);
+}
 
 TEST(BadFlag, IsRefusedInOneLineThatNamesTheFlag) {
   Scene scene = default_scene();
