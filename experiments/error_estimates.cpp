@@ -44,22 +44,13 @@ class Estimate {
 
  private:
   // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.
-  bool changed(const Repeated& r) const {
-    const auto same = [&](const std::string& name) {
-      return is_known(r.metrics, name) && r.metrics[name].get<double>() == run_[name].get<double>();
-    };
-    const auto counts = [&](const std::string& name) { return run_[name].is_number_integer(); };
-    return !std::all_of(names_.begin(), names_.end(),
-                        [&](const std::string& name) { return counts(name) || same(name); });
-  }
-
   bool is_usable(const Repeated& r) {
     const std::string what = r.repeat.name + " (" + words_of(r.repeat.changes) + ")";
     if (!r.stopped.empty())
       errors_.missing.push_back(what + " is not complete: " + r.stopped);
-    else if (!changed(r))
-      errors_.missing.push_back(what + " changes no bit of any headline, so it says nothing of an error");
-    return r.stopped.empty() && changed(r);
+    else if (r.unchanged)
+      errors_.missing.push_back(what + " changes no bit of the run, so it says nothing of an error");
+    return r.stopped.empty() && !r.unchanged;
   }
 
   // The headline's values in the repeats of that name, "draw-2" being a "draw".

@@ -76,8 +76,19 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
+Json entry(const Json& manifest, const char* key) {
+  return manifest.is_object() ? manifest.value(key, Json()) : Json();
+}
+
 Json metrics_in(const Json& manifest) {
-  return manifest.is_object() ? manifest.value("metrics", Json::object()) : Json::object();
+  const Json metrics = entry(manifest, "metrics");
+  return metrics.is_object() ? metrics : Json::object();
+}
+
+Repeated what_came_of(const Repeat& repeat, const ComparedColumn& column, const Run& run) {
+  const Json state = entry(column.manifest, "state_hash");
+  return {repeat, metrics_in(column.manifest), column.stopped,
+          state.is_string() && state == run.noted("state_hash")};
 }
 
 // errors.csv: a row for each repeat.
@@ -95,8 +106,7 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
       const Json value = found.value(name, Json());
       fields.push_back(value.is_number() ? number_text(value.get<double>()) : "");
     }
-    const Json wall =
-        columns[i].manifest.is_object() ? columns[i].manifest.value("wall_seconds", Json()) : Json();
+    const Json wall = entry(columns[i].manifest, "wall_seconds");
     fields.push_back(wall.is_object() ? number_field(wall.value("total", 0.0)) : "");
     fields.push_back(columns[i].stopped.empty() ? "1" : "0");
     fields.push_back(columns[i].stopped);
@@ -152,8 +162,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   });
   write_table(run, headlines.metrics, repeats, columns);
   std::vector<Repeated> found;
-  for (std::size_t i = 0; i < repeats.size(); ++i)
-    found.push_back({repeats[i], metrics_in(columns[i].manifest), columns[i].stopped});
+  for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
   const Errors errors = errors_of(line.experiment, run.metrics(), found);
   for (const auto& [name, value] : errors.metrics.items()) run.metric(name, value);
   if (!errors.missing.empty()) run.note("errors_missing", errors.missing);
