@@ -65,7 +65,8 @@ std::string reason_of(const render::ProcessResult& result) {
 }
 
 void run_column(ComparedColumn& column, int threads, int gpu, bool go_on) {
-  fs::remove(column.folder / kAsked);
+  std::error_code ignored;
+  fs::remove(column.folder / kAsked, ignored);
   const render::ProcessResult result = render::run_process(command_of(column, threads, gpu), "");
   column.manifest = read_json(column.folder / "manifest.json");
   if (!result.started) throw Error::machine("cannot start the run " + column.name);

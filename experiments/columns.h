@@ -24,11 +24,11 @@ struct ComparedColumn {
 struct ColumnJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core
   int threads = 0;  // of each on the CPU; 0: its share of the cores
-  int cores = 0;    // that they share; 0: all
   bool resume = false;
   bool gpu = true;     // may be used
-  bool go_on = false;  // a run that is wrong or fails is only marked as stopped
   int first = -1;      // a column that the others need: it ends before they start; -1: none
+  int cores = 0;       // that they share; 0: all
+  bool go_on = false;  // a run that is wrong or fails is only marked as stopped
 };
 
 // `said` is called, one at a time, as columns end.  A run that cannot go on (exit code 3) keeps what it has;

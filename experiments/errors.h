@@ -28,7 +28,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
 struct Repeated {
   Repeat repeat;
   Json metrics = Json::object();
-  std::string stopped;     // why it is not complete; empty: it is
+  std::string stopped{};   // why it is not complete; empty: it is
   bool unchanged = false;  // it ended in the run's own state, bit for bit
 };
 
