@@ -1,9 +1,11 @@
 #include "experiments/columns.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <mutex>
 #include <thread>
 
+#include "experiments/comma_list.h"
 #include "experiments/json_file.h"
 #include "experiments/parallel.h"
 #include "experiments/version.h"
@@ -30,9 +32,16 @@ bool is_finished(const ComparedColumn& column) {
          json_or_none(column.folder / kAsked) == asked(column);
 }
 
+// The name of the GPU with that number among those that this process itself is allowed.
+std::string visible_gpu(int gpu) {
+  const char* allowed = std::getenv("CUDA_VISIBLE_DEVICES");
+  const std::vector<std::string> names = split(allowed ? allowed : "");
+  return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
+}
+
 std::vector<std::string> command_of(const ComparedColumn& column, int threads, int gpu) {
   std::vector<std::string> words = {"env"};
-  if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + std::to_string(gpu));
+  if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
   words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   words.insert(words.end(), column.words.begin(), column.words.end());
@@ -42,15 +51,28 @@ std::vector<std::string> command_of(const ComparedColumn& column, int threads, i
   return words;
 }
 
-void run_column(ComparedColumn& column, int threads, int gpu) {
-  fs::remove(column.folder / kAsked);
+// Why a run ended without having finished.
+std::string reason_of(const render::ProcessResult& result) {
+  if (!result.first_error_line.empty()) return result.first_error_line;
+  return result.exit_code < 0 ? "ended by a signal"
+                              : "ended with exit code " + std::to_string(result.exit_code);
+}
+
+void run_column(ComparedColumn& column, int threads, int gpu, bool go_on) {
+  std::error_code ignored;
+  fs::remove(column.folder / kAsked, ignored);
   const render::ProcessResult result = render::run_process(command_of(column, threads, gpu), "");
   column.manifest = json_or_none(column.folder / "manifest.json");
   if (!result.started) throw Error::machine("cannot start the run " + column.name);
+  if (go_on && result.exit_code != 0 && result.exit_code != 3) {
+    column.manifest = nullptr;  // of an earlier run
+    column.stopped = reason_of(result);
+    return;
+  }
   if (result.exit_code == 2) throw Error::request(column.name + ": " + result.first_error_line);
   if (result.exit_code != 0 && result.exit_code != 3)
     throw Error::machine(column.name + ": " + result.first_error_line);
-  if (result.exit_code == 3) column.stopped = result.first_error_line;
+  if (result.exit_code == 3) column.stopped = reason_of(result);
   AtomicFile file((column.folder / kAsked).string());
   file.stream() << asked(column).dump(2) << "\n";
   file.commit();
@@ -62,7 +84,8 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
                  const std::function<void(const ComparedColumn&)>& said) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores =
+      jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int at_once = std::min(static_cast<int>(columns.size()),
                                jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
   const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
@@ -73,7 +96,7 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
     if (column.kept)
       column.manifest = json_or_none(column.folder / "manifest.json");
     else
-      run_column(column, its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1);
+      run_column(column, its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1, jobs.go_on);
     const std::lock_guard lock(one_at_a_time);
     said(column);
   };

@@ -25,12 +25,14 @@ struct ColumnJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
-  bool gpu = true;  // may be used
-  int first = -1;   // a column that the others need: it ends before they start; -1: none
+  bool gpu = true;     // may be used
+  int first = -1;      // a column that the others need: it ends before they start; -1: none
+  int cores = 0;       // that they share; 0: all
+  bool go_on = false;  // a run that is wrong or fails is only marked as stopped
 };
 
 // `said` is called, one at a time, as columns end.  A run that cannot go on (exit code 3) keeps what it has;
-// Error::request and Error::machine if one of them is wrong or fails.
+// Error::request and Error::machine if one of them is wrong or fails, unless the jobs go on.
 void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
                  const std::function<void(const ComparedColumn&)>& said);
 

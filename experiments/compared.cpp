@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "experiments/error_words.h"
 #include "experiments/report_manifest.h"
 #include "experiments/studio.h"
 #include "render/color_map.h"
@@ -338,9 +339,11 @@ std::vector<std::string> numbers_of(const ComparedColumn& column) {
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest.is_object()) return lines;
   const Json metrics = column.manifest.value("metrics", Json::object());
-  for (const std::string& key : metrics_of(column))
+  for (const std::string& key : metrics_of(column)) {
     lines.push_back(metrics[key].is_string() ? split_unit(key).name + " " + metrics[key].get<std::string>()
                                              : metric_text(key, metrics[key].get<double>()));
+    if (is_headline(metrics, key)) lines.push_back(headline_words(metrics, key).errors);
+  }
   const Json seconds = column.manifest.value("wall_seconds", Json::object());
   const Json steps = column.manifest.value("steps", Json());
   double stepping = 0;

@@ -185,6 +185,7 @@ int drape(const CommandLine& line) {
   add_apparatus(setup.scene, choice);
   Session session(line, setup);
   if (session.only_explain()) return 0;
+  session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
 
   const float r = static_cast<float>(setup.scene.cloth.radius);
   Question question;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "experiments/errors.h"
+
 namespace hysteron::experiments {
 
 const std::vector<Experiment>& experiments() {
@@ -122,6 +124,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   }
   check_scene(setup.scene);
   check_options(setup.options);
+  if (setup.options.errors) check_errors(line.experiment);
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
   return setup;
 }

@@ -12,6 +12,7 @@
 #include "experiments/report.h"
 #include "experiments/run_words.h"
 #include "sim/bending/law_parameters.h"
+#include "sim/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -208,6 +209,8 @@ LawOutcome fold_law(const CommandLine& line, const Request& request) {
     std::cout << "the law alone: no cloth, nothing on a device\n";
     return {};
   }
+  if (request.setup.options.errors)
+    throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors");
   Json keys = to_json(scene);
   keys.update(request.keys);
   Run run(line, request.setup.options, keys);

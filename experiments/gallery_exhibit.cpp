@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/error_words.h"
 #include "experiments/gallery_about.h"
 #include "experiments/gallery_pictures.h"
 #include "experiments/report_manifest.h"
+#include "experiments/report_metrics.h"
 #include "experiments/report_page.h"
 #include "experiments/report_pictures.h"
 #include "experiments/word_table.h"
@@ -32,18 +34,22 @@ bool is_aside(const std::string& key) {
 std::string metrics_html(const Json& metrics, bool has_table) {
   Json first = Json::object(), others = Json::object();
   std::set<std::string> compared;  // laws, fabrics, problems
+  std::size_t cards = 0, more = 0;
   for (const auto& [key, value] : metrics.items()) {
     if (const std::size_t dot = key.rfind('.'); dot != key.npos) {
       compared.insert(key.substr(0, dot));
+    } else if (const std::string headline = headline_of(metrics, key); !headline.empty()) {
+      (first.contains(headline) ? first : others)[key] = value;
     } else {
-      (is_aside(key) || first.size() == kMostCards ? others : first)[key] = value;
+      const bool aside = is_aside(key) || cards == kMostCards;
+      ++(aside ? more : cards);
+      (aside ? others : first)[key] = value;
     }
   }
   std::string html = metric_cards(first);
   const bool said = has_table || (compared.size() == 1 && !first.empty());
   if (!compared.empty() && !said) html += html_details("Metrics", metric_table(metrics), true);
-  if (!others.empty())
-    html += html_details(counted(others.size(), "more metric"), metric_cards(others), false);
+  if (!others.empty()) html += html_details(counted(more, "more metric"), metric_cards(others), false);
   return html;
 }
 
@@ -147,7 +153,8 @@ std::string body_of(const Exhibit& exhibit) {
   }
   html += pictures_html(exhibit);
   if (!manifest.is_null())
-    html += metrics_html(manifest.value("metrics", Json::object()), !tables.html.empty());
+    html += metrics_html(manifest.value("metrics", Json::object()), !tables.html.empty()) +
+            missing_errors(manifest);
   html += series_charts(exhibit.folder, false) + tables.html + lists.html + parts_table(exhibit) + command;
   return html + "<p class=\"files\">" + links.substr(std::min(links.size(), std::string(" · ").size())) +
          "</p>\n";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/report_manifest.h"
+#include "experiments/report_metrics.h"
 #include "experiments/report_page.h"
 #include "experiments/report_pictures.h"
 #include "sim/atomic_file.h"
@@ -102,7 +103,8 @@ std::string report_page(const fs::path& folder) {
   const Json fabric = manifest.at("scene").value("fabric", Json::object());
   const Json metrics = manifest.value("metrics", Json::object());
   const std::string body =
-      heading(manifest) + html_section("Results", metric_cards(metrics) + metric_table(metrics)) +
+      heading(manifest) +
+      html_section("Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)) +
       html_section("Pictures", pictures(folder)) + html_section("Plots", plots(folder)) +
       html_section("Sequence", player(folder, kMostFrames)) +
       html_section("Time series", series_charts(folder, true)) +

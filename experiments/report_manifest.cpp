@@ -88,42 +88,4 @@ std::string program_of(const Json& manifest) {
          shown(program.at("commit")).substr(0, 12) + (program.value("dirty", false) ? ", modified" : "");
 }
 
-std::string metric_cards(const Json& metrics) {
-  std::string cards;
-  for (const auto& [key, value] : metrics.items()) {
-    if (key.find('.') != key.npos) continue;
-    const NamedUnit what = split_unit(key);
-    cards += "<div class=\"card\"><b>" + escaped(shown(value)) + " <small>" + escaped(what.unit) +
-             "</small></b><span>" + escaped(what.name) + "</span></div>\n";
-  }
-  return cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n";
-}
-
-std::string metric_table(const Json& metrics) {
-  std::vector<std::string> names, keys;
-  const auto once = [](std::vector<std::string>& known, const std::string& word) {
-    if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
-    return word;
-  };
-  std::map<std::pair<std::string, std::string>, std::string> cells;
-  for (const auto& [key, value] : metrics.items()) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == key.npos) continue;
-    cells[{once(names, key.substr(0, dot)), once(keys, key.substr(dot + 1))}] = shown(value);
-  }
-  if (names.empty()) return "";
-  std::vector<std::string> head = {""};
-  std::vector<std::size_t> numeric;
-  for (const std::string& key : keys) {
-    numeric.push_back(head.size());
-    head.push_back(split_unit(key).text());
-  }
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& name : names) {
-    rows.push_back({name});
-    for (const std::string& key : keys) rows.back().push_back(cells[{name, key}]);
-  }
-  return html_table(head, rows, numeric);
-}
-
 }  // namespace hysteron::experiments

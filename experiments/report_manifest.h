@@ -39,9 +39,4 @@ std::string state_badge(const Json& manifest);
 // "hysteron 0.1.0, commit 0123456789ab, modified"
 std::string program_of(const Json& manifest);
 
-// Metrics of the run itself.
-std::string metric_cards(const Json& metrics);
-// Metrics of several laws or fabrics, "prandtl.2HB_N": a row for each, a column for each metric.  "" if none.
-std::string metric_table(const Json& metrics);
-
 }  // namespace hysteron::experiments

@@ -46,6 +46,9 @@ class Run {
   void note(const std::string& key, Json value);
   // A result.  Its name ends in its unit, counts and booleans excepted: "drape_coefficient_percent".
   void metric(const std::string& name, Json value);
+  const Json& metrics() const { return metrics_; }
+  // What was noted under that key; null if nothing was.
+  Json noted(const std::string& key) const { return entries_.value(key, Json()); }
   // The ledger's closing balance, term by term [J].
   void energy(const std::vector<std::pair<std::string, double>>& terms);
 
@@ -75,6 +78,9 @@ class Run {
   // A line of progress on stderr, unless --quiet.
   void progress(const std::string& line) const;
 
+  // Writes what is known so far, as of a run that is not complete: work that follows may be interrupted.
+  // Throws Error::machine.
+  void keep() const { write_manifest(false); }
   // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::machine.
   void finish();
 

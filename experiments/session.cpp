@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "experiments/errors.h"
 #include "experiments/report.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/recovery.h"
@@ -84,7 +85,8 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
 }
 
 Session::Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth)
-    : setup_(checked(setup)),
+    : line_(line),
+      setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
       simulation_(make_simulation(setup.scene, cloth_)),
       rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)) {
@@ -244,6 +246,7 @@ void Session::finish(const std::string& title) {
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene);
   run_->path("report.html");
+  if (setup_.options.errors) measure_errors(*run_, line_, setup_);
   run_->finish();
   write_report(run_->folder());
 }

@@ -69,6 +69,7 @@ class Session {
   void note_folds();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 
+  CommandLine line_;
   Setup setup_;
   Cloth cloth_;
   std::unique_ptr<Simulation> simulation_;
