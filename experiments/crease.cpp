@@ -32,7 +32,7 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   scene.integrator = "quasi-static";
-  scene.step = 1.0 / 240;
+  scene.step = 1.0 / 60;
   scene.self_contact = true;
   scene.cloth.length = 0.04;
   scene.cloth.width = 0.015;
@@ -45,6 +45,12 @@ Setup defaults() {
   setup.options.camera_direction = {0.25, -1.0, 0.2};
   setup.options.camera_fov = 22;
   return setup;
+}
+
+// A quick release needs inertia, and steps whose own damping is small beside the fabric's.
+void let_go_quickly(Scene& scene) {
+  if (!scene.origin.contains("integrator")) scene.integrator = "bdf2";
+  if (!scene.origin.contains("step")) scene.step = 1.0 / 960;
 }
 
 // What came of one law.
@@ -116,6 +122,7 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 Recovered crease_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  if (choice.release == "quick") let_go_quickly(setup.scene);
   const bool pressed = choice.fold == "plate";
   const double plate = !pressed                ? 0.0
                        : setup.options.explain ? 2 * setup.scene.fabric.thickness

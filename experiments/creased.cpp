@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kGrip = 0.2;     // of the specimen's length, at either end
 constexpr double kFine = 0.075;   // of its length on either side of the crease
-constexpr double kFinest = 0.8;   // elements there, in thicknesses
+constexpr double kFinest = 0.8;   // elements there, in thicknesses, for up to kCoarse triangles
+constexpr int kCoarse = 500;      // more triangles are smaller in both directions
 constexpr double kGrowth = 1.25;  // of columns from there on
-constexpr double kWidest = 0.05;  // column, of the length
+constexpr double kWidest = 0.05;  // column, of the length, likewise
 constexpr double kLoop = 0.1;     // radius of the hand's turn, of the length
 constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3;  // durations [s]
 constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
@@ -25,11 +26,12 @@ constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
 constexpr double kRise = 0.04;   // of the plate [m]
 
 // Column lines from the crease outwards to half the length, mirrored.
-std::vector<double> columns(double length, double thickness, double fine) {
+std::vector<double> columns(double length, double thickness, double fine, int triangles) {
+  const double finer = std::min(1.0, std::sqrt(static_cast<double>(kCoarse) / triangles));
   std::vector<double> half{0};
-  double step = kFinest * thickness;
+  double step = finer * kFinest * thickness;
   while (half.back() < length / 2) {
-    if (half.back() >= fine) step = std::min(step * kGrowth, kWidest * length);
+    if (half.back() >= fine) step = std::min(step * (1 + finer * (kGrowth - 1)), finer * kWidest * length);
     half.push_back(half.back() + step);
   }
   for (double& x : half) x *= length / 2 / half.back();
@@ -43,7 +45,7 @@ std::vector<double> columns(double length, double thickness, double fine) {
 
 ClothMesh crease_specimen(const Scene& scene, double fine) {
   const double length = scene.cloth.length, width = scene.cloth.width;
-  const std::vector<double> line = columns(length, scene.fabric.thickness, fine);
+  const std::vector<double> line = columns(length, scene.fabric.thickness, fine, scene.triangles);
   const int nx = static_cast<int>(line.size()) - 1;
   const int ny = 2 * std::max(1, static_cast<int>(std::lround(scene.triangles / (4.0 * nx))));
   ClothMesh mesh = make_grid(length, width, nx, ny, MeshFamily::unionjack, scene.seed);
@@ -179,12 +181,16 @@ double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
   const Crease crease = creased(scene, choice, lowest);
   const auto simulation = make_simulation(crease.scene, crease.cloth);
   const Obstacle& plate = crease.scene.obstacle[1];
+  double before = 0, above = 0;  // force at the end of the step before, and where the underside was then
   while (simulation->time() < crease.times.pressed) {
     simulation->advance(1);
     const double time = simulation->time();
-    if (time <= crease.times.folded + kSettle) continue;
-    if (crease.plate_force(simulation->positions(), time) >= choice.force)
-      return placement(plate.motion, time)(plate.center).z() - plate.size.z();
+    const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
+    const double force =
+        time > crease.times.folded + kSettle ? crease.plate_force(simulation->positions(), time) : 0;
+    if (force >= choice.force)
+      return above + (underside - above) * (choice.force - before) / (force - before);
+    before = force, above = underside;
   }
   throw Error::run("crease: the plate reaches the plane before it bears " + std::to_string(choice.force) +
                    " N: take a smaller force");
