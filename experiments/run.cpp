@@ -64,6 +64,21 @@ void make_folder(const fs::path& folder) {
   if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
 }
 
+struct FirstRun {
+  bool started = false;
+  fs::path folder;
+};
+
+FirstRun& first_run() {
+  static FirstRun run;
+  return run;
+}
+
+void remember_first(const fs::path& folder, bool json) {
+  if (!first_run().started && !json) first_run().folder = folder;
+  first_run().started = true;
+}
+
 }  // namespace
 
 std::string program_version() {
@@ -75,6 +90,7 @@ Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options,
 Run::Run(const CommandLine& line, const Options& options, const Json& keys)
     : folder_(options.out), json_(options.json), quiet_(options.quiet), entries_(first_entries(line, keys)) {
   make_folder(folder_);
+  remember_first(folder_, json_);
   remove_earlier_run(folder_);
   write_manifest(false);
 }
@@ -88,6 +104,8 @@ Run::~Run() {
     std::cerr << "hysteron: " << error.what() << std::endl;
   }
 }
+
+const fs::path& Run::first_folder() { return first_run().folder; }
 
 fs::path Run::path(const std::string& name) {
   const fs::path file = folder_ / name;

@@ -33,6 +33,9 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
+  // Of the first run of this process, which was asked for; those of its parts lie in it.  "": none, or its
+  // manifest goes to stdout.
+  static const std::filesystem::path& first_folder();
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
   // in the manifest.
   std::filesystem::path path(const std::string& name);
@@ -42,6 +45,7 @@ class Run {
   void note(const std::string& key, Json value);
   // A result.  Its name ends in its unit, counts and booleans excepted: "drape_coefficient_percent".
   void metric(const std::string& name, Json value);
+  const Json& metrics() const { return metrics_; }
   // The ledger's closing balance, term by term [J].
   void energy(const std::vector<std::pair<std::string, double>>& terms);
 

@@ -59,6 +59,7 @@ class Session {
  private:
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);
+  std::string opening_words() const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
