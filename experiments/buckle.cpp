@@ -143,6 +143,8 @@ void plot(Session& session, const Table& table, const Southwell& found, double r
 
 }  // namespace
 
+Setup buckle_defaults() { return defaults(); }
+
 std::vector<KeyDescription> buckle_keys() {
   B choice;
   return descriptions(bind(kRows, choice));

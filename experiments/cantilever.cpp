@@ -68,6 +68,8 @@ void plot(Session& session) {
 
 }  // namespace
 
+Setup cantilever_defaults() { return defaults(); }
+
 std::vector<KeyDescription> cantilever_keys() {
   C choice;
   return descriptions(bind(kRows, choice));

@@ -284,9 +284,12 @@ int compare(const CommandLine& line) {
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
-  run_columns(plan.columns, jobs, [&](const ComparedColumn& c) {
-    run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
-  });
+  run_columns(
+      plan.columns, jobs,
+      [&](const ComparedColumn& c) {
+        run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
+      },
+      [&](const std::string& line) { run.progress(line); });
   write_table(run, plan);
   if (!options.no_images) {
     const ComparedPage page{title_of(line, plan.columns),

@@ -157,6 +157,8 @@ void draw_maps(Session& session) {
 
 }  // namespace
 
+Setup drape_defaults() { return defaults(); }
+
 std::vector<KeyDescription> drape_keys() {
   DrapeChoice choice;
   return descriptions(bind(kRows, choice));

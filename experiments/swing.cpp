@@ -117,6 +117,8 @@ std::vector<FigureCaption> captions_of(const Scene& scene) {
 
 }  // namespace
 
+Setup swing_defaults() { return defaults(); }
+
 int swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults());
   if (setup.options.quick) {
