@@ -159,6 +159,8 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
 
 }  // namespace
 
+Setup bench_defaults() { return defaults(); }
+
 std::vector<KeyDescription> bench_keys() {
   BenchOptions own;
   return descriptions(bind(kRows, own));

@@ -146,6 +146,8 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 
 }  // namespace
 
+Setup buckle_defaults() { return defaults(); }
+
 std::vector<KeyDescription> buckle_keys() {
   B choice;
   return descriptions(bind(kRows, choice));

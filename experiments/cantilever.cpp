@@ -70,6 +70,8 @@ void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene
 
 }  // namespace
 
+Setup cantilever_defaults() { return defaults(); }
+
 std::vector<KeyDescription> cantilever_keys() {
   C choice;
   return descriptions(bind(kRows, choice));

@@ -1,9 +1,15 @@
 #include "experiments/columns.h"
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <mutex>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "experiments/comma_list.h"
 #include "experiments/json_file.h"
@@ -78,10 +84,81 @@ void run_column(ComparedColumn& column, int threads, int gpu, bool go_on) {
   file.commit();
 }
 
+// The last whole line of a table that grows; "" before it has a row.
+std::string last_row(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string last, line;
+  std::getline(stream, line);  // the head
+  while (std::getline(stream, line) && !stream.eof()) last = line;
+  return last;
+}
+
+// Says every few seconds how far the columns are that run, where that has changed, until its end.
+class Watch {
+ public:
+  Watch(const std::vector<ComparedColumn>& columns, const std::function<void(const std::string&)>& say)
+      : columns_(columns), say_(say), thread_([this] { run(); }) {}
+  ~Watch() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  void begin(std::size_t column) {
+    const std::lock_guard lock(mutex_);
+    running_.insert(column);
+  }
+  void end(std::size_t column) {
+    const std::lock_guard lock(mutex_);
+    running_.erase(column);
+  }
+
+ private:
+  void run() {
+    constexpr auto kInterval = std::chrono::seconds(2);
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, kInterval, [this] { return ended_; })) {
+      std::vector<std::string> words;
+      for (const std::size_t column : running_) {
+        const std::string so_far = progress_in(columns_[column].folder);
+        if (!so_far.empty()) words.push_back(columns_[column].name + " " + so_far);
+      }
+      const std::string line = join(words, ", ");
+      if (!line.empty() && line != std::exchange(said_, line)) say_(line);
+    }
+  }
+
+  const std::vector<ComparedColumn>& columns_;
+  const std::function<void(const std::string&)>& say_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::set<std::size_t> running_;
+  std::string said_;
+  bool ended_ = false;
+  std::thread thread_;  // the last: it reads the others
+};
+
 }  // namespace
 
+std::string progress_in(const fs::path& folder) {
+  const std::string row = last_row(folder / "metrics.csv.part");
+  const Json manifest = json_or_none(folder / "manifest.json");
+  if (row.empty() || !manifest.is_object()) return "";
+  const Json all = manifest.value("scene", Json::object()).value("seconds", Json());
+  if (!all.is_number()) return "";
+  char text[60];
+  std::snprintf(text, sizeof text, "%.2f/%.4g s", std::strtod(row.c_str(), nullptr), all.get<double>());
+  return text;
+}
+
 void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
-                 const std::function<void(const ComparedColumn&)>& said) {
+                 const std::function<void(const ComparedColumn&)>& said,
+                 const std::function<void(const std::string&)>& progress) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
   const int cores =
@@ -90,13 +167,23 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
                                jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
   const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
   std::mutex one_at_a_time;
+  const std::function<void(const std::string&)> say = [&](const std::string& line) {
+    const std::lock_guard lock(one_at_a_time);
+    progress(line);
+  };
+  Watch watch(columns, say);
+  const auto watched = [&](std::size_t i, int its_threads) {
+    watch.begin(i);
+    run_column(columns[i], its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1, jobs.go_on);
+    watch.end(i);
+  };
   const auto finish = [&](std::size_t i, int its_threads) {
     ComparedColumn& column = columns[i];
     column.kept = jobs.resume && is_finished(column);
     if (column.kept)
       column.manifest = json_or_none(column.folder / "manifest.json");
     else
-      run_column(column, its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1, jobs.go_on);
+      watched(i, its_threads);
     const std::lock_guard lock(one_at_a_time);
     said(column);
   };

@@ -31,9 +31,14 @@ struct ColumnJobs {
   bool go_on = false;  // a run that is wrong or fails is only marked as stopped
 };
 
-// `said` is called, one at a time, as columns end.  A run that cannot go on (exit code 3) keeps what it has;
-// Error::request and Error::machine if one of them is wrong or fails, unless the jobs go on.
+// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first moment.
+std::string progress_in(const std::filesystem::path& folder);
+
+// `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,
+// where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::request and
+// Error::machine if one of them is wrong or fails, unless the jobs go on.
 void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
-                 const std::function<void(const ComparedColumn&)>& said);
+                 const std::function<void(const ComparedColumn&)>& said,
+                 const std::function<void(const std::string&)>& progress);
 
 }  // namespace hysteron::experiments

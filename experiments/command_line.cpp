@@ -9,6 +9,7 @@
 
 #include "experiments/run.h"
 #include "sim/error.h"
+#include "sim/scene/keys.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -25,16 +26,24 @@ std::vector<KeyDescription> keys_of(const Experiment& experiment) {
   std::vector<KeyDescription> keys;
   if (experiment.own_keys) keys = experiment.own_keys();
   if (!experiment.simulates) return keys;
-  Options options;
-  for (const KeyDescription& key : descriptions(bind_options(options))) keys.push_back(key);
-  for (const KeyDescription& key : scene_keys()) keys.push_back(key);
+  Setup setup{default_scene(), {}};
+  if (experiment.defaults) setup = experiment.defaults();
+  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
+  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
+  for (KeyDescription& key : general) {
+    if (!experiment.defaults) key.usual.clear();
+    keys.push_back(std::move(key));
+  }
   return keys;
 }
 
+// "radius of the pedestal [m], > 0, default 0.09"
 std::string help_of(const KeyDescription& key) {
   std::string text = key.doc;
   if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
   if (!key.unit.empty()) text += " [" + key.unit + "]";
+  if (key.range.text() != "finite") text += ", " + key.range.text();
+  if (!key.usual.empty()) text += ", default " + key.usual;
   return text;
 }
 

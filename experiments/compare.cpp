@@ -308,9 +308,12 @@ int compare(const CommandLine& line) {
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
-  run_columns(plan.columns, jobs, [&](const ComparedColumn& c) {
-    run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
-  });
+  run_columns(
+      plan.columns, jobs,
+      [&](const ComparedColumn& c) {
+        run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
+      },
+      [&](const std::string& line) { run.progress(line); });
   write_table(run, plan);
   if (!options.no_images) {
     const ComparedPage page{title_of(line, plan.columns),

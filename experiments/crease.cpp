@@ -191,6 +191,8 @@ int crease_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
 
 }  // namespace
 
+Setup crease_defaults() { return defaults(); }
+
 std::vector<KeyDescription> crease_keys() {
   C choice;
   return descriptions(bind(kRows, choice));

@@ -178,6 +178,8 @@ int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
 
 }  // namespace
 
+Setup crumple_defaults() { return defaults(); }
+
 std::vector<KeyDescription> crumple_keys() {
   C choice;
   return descriptions(bind(kRows, choice));

@@ -172,6 +172,8 @@ void limit_to_quick(Setup& setup) {
 
 }  // namespace
 
+Setup drape_defaults() { return defaults(); }
+
 std::vector<KeyDescription> drape_keys() {
   DrapeChoice choice;
   return descriptions(bind(kRows, choice));

@@ -21,12 +21,16 @@ struct CommandLine {
 // What the last flag of that path says; `otherwise` without one.
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
 
+struct Setup;
+
 struct Experiment {
   const char* name;
   const char* question;                      // one line for --help
   int (*run)(const CommandLine&) = nullptr;  // returns the exit code; null: announced, not built yet
   bool simulates = false;                    // takes the keys of scenes and Options
   std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
+  Setup (*defaults)() =
+      nullptr;             // of an experiment that simulates, for --help; null: they depend on the flags
   const char* names = "";  // what CommandLine::names are ("DIR"); "": not allowed
 };
 
@@ -76,6 +80,15 @@ int render_files(const CommandLine& line);
 int report(const CommandLine& line);
 int stability(const CommandLine& line);
 int validate(const CommandLine& line);
+
+Setup drape_defaults();
+Setup swing_defaults();
+Setup crease_defaults();
+Setup fold_defaults();
+Setup crumple_defaults();
+Setup cantilever_defaults();
+Setup buckle_defaults();
+Setup bench_defaults();
 
 std::vector<KeyDescription> crease_keys();
 std::vector<KeyDescription> fold_keys();

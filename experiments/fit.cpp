@@ -214,14 +214,16 @@ int fit(const CommandLine& line) {
   const Answer answer = identify(flags);
 
   Run run(line, flags.options, to_json(keys));
-  report_fits(run, answer.fits,
-              {flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)});
+  const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
+  report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
   run.path("report.html");
   run.finish();
   write_report(run.folder());
   if (!flags.options.json) {
-    std::cout << summary(answer.fits) << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
+    std::cout << summary(answer.fits);
+    for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
+    std::cout << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
   }
   return 0;
 }

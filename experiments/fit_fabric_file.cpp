@@ -25,14 +25,31 @@ std::string entry(const std::string& name, double value, const std::string& unit
   return text + ", source = " + quoted(from.source) + ", confidence = " + quoted(from.confidence) + "}\n";
 }
 
+std::string borrowed_from(const Fabric& fabric) {
+  return "not measured, not this fabric's: that of " + fabric.name + ", the program's default";
+}
+
 std::string given_or_default(const std::string& name, const std::optional<double>& given, double otherwise,
                              const std::string& unit) {
-  const Estimate from{0, kNone, true, given ? "given to the fit" : "not measured: the program's default",
-                      given ? "published" : "assumed"};
+  const Estimate from{0, kNone, true,
+                      given ? "given by hand to the fit, --fabric." + name : borrowed_from(Fabric()),
+                      given ? "given" : "assumed"};
   return entry(name, given.value_or(otherwise), unit, from);
 }
 
 }  // namespace
+
+std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
+  const Fabric usual;
+  std::vector<std::string> lines;
+  const auto warn = [&](const std::string& name, double value, const std::string& unit) {
+    lines.push_back("WARNING: " + name + " was not given: fabric.toml holds that of ANOTHER fabric, " +
+                    usual.name + ", " + number_text(value) + " " + unit + "; give --fabric." + name);
+  };
+  if (!notes.density) warn("density", usual.density, "kg/m^2");
+  if (!notes.thickness) warn("thickness", usual.thickness, "m");
+  return lines;
+}
 
 void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
   const std::vector<std::string> open = found.undetermined();
@@ -40,6 +57,7 @@ void write_fabric(const std::filesystem::path& file, const Identification& found
                      (open.empty() ? "determine b1, b2 and k0" : "do not determine " + join(open, ", ")) +
                      ".\n";
   for (const std::string& statement : found.statements) text += "# - " + statement + "\n";
+  for (const std::string& warning : borrowed_warnings(notes)) text += "# - " + warning + "\n";
   text +=
       "name = " + quoted(notes.name) + "\ndescription = " + quoted("identified from " + notes.from) + "\n";
   text += "\n[parameters]\n" + entry("b1", found.b1.value, "N m", found.b1) +

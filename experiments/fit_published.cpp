@@ -47,8 +47,9 @@ void set_determined(const Eigen::Matrix3d& derivatives, Identification& result) 
   result.k0.determined = is_determined(errors[2]);
 }
 
-Estimate printed(const Measured& number, const std::string& source) {
-  return {number.value, number.standard_error, true, source, "published"};
+// On the command line, or as the mean of a file of specimens.
+Estimate given(const Measured& number, const std::string& source) {
+  return {number.value, number.standard_error, true, source + ", given to the fit", "given"};
 }
 
 void say_no_errors(const Identification& result, std::vector<std::string>& statements) {
@@ -81,7 +82,7 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
   const double b1 = numbers.b1.value, c1 = numbers.c1.value, b2 = assumptions.ratio * b1;
   Identification result;
   result.law = "prandtl";
-  result.b1 = printed(numbers.b1, "virgin curve M = b1 K + c1 K^2");
+  result.b1 = given(numbers.b1, "virgin curve M = b1 K + c1 K^2");
   result.b2 = {b2, kNone, false, assumptions.ratio_source(), "assumed"};
   result.k0 = {
       (b2 - b1) / (2 * c1), kNone, false,
@@ -171,8 +172,8 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   const double b1 = b + numbers.two_hb.value / k0;
   Identification result;
   result.law = "prandtl";
-  result.b2 = printed(numbers.b, "B of KES-FB2");
-  result.k0 = known ? printed(numbers.k0, "given with B and 2HB")
+  result.b2 = given(numbers.b, "B of KES-FB2");
+  result.k0 = known ? given(numbers.k0, "k0 with B and 2HB")
                     : Estimate{k0, kNone, false, assumptions.k0_source(), "assumed"};
   result.b1 = {b1, known ? stiffness_error(numbers, k0) : kNone, known,
                "b1 = B + 2HB/k0, so that the friction moment (b1 - b2) k0/2 is HB; k0 " + result.k0.source,

@@ -15,8 +15,11 @@ namespace hysteron::experiments {
 struct FabricNotes {
   std::string name;                          // of the fabric
   std::string from;                          // one line: what it was identified from
-  std::optional<double> density, thickness;  // [kg/m^2], [m]; none: the program's default, marked as assumed
+  std::optional<double> density, thickness;  // [kg/m^2], [m]; none: another fabric's, marked as assumed
 };
+
+// A line for each number of the fabric's file that is another fabric's, because none was given.
+std::vector<std::string> borrowed_warnings(const FabricNotes& notes);
 
 // A file for read_fabric(); standard errors as `stderr` beside the values.
 void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes);

@@ -278,6 +278,8 @@ int fold_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
 
 }  // namespace
 
+Setup fold_defaults() { return defaults(); }
+
 std::vector<KeyDescription> fold_keys() {
   C choice;
   return descriptions(bind(kRows, choice));

@@ -2,8 +2,10 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 
+#include "experiments/closing_words.h"
 #include "experiments/command_line.h"
 #include "sim/error.h"
 
@@ -31,20 +33,30 @@ int fail(const std::string& experiment, const std::string& message, int exit_cod
   return exit_code;
 }
 
+// With --json stdout is for JSON alone.
+void say_last_words(const std::optional<CommandLine>& line) {
+  if (!line || Run::first_folder().empty() || last_text(line->flags, "json", "") == "true") return;
+  std::cout << closing_words(Run::first_folder()) << std::flush;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   std::string experiment;
+  std::optional<CommandLine> line;
   try {
-    const std::optional<CommandLine> line = parse_command_line(count, words);
+    line = parse_command_line(count, words);
     if (!line) return 0;
     experiment = line->experiment;
     const Experiment& chosen = experiment_named(experiment);
     if (!chosen.run) throw Error::request("not built yet");
     const int exit_code = chosen.run(*line);
+    say_last_words(line);
     if (!std::cout.flush()) throw Error::machine("cannot write to standard output");
     return exit_code;
   } catch (const Error& error) {
+    constexpr int kCouldNotGoOn = 3;  // what was written so far is kept
+    if (error.exit_code() == kCouldNotGoOn) say_last_words(line);
     return fail(experiment, error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
     return fail(experiment, "out of memory; use fewer triangles (--triangles)", 1);

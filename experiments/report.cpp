@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/closing_words.h"
 #include "experiments/report_manifest.h"
 #include "experiments/report_metrics.h"
 #include "experiments/report_page.h"
@@ -16,6 +17,12 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr int kMostFrames = 24;  // more would make a page of many megabytes
 
+// A cloth that still moves has no shape that could be measured: the page says so before any number.
+std::string unrest(const Json& manifest) {
+  const std::string words = unrest_words(manifest.value("metrics", Json::object()));
+  return words.empty() ? "" : "<p><span class=\"state bad\">" + escaped(words) + "</span></p>\n";
+}
+
 std::string heading(const Json& manifest) {
   const Json& scene = manifest.at("scene");
   const std::string fabric = fabric_name(manifest);
@@ -24,7 +31,7 @@ std::string heading(const Json& manifest) {
     if (scene.contains(key)) about += std::string(key) + " " + shown(scene[key]) + " · ";
   }
   return "<h1>" + escaped(manifest.value("experiment", "run") + (fabric.empty() ? "" : ": " + fabric)) + " " +
-         state_badge(manifest) + "</h1>\n<p class=\"about\">" +
+         state_badge(manifest) + "</h1>\n" + unrest(manifest) + "<p class=\"about\">" +
          escaped(about + manifest.value("started", "") + " · " + program_of(manifest)) + "</p>\n<pre>" +
          escaped(manifest.value("command", "")) + "</pre>\n";
 }

@@ -40,6 +40,21 @@ Json first_entries(const CommandLine& line, const Json& scene) {
   return entries;
 }
 
+struct FirstRun {
+  bool started = false;
+  fs::path folder;
+};
+
+FirstRun& first_run() {
+  static FirstRun run;
+  return run;
+}
+
+void remember_first(const fs::path& folder, bool json) {
+  if (!first_run().started && !json) first_run().folder = folder;
+  first_run().started = true;
+}
+
 }  // namespace
 
 std::string program_version() {
@@ -53,6 +68,7 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys)
       json_(options.json),
       quiet_(options.quiet),
       entries_(first_entries(line, keys)) {
+  remember_first(folder(), json_);
   write_manifest(false);
 }
 
@@ -65,6 +81,8 @@ Run::~Run() {
     std::cerr << "hysteron: " << error.what() << std::endl;
   }
 }
+
+const fs::path& Run::first_folder() { return first_run().folder; }
 
 fs::path Run::path(const std::string& name) {
   if (std::count(files_.begin(), files_.end(), name)) return folder() / name;

@@ -34,6 +34,9 @@ class Run {
   Run& operator=(const Run&) = delete;
 
   const std::filesystem::path& folder() const { return folder_.path(); }
+  // Of the first run of this process, which was asked for; those of its parts lie in it.  "": none, or its
+  // manifest goes to stdout.
+  static const std::filesystem::path& first_folder();
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
   // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
   // sequence the first file stands for all.  Throws Error::request where it would replace another's file.

@@ -28,13 +28,5 @@ case $1 in
   list | law | fit | diff | report) exec "$build_folder/hysteron" "$@" ;;
 esac
 
-out=$(out_of "$@")
-if [[ -z $out ]]; then
-  out=$root/out/$1
-  set -- "$@" --out "$out"
-fi
-"$build_folder/hysteron" "$@"
-
-for place in "frames|picture sequence" "sheet.png|contact sheet" "report.html|report"; do
-  [[ ! -e $out/${place%%|*} ]] || say "$(printf '%-17s' "${place#*|}:") $out/${place%%|*}"
-done
+[[ -n $(out_of "$@") ]] || set -- "$@" --out "$root/out/$1"
+exec "$build_folder/hysteron" "$@"

@@ -61,10 +61,11 @@ class Session {
  private:
   // A moment of the series: its row, pictures and checks.
   Moment record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
-                double fastest);
+                double fastest, const std::string& left);
   bool find_rest(const Question& question, Record& series);
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);
+  std::string opening_words() const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);

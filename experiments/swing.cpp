@@ -123,6 +123,8 @@ void limit_to_quick(Setup& setup) {
 
 }  // namespace
 
+Setup swing_defaults() { return defaults(); }
+
 int swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
   const float length = static_cast<float>(setup.scene.cloth.length),

@@ -10,6 +10,8 @@
 namespace hysteron::render {
 namespace {
 
+thread_local std::size_t pixels_read = 0;
+
 // Which source pixels one target pixel covers along a side, and how much of each.
 struct Footprint {
   int first;
@@ -34,6 +36,7 @@ std::vector<Footprint> footprints(int source, int target) {
 // first, then along x.
 std::vector<float> summed_columns(const Image& source, const Footprint& rows) {
   std::vector<float> sums(source.row_bytes(), 0.0f);
+  pixels_read += rows.weights.size() * static_cast<std::size_t>(source.width());
   const auto& linear = linear_of_srgb8();
   for (size_t k = 0; k < rows.weights.size(); ++k) {
     const std::uint8_t* row = source.at(0, rows.first + static_cast<int>(k));
@@ -84,6 +87,8 @@ void paste(Image& target, const Image& source, int x, int y) {
         to[c] = static_cast<std::uint8_t>((alpha * from[c] + (255 - alpha) * to[c] + 127) / 255);
     }
 }
+
+std::size_t pixels_shrunk() { return pixels_read; }
 
 Image shrink(const Image& source, int width, int height) {
   if (width > source.width() || height > source.height())

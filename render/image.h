@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -48,6 +49,8 @@ void paste(Image& target, const Image& source, int x, int y);
 // Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;
 // Error::request if a side grows.
 Image shrink(const Image& source, int width, int height);
+// Pixels that shrink() has read on this thread so far: what a page of pictures costs, on any machine.
+std::size_t pixels_shrunk();
 
 enum class PngEffort {
   fast,  // UP filter, zlib level 1: sequences (about five times faster than zlib's default)

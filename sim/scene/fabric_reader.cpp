@@ -11,7 +11,7 @@
 namespace hysteron {
 namespace {
 
-const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "assumed"};
+const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "given", "assumed"};
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
 
 struct Reader {

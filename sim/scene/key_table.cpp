@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -149,6 +150,22 @@ void split_choices(const char* text, KeyDescription& key) {
   }
 }
 
+// Numbers with four digits; "" for what is not set.
+std::string usual_text(const Field& field) {
+  const auto rounded = [](double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", x);
+    return std::isfinite(x) ? std::string(text) : "";
+  };
+  return std::visit(
+      Overload{
+          [](bool*) { return std::string(); }, [](int* x) { return std::to_string(*x); },
+          [](unsigned* x) { return std::to_string(*x); }, [&](double* x) { return rounded(*x); },
+          [&](Eigen::Vector3d* v) { return rounded(v->x()) + " " + rounded(v->y()) + " " + rounded(v->z()); },
+          [](std::string* x) { return *x; }, [](Parameters*) { return std::string(); }},
+      field);
+}
+
 }  // namespace
 
 std::string Range::text() const {
@@ -162,7 +179,7 @@ std::string Range::text() const {
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,
                         const char* choices, const char* doc) {
-  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc};
+  KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, usual_text(field)};
   split_choices(choices, key);
   return key;
 }

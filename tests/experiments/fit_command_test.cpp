@@ -84,10 +84,24 @@ TEST_F(Fit, WritesAFabricThatIsReadBackWithItsStandardErrors) {
 TEST_F(Fit, MarksWhatItAssumesInTheFabric) {
   ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}}), 0);
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
-  EXPECT_EQ(fabric.provenance.at("b2").confidence, "published");
+  EXPECT_EQ(fabric.provenance.at("b2").confidence, "given");
   EXPECT_EQ(fabric.provenance.at("k0").confidence, "assumed");
   EXPECT_EQ(metrics().at("undetermined"), (Json{"b1", "k0"}));
   EXPECT_TRUE(metrics().at("k0_per_m_stderr").is_null());
+}
+
+TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
+  ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}, {"fabric.density", "0.2"}}), 0);
+  const std::string file = text_of(out() / "fabric.toml");
+  for (const std::string& text : {said_, file}) {
+    EXPECT_NE(text.find("WARNING: thickness was not given"), std::string::npos) << text;
+    EXPECT_NE(text.find("ANOTHER fabric, cotton-broad"), std::string::npos) << text;
+    EXPECT_EQ(text.find("WARNING: density"), std::string::npos) << text;
+  }
+  const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
+  EXPECT_EQ(fabric.provenance.at("density").confidence, "given");
+  EXPECT_EQ(fabric.provenance.at("thickness").confidence, "assumed");
+  EXPECT_NE(fabric.provenance.at("thickness").source.find("cotton-broad"), std::string::npos);
 }
 
 TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {

@@ -1,5 +1,6 @@
 // The program as a script meets it: exit codes, one line on stderr, results on stdout.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "experiments/experiments.h"
@@ -160,6 +161,20 @@ TEST(Program, TestsALawInTheStepsThatAreAskedForThoughItIsQuick) {
                 .exit_code,
             0);
   EXPECT_EQ(Json::parse(text_of(folder.path() / "k" / "manifest.json"))["scene"]["steps"], 1234);
+}
+
+TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
+  std::string help = program("drape --help").out;
+  help.erase(std::unique(help.begin(), help.end(),
+                         [](char a, char b) { return std::isspace(a) && std::isspace(b); }),
+             help.end());
+  std::replace(help.begin(), help.end(), '\n', ' ');
+  for (const char* part :
+       {"radius of the pedestal [m], > 0, default 0.09", "lowered | dropped, default lowered",
+        "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default bdf2"})
+    EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
+  EXPECT_NE(program("swing --help").out.find("default 1000"), std::string::npos)
+      << "its own number of triangles";
 }
 
 TEST(Program, DrivesALawThroughAFileOfCurvatures) {

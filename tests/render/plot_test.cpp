@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "render/image.h"
 #include "render/process.h"
@@ -132,13 +133,33 @@ TEST_F(PlotTest, WhatGnuplotCannotDrawFailsInOneLineAndLeavesNothing) {
   EXPECT_TRUE(folder_.names().empty());
 }
 
-// Without fonts gnuplot draws a picture without a letter and ends well.
+// Sets an environment variable until its end.
+class Setting {
+ public:
+  Setting(const char* name, const std::string& value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value.c_str(), 1);
+  }
+  ~Setting() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_{};
+};
+
+// A configuration that lists no folder of fonts and includes no other one, so that nothing of this machine or
+// user is found.  gnuplot then draws a picture without a letter and ends well.
 TEST_F(PlotTest, WithoutFontsIsRefused) {
-  setenv("FONTCONFIG_FILE", "/nonexistent", 1);
+  const ScratchFolder own;
+  std::ofstream(own.file("fonts.conf"))
+      << "<fontconfig><cachedir>" << own.file("cache") << "</cachedir></fontconfig>\n";
+  const Setting file("FONTCONFIG_FILE", own.file("fonts.conf"));
   const Error error = error_of([&] { write_plot(folder_.file("p"), parabola()); });
-  unsetenv("FONTCONFIG_FILE");
   EXPECT_EQ(error.exit_code(), 1);
-  EXPECT_NE(std::string(error.what()).find("fonts-dejavu-core"), std::string::npos);
+  EXPECT_NE(std::string(error.what()).find("fonts-dejavu-core"), std::string::npos) << error.what();
+  EXPECT_TRUE(folder_.names().empty());
 }
 
 TEST(Plot, MissingGnuplotNamesThePackage) {
