@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/pictures.h"
+#include "experiments/recoveries.h"
 #include "experiments/run.h"
 #include "render/camera.h"
 #include "render/plot.h"
@@ -69,6 +70,7 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
+  Recoveries recoveries_;
   long intersections_ = 0;  // pairs of triangles, of all recorded moments
   double folded_ = 0;       // largest share of sharply folded edges
 };
