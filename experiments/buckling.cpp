@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "experiments/clamped_mesh.h"
+#include "experiments/overhang.h"
 #include "sim/bending/law_run.h"
 #include "sim/error.h"
 
@@ -28,8 +30,20 @@ double stiffness_at_rest(const Scene& scene) {
   return run.moment[1] / (kSmall * scene.fabric.b2);
 }
 
-// GJ over EI.
+// GJ over the rigidity along warp and the width: that along weft has the same.
 double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabric.weft_bending; }
+
+// A strip cut between warp and weft twists as it bends.
+void check_axis(const Scene& scene) {
+  const double angle = scene.cloth.warp_angle;
+  if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
+  char text[16];
+  std::snprintf(text, sizeof text, "%g", angle);
+  throw Error::request(std::string("buckle.kind = edge has no reference for a strip that twists as it bends: "
+                                   "cloth.warp-angle = ") +
+                       text +
+                       " degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1");
+}
 
 double gamma_of(const Scene& scene, double length) {
   return scene.fabric.density * scene.gravity.norm() * std::pow(length, 3) / scene.fabric.b2;
@@ -65,13 +79,16 @@ Buckling buckling_of(const std::string& name) {
 int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
 
 double reference_gamma(Buckling kind, const Scene& scene) {
-  const double slope = stiffness_at_rest(scene);
-  return kind == Buckling::upright ? kUpright * slope : kEdge * slope * std::sqrt(torsion(scene.fabric));
+  const double slope = stiffness_at_rest(scene), along = rigidity_along(scene);
+  if (kind == Buckling::upright) return kUpright * slope * along;
+  check_axis(scene);
+  return kEdge * slope * std::sqrt(along * torsion(scene.fabric));
 }
 
 double share_of_width(Buckling kind, const Scene& scene, double length) {
   if (kind == Buckling::upright) return 0;
-  const double stays_flat = scene.cloth.width / std::sqrt(12 * torsion(scene.fabric));
+  const double stays_flat =
+      scene.cloth.width * std::sqrt(rigidity_along(scene) / (12 * torsion(scene.fabric)));
   return std::pow(1 - stays_flat / length, -3) - 1;
 }
 
@@ -120,7 +137,8 @@ BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
   scene.newton_velocity = kPrecise * tilt * length;
   if (kind == Buckling::edge) {
     Fabric& f = scene.fabric;
-    const double stiff = 12 * f.b2 * stiffness_at_rest(scene) / (kSag * std::pow(scene.cloth.width, 2));
+    const double stiff = 12 * f.b2 * rigidity_along(scene) * stiffness_at_rest(scene) /
+                         (kSag * std::pow(scene.cloth.width, 2));
     f.warp = std::max(f.warp, stiff);
     f.weft = std::max(f.weft, stiff);
     f.shear = std::max(f.shear, 0.3 * stiff);

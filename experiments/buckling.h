@@ -18,8 +18,9 @@ Buckling buckling_of(const std::string& name);  // Error::request for unknown on
 // Heaviness Gamma, weight per area times L^3/b2, at which a strip of this law and fabric buckles that is
 // narrow, b << L, and bends far more easily out of its plane than in it.  Its bending rigidity is EI = B b
 // and its torsional one GJ = 2 B b (W = B |S|^2/2 with a twist S_xy alone), B the law's slope at rest; a
-// fabric that bends differently along warp, weft and bias has GJ = (4 bias - 1 - weft) B b, for a strip along
-// warp.
+// fabric that bends differently along warp, weft and bias has EI = q B b, q = rigidity_along(), and GJ =
+// (4 bias - 1 - weft) B b for a strip along warp or weft; between them strips twist as they bend, and on edge
+// they are refused (Error::request).
 //   upright: weight L^3/B = 7.8373 (Timoshenko & Gere 1961, 2.12)
 //   edge: q L^3/sqrt(EI GJ) = 12.8538 with q = weight b (the same, 6.3)
 double reference_gamma(Buckling kind, const Scene& scene);

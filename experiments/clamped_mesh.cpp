@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/error.h"
 #include "sim/mesh/builders.h"
 
 namespace hysteron::experiments {
@@ -55,6 +56,22 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   add_column(mesh, 0, -d, d, growth);
   if (clamps > 1) add_column(mesh, between, between + d, d, growth);
   return {flat_mesh(growth.points, std::move(growth.triangles), "strip"), d, between + clamps * d};
+}
+
+Cloth clamp_at(Scene& scene, double line) {
+  const ClothShape& shape = scene.cloth;
+  if (!(shape.length > line))
+    throw Error::request("cloth.length = " + std::to_string(shape.length) + " m must be more than the " +
+                         std::to_string(line) + " m that are clamped");
+  const double width = shape.shape == "square" ? shape.length : shape.width;
+  ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);
+  for (Eigen::Vector3d& x : clamped.mesh.rest) x.x() += line - clamped.spacing / 2;
+  scene.triangles = clamped.mesh.faces();
+  Pin clamp;
+  clamp.low = {-1, -1, -1};
+  clamp.high = {line + clamped.spacing / 2, 1, 1};
+  scene.pin = {clamp};
+  return place_cloth(scene, std::move(clamped.mesh));
 }
 
 }  // namespace hysteron::experiments

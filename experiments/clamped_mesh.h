@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim/mesh/cloth_mesh.h"
+#include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
 
@@ -22,5 +22,10 @@ struct ClampedMesh {
 // the free end [m].  About `triangles` triangles on it.  Error::request for impossible meshes.
 ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
                          int clamps, unsigned seed);
+
+// A rectangle of the scene's family, scene.cloth.length long, whose clamp ends at the line x = `line` [m]:
+// the clamp becomes the scene's only pin.  The mesh keeps one column of cells of what is clamped.
+// Error::request for impossible meshes.
+Cloth clamp_at(Scene& scene, double line);
 
 }  // namespace hysteron::experiments

@@ -24,10 +24,12 @@ constexpr int kMostIterations = 60, kMostHalvings = 30;
 // The law at `count` points with a history each.
 class Points {
  public:
-  Points(const LawRequest& law, int count)
+  Points(const LawRequest& law, double rigidity, int count)
       : cpu_(1),
+        factor_(std::sqrt(rigidity)),
         loop_(make_law_loop<double>(cpu_, choose_law(law.name, law.curve, law.parameters), 1, count)),
         area_(count, 1.0),
+        coefficient_(count, factor_),
         item_(count),
         start_(count + 1),
         moment_(count),
@@ -41,8 +43,8 @@ class Points {
     loop_->trial(cpu_, view(), curvature.data(), {kSeconds, kSeconds, 0, nullptr}, moment_.data(),
                  energy_.data());
     loop_->tangents(cpu_, view(), curvature.data(), {kSeconds, kSeconds, 0, nullptr}, tangent_.data());
-    moment = moment_;
-    tangent = tangent_;
+    moment = factor_ * moment_;
+    tangent = factor_ * factor_ * tangent_;
   }
   void accept(const VectorXd& curvature) {
     loop_->commit(cpu_, view(), curvature.data(), kSeconds, {0, nullptr, nullptr}, moment_.data());
@@ -50,11 +52,12 @@ class Points {
 
  private:
   OperatorView<double> view() const {
-    return {static_cast<int>(area_.size()), area_.data(), start_.data(), item_.data(), area_.data()};
+    return {static_cast<int>(area_.size()), area_.data(), start_.data(), item_.data(), coefficient_.data()};
   }
   Cpu cpu_;
+  double factor_;  // of the strip's curvatures that the law sees
   std::unique_ptr<LawLoop<double, Cpu>> loop_;
-  std::vector<double> area_;
+  std::vector<double> area_, coefficient_;
   std::vector<int> item_, start_;
   VectorXd moment_, tangent_;
   std::vector<double> energy_;
@@ -104,7 +107,7 @@ class Solver {
  public:
   explicit Solver(const HeavyStrip& strip)
       : strip_(strip),
-        points_(strip.law, strip.segments),
+        points_(strip.law, strip.rigidity, strip.segments),
         h_(strip.segments),
         curvature_(VectorXd::Zero(strip.segments)) {
     const auto place = [&](int i) {  // ends at u = i/n: dense at the clamp, where heavy strips turn

@@ -13,9 +13,10 @@ namespace hysteron::experiments {
 // A strip clamped level at one end.
 struct HeavyStrip {
   LawRequest law;
-  double weight = 1;   // per area, of load 1 [N/m^2]
-  double length = 1;   // [m]
-  int segments = 200;  // shorter towards the clamp
+  double rigidity = 1;  // q, that of the strip's direction over the law's: M = sqrt(q) M_law(sqrt(q) K)
+  double weight = 1;    // per area, of load 1 [N/m^2]
+  double length = 1;    // [m]
+  int segments = 200;   // shorter towards the clamp
 };
 
 // In equilibrium under `load` times the weight.

@@ -151,15 +151,17 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   ColumnJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.cores = setup.scene.threads;
-  jobs.resume = setup.options.resume;
   jobs.gpu = setup.scene.device != "cpu";
   jobs.go_on = true;
-  run_columns(columns, jobs, [&](const ComparedColumn& column) {
-    run.progress("errors, " + column.name + ": " +
-                 (column.kept              ? "kept"
-                  : column.stopped.empty() ? "done"
-                                           : column.stopped));
-  });
+  run_columns(
+      columns, jobs,
+      [&](const ComparedColumn& column) {
+        run.progress("errors, " + column.name + ": " +
+                     (column.kept              ? "kept"
+                      : column.stopped.empty() ? "done"
+                                               : column.stopped));
+      },
+      [&](const std::string& line) { run.progress("errors: " + line); });
   write_table(run, headlines.metrics, repeats, columns);
   std::vector<Repeated> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "experiments/clamped_mesh.h"
+#include "sim/bending/curvature_operator.h"
 #include "sim/solve/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kSlope = 41.5 * 3.14159265358979323846 / 180;  // of the chord, ASTM D1388 and ISO 9073-7
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kSlope = 41.5 * kDegree;  // of the chord, ASTM D1388 and ISO 9073-7
 
 double weight_of(const Scene& scene) { return scene.fabric.density * scene.gravity.norm(); }
 
@@ -66,9 +68,16 @@ Overhang overhang(Scene scene, double length) {
 HeavyStrip elastica_of(const Scene& scene, double length) {
   HeavyStrip strip;
   strip.law = {scene.law, scene.fabric.virgin_curve(), scene.param};
+  strip.rigidity = rigidity_along(scene);
   strip.weight = weight_of(scene);
   strip.length = length;
   return strip;
+}
+
+double rigidity_along(const Scene& scene) {
+  if (scene.fabric.bends_alike()) return 1;
+  const double angle = scene.cloth.warp_angle * kDegree;
+  return strip_rigidity(scene.fabric.weft_bending, scene.fabric.bias_bending, angle);
 }
 
 double load_at(const Scene& scene, double time) {
@@ -77,7 +86,7 @@ double load_at(const Scene& scene, double time) {
 }
 
 double elastica_bending_length(const Scene& scene) {
-  const double first = 2 * std::cbrt(scene.fabric.b2 / weight_of(scene));
+  const double first = 2 * std::cbrt(rigidity_along(scene) * scene.fabric.b2 / weight_of(scene));
   return critical_overhang(first, 1e-6, [&](double length) { return slope_of_elastica(scene, length); }) / 2;
 }
 

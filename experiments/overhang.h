@@ -21,7 +21,10 @@ struct Overhang {
 // meshes.
 Overhang overhang(Scene scene, double length);
 
-// The same strip as a curve, with its law and weight.
+// Bending rigidity of the scene's strip, which lies along x, over that along warp.
+double rigidity_along(const Scene& scene);
+
+// The same strip as a curve, with its law, its rigidity and weight.
 HeavyStrip elastica_of(const Scene& scene, double length);
 
 // Share of the weight at a time of quasi-static runs (Scene::ramp, Scene::unload).

@@ -36,9 +36,10 @@ std::vector<std::string> ledger_columns() {
   return columns;
 }
 
-// Elements by the moment they hold now, and the curvature they would keep if let go: found on the law, and by
-// the closed form for a first reversal from the virgin curve (which a longer history only resembles).
-void note_recovery(Run& run, Simulation& simulation, const Scene& scene) {
+// Elements by how far they were bent before they were let go, and the curvature they would keep if let go
+// now: found on the law, and by the closed form for a first reversal from the virgin curve (which a longer
+// history only resembles).
+void note_recovery(Run& run, Simulation& simulation, const Scene& scene, const Recoveries& recoveries) {
   const LawChoice law = choose_law(scene.law, scene.fabric.virgin_curve(), scene.param);
   const int d = simulation.dimension();
   const std::vector<double> root = simulation.residual_curvature();
@@ -46,14 +47,13 @@ void note_recovery(Run& run, Simulation& simulation, const Scene& scene) {
   for (double k : root) by_root += k * k;
   const double elements = static_cast<double>(root.size()) / d;
   run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
-  if (scene.law == "pabst" || scene.law == "linear" || !has_residual_formula(law)) return;
+  if (!recoveries.counts()) return;
   const std::vector<double> k = simulation.curvature(), m = simulation.moment();
-  long cases[3] = {0, 0, 0};
+  const std::array<long, 3> cases = recoveries.cases();
   double by_formula = 0;
   for (std::size_t i = 0; i < k.size(); i += d) {
     const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d);
     const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
-    ++cases[static_cast<int>(recovery_case(law.curve, moment.norm())) - 1];
     by_formula += std::pow(residual_by_formula(law, size, std::max(along, 0.0)), 2);
   }
   run.metric("recovery_elastic_count", cases[0]);
@@ -93,7 +93,8 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
       setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
       simulation_(make_simulation(setup.scene, cloth_)),
-      rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)) {
+      rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)),
+      recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
     return;
@@ -166,6 +167,7 @@ Moment Session::record(const Question& question, Record& series, const std::vect
   const bool pictured = !question.pictured || question.pictured(moment);
   if (pictures_ && pictured) pictures_->frame(*run_);
   watch_folds(x);
+  recoveries_.see(*simulation_);
   watch_intersections(x);
   if (pictured) export_mesh(meshes_++, x);
   run_->progress(question.progress(moment) + left);
@@ -264,7 +266,7 @@ void Session::finish(const std::string& title) {
   if (!setup_.scene.obstacle.empty()) run_->metric("deep_contact_steps_count", simulation_->deep_steps());
   if (checks_intersections()) run_->metric("intersections", intersections_);
   note_folds();
-  note_recovery(*run_, *simulation_, setup_.scene);
+  note_recovery(*run_, *simulation_, setup_.scene, recoveries_);
   run_->path("report.html");
   if (setup_.options.errors) measure_errors(*run_, line_, setup_);
   run_->finish();

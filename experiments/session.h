@@ -8,6 +8,7 @@
 
 #include "experiments/pictures.h"
 #include "experiments/record.h"
+#include "experiments/recoveries.h"
 #include "experiments/run.h"
 #include "render/camera.h"
 #include "render/plot.h"
@@ -28,7 +29,7 @@ struct Question {
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Moment&)> measure;
-  std::function<bool(const Moment&)> settled;   // ends the run early
+  std::function<bool(const Moment&)> settled;  // ends the run early
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   std::function<bool(const Moment&)> pictured;  // which moments are drawn and exported; empty: all of them
   std::function<std::string(const Moment&)> progress;
@@ -77,7 +78,8 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
-  int meshes_ = 0;          // exported so far
+  int meshes_ = 0;  // exported so far
+  Recoveries recoveries_;
   long intersections_ = 0;  // pairs of triangles, of all recorded moments
   double folded_ = 0;       // largest share of sharply folded edges
 };

@@ -2,7 +2,9 @@
 // stops it, friction in bending, viscosity or the integrator, is told apart by the ledger.
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "experiments/clamped_mesh.h"
 #include "experiments/csv.h"
 #include "experiments/decay_shape.h"
 #include "experiments/run_words.h"
@@ -11,7 +13,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kClamp = 0.01;  // clamped length [m]
+constexpr double kClamp = 0.01;  // clamped length [m]: the rest of cloth.length swings
 
 Setup defaults() {
   Setup setup;
@@ -121,6 +123,19 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 20.0);
 }
 
+// Meshes that are built here have a column of vertices on either side of the clamp's end; of others, all
+// vertices up to there are held.  None where the scene has pins of its own.
+std::optional<Cloth> clamp(Scene& scene) {
+  if (!scene.pin.empty()) return {};
+  const bool rectangle = scene.cloth.shape == "strip" || scene.cloth.shape == "square";
+  if (rectangle && !scene.mesh.ends_with(".obj")) return clamp_at(scene, kClamp);
+  Pin held;
+  held.low = {-1, -1, -1};
+  held.high = {kClamp, 1, 1};
+  scene.pin.push_back(held);
+  return {};
+}
+
 }  // namespace
 
 Setup swing_defaults() { return defaults(); }
@@ -129,13 +144,8 @@ int swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
   const float length = static_cast<float>(setup.scene.cloth.length),
               width = static_cast<float>(setup.scene.cloth.width);
-  if (setup.scene.pin.empty()) {
-    Pin clamp;
-    clamp.low = {-1, -1, -1};
-    clamp.high = {kClamp, 1, 1};
-    setup.scene.pin.push_back(clamp);
-  }
-  Session session(line, setup);
+  std::optional<Cloth> clamped = clamp(setup.scene);
+  Session session(line, setup, std::move(clamped));
   if (session.only_explain()) return 0;
   if (!setup.options.no_images) session.run().path("README.md");
 

@@ -53,6 +53,13 @@ CurvatureOperator make_hinge_operator(const ClothMesh& mesh) {
 
 namespace {
 
+constexpr double kOnAxis = 1e-12;  // parts of a direction below this are rounding
+
+// Q over the rigidity along warp.
+Eigen::Vector3d rigidities(double weft, double bias) {
+  return {1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2)};
+}
+
 // Factors of the D components of element i, with Q as the header has it.
 Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, int i,
                           const Eigen::Vector3d& q) {
@@ -67,8 +74,18 @@ Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, in
 
 }  // namespace
 
+double strip_rigidity(double weft, double bias, double angle) {
+  const Eigen::Vector3d q = rigidities(weft, bias);
+  const double x = std::cos(angle), y = std::sin(angle);
+  const Eigen::Vector3d nu(x * x, y * y, std::sqrt(2.0) * x * y);
+  double compliance = 0;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(nu[k]) > kOnAxis) compliance += nu[k] * nu[k] / q[k];
+  return 1 / compliance;
+}
+
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias) {
-  const Eigen::Vector3d q(1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2));
+  const Eigen::Vector3d q = rigidities(weft, bias);
   const int d = op.dimension;
   op.metric.clear();
   for (int i = 0; i < op.elements(); ++i) {

@@ -46,6 +46,11 @@ CurvatureOperator make_curvature_operator(const std::string& element, const Clot
 // 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
+// Rigidity over that along warp of a free strip cut at `angle` from warp [rad]: its edges carry no moment, so
+// that it bends as the inverse of Q says, 1/(nu^T Q^-1 nu), and off the axes twists as it bends.  Along warp
+// and weft, where it does not, that is nu^T Q nu.
+double strip_rigidity(double weft, double bias, double angle);
+
 // Angles of all hinges of the mesh in the given configuration, within (-pi, pi].
 std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 

@@ -3,13 +3,15 @@
 //
 //   plastic:   e = K - K_p, yields at |e| > y: d = (|e| - y) b2/(k + b2), K_p += sgn(e) d, hard += d,
 //              y = y0 + hard k/b2,  k = k_h (1 - (1 - exp(-t/tau)) k_h0)
-//   friction:  u = K - anchor, slips at |u| > r(t) = r_inf - (r_inf - r_0) exp(-t/tau)
+//   friction:  u = K - anchor, slips at |u| > r(s) = r_inf - (r_inf - r_0) exp(-s/tau)
 //   M = b2 (K - K_p) + (b1 - b2) u
 //
-// t, the time held, starts again at the end of a step that turned back; within a step it is fixed, so that
-// the moment has a potential.  k_h = 5 b2, k_h0 = 0.99, r_0 = r_inf/12, tau = 30 s are theirs.  Ours: y0 =
-// `yield`, k0 by default; r_inf = K0/2, so that the friction moment held for long is M0 = HB.  A threshold
-// that falls when t starts again lets the anchor slip at once; that energy is lost.
+// Two clocks: t, the time held, starts again at the end of a step that turned back; s, the time stuck, at the
+// end of one in which the anchor slipped.  So a bend that is held strengthens the friction that its release
+// meets.  Within a step both are fixed, so that the moment has a potential.  k_h = 5 b2, k_h0 = 0.99, r_0 =
+// r_inf/12, tau = 30 s are theirs.  Ours: y0 = `yield`, k0 by default; r_inf = K0/2, so that the friction
+// moment held for long is M0 = HB.  The threshold falls when s starts again: the anchor slips on at once, and
+// that energy is lost.
 #pragma once
 
 #include <cmath>
@@ -22,7 +24,7 @@ namespace hysteron {
 template <class Real>
 struct Gong {
   static constexpr int kDimension = 1;
-  static constexpr int kHistory = 6;
+  static constexpr int kHistory = 7;
   using Scalar = Real;
   using Memory = History<Real, kHistory>;
 
@@ -55,8 +57,9 @@ struct Gong {
     result.history[kSet] = n > plastic.held ? k - elastic : aged.set;
     result.history[kHard] = aged.hard + (n - plastic.held);
     remember_motion(k, before, result.history);
-    // A shorter hold ends with a lower threshold: the anchor slips at once.
-    const Real kept = clamped(stretch, result.history[kHeld] > 0 ? hold.limit : limit_after(0));
+    const bool slips = absolute(u) > hold.limit;
+    const Real kept = slips ? clamped(stretch, limit_after(0)) : stretch;
+    result.history[kStuck] = slips ? Real(0) : before[kStuck] + dt;
     result.history[kAnchor] = k - kept;
     result.moment[0] = b2 * elastic + g * stretch;
     result.stored = (b2 * elastic * elastic + g * kept * kept) / 2;
@@ -77,18 +80,18 @@ struct Gong {
   HYST_HD Vec<Real, 1> residual(const Memory& history) const {
     return zero_moment(*this, history, Vec<Real, 1>(history[kSet]));
   }
-  HYST_HD Real used(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(t)
-    const Real now = limit_after(history[kHeld]);
+  HYST_HD Real used(const Vec<Real, 1>& curvature, const Memory& history) const {  // |u|/r(s)
+    const Real now = limit_after(history[kStuck]);
     return now > 0 ? absolute(curvature[0] - history[kAnchor]) / now : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2 + g; }
 
  private:
-  enum Slot { kSet, kHard, kAnchor, kHeld, kPosition, kDirection };
+  enum Slot { kSet, kHard, kAnchor, kHeld, kPosition, kDirection, kStuck };
   struct Hold {
     Real k;      // hardening modulus over b2
     Real kept;   // k/(k + b2): share of the excess that stays elastic
-    Real limit;  // r(t) [1/m]
+    Real limit;  // r(s) [1/m]
   };
   struct Aged {
     Real set, hard;  // K_p and hard after a softer k has let the held stretch yield [1/m]
@@ -97,14 +100,14 @@ struct Gong {
 
   HYST_HD static Real absolute(Real x) { return x < 0 ? -x : x; }
   HYST_HD static Real clamped(Real x, Real limit) { return x > limit ? limit : x < -limit ? -limit : x; }
-  HYST_HD Real limit_after(Real held) const {
+  HYST_HD Real limit_after(Real stuck) const {
     using std::exp;
-    return limit * (1 - (1 - kFirstLimit) * exp(-held / tau));
+    return limit * (1 - (1 - kFirstLimit) * exp(-stuck / tau));
   }
   HYST_HD Hold hold_at(const Memory& m) const {
     using std::exp;
     const Real held = m[kHeld] + dt, k = kHardening * (1 - (1 - exp(-held / tau)) * kHardeningLost);
-    return {k, k / (k + 1), limit_after(held)};
+    return {k, k / (k + 1), limit_after(m[kStuck] + dt)};
   }
   HYST_HD Real threshold(Real hard, const Hold& hold) const { return yield + hard * hold.k; }
   HYST_HD Aged aged_set(const Memory& m, const Hold& hold) const {

@@ -68,7 +68,13 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   if (!bending_lags_) add_energies(bending_.energies(), bending_.elements());
   measure_gradient(direction);
   const Totals t = sums_.download()[0];
-  return {t.energy, t.size, std::sqrt(t.residual2), std::sqrt(t.reaction2), std::sqrt(t.internal2), t.slope};
+  return {t.energy,
+          t.size,
+          std::sqrt(t.residual2),
+          std::sqrt(t.reaction2),
+          std::sqrt(t.inertia2),
+          std::sqrt(t.internal2),
+          t.slope};
 }
 
 // Inertia, drag and weight with their energies; the gradients of membrane and bending.
@@ -84,14 +90,15 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const bool lags = bending_lags_;
   Vec3<Real>* gradient = gradient_.data();
   Totals* totals = sums_.data();
-  for_each_sum<3>(
+  for_each_sum<4>(
       device_, "potential: vertices", vertices_,
-      HYST_KERNEL(int i, Sums<3>& sums) {
+      HYST_KERNEL(int i, Sums<4>& sums) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
         const Vec3<Real> stretch = membrane.at(i), bend = bending.at(i);
         gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - stretch - bend;
         sums.term[2] += static_cast<double>(stretch.squaredNorm() + bend.squaredNorm());
         if (s.held[i]) return;
+        sums.term[3] += static_cast<double>((mass[i] * inertia * moved).squaredNorm());
         const double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
         Vec3<Real> given = mass[i] * g;
@@ -100,10 +107,11 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         sums.term[0] += kinetic - weight;
         sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
       },
-      HYST_KERNEL(const Sums<3>& total) {
+      HYST_KERNEL(const Sums<4>& total) {
         totals->energy = total.term[0];
         totals->size = total.term[1];
         totals->internal2 = total.term[2];
+        totals->inertia2 = total.term[3];
       });
 }
 

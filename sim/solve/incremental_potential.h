@@ -36,6 +36,7 @@ struct PotentialValue {
   double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
   double reaction = 0;  // the same over the held ones: what the handles carry [N]
+  double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double slope = 0;     // gradient . direction [J]
 };
@@ -71,7 +72,7 @@ class IncrementalPotential {
   }
 
   struct Totals {  // on the device
-    double energy, size, internal2, residual2, reaction2, slope;
+    double energy, size, internal2, inertia2, residual2, reaction2, slope;
   };
 
   // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.

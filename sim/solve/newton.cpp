@@ -13,6 +13,10 @@ constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow
 // What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
+// Rounding of positions.  What it makes of forces, stiffness times position times this, may in single
+// precision be as large as the weight of fine cloth: where there is weight, the last correction decides.
+template <class Real>
+constexpr double kBlur = sizeof(Real) == 8 ? 1e-16 : 6e-8;
 // Corrections that rounding of positions cannot tell from none, relative to the positions.
 template <class Real>
 constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
@@ -50,31 +54,37 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   // last.
   constexpr double kLonger = 4;
   double farthest = std::numeric_limits<double>::infinity();  // [m]
-  double forcing = kLoosest, shift = limits_.first_shift;
+  double forcing = kLoosest, shift = limits_.first_shift, rounding = 0;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
-    outcome.load = std::hypot(weight, value.reaction);
-    // What is unbalanced is small beside the load, or would hardly move the cloth within the step.
-    outcome.converged |= value.residual <= limits_.residual * outcome.load ||
+    outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
+    // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
+    outcome.converged |= value.residual <= std::max(limits_.residual * outcome.load, rounding) ||
                          value.residual * over * std::sqrt(vertices_) / total_mass <= limits_.velocity;
     if (outcome.converged || !std::isfinite(value.energy)) break;
     if (outcome.iterations == limits_.iterations) {
       outcome.converged = outcome.unbalanced = limits_.take_unconverged;
       break;
     }
-    outcome.linear_iterations +=
-        find_direction(x, held, shift, value.residual < kNear * first, std::max(forcing, kTightest));
-    const Correction correction = measure_correction(x, mass, held);
+    const LinearSystem<Real, Device> system =
+        potential_.linearise(x, static_cast<Real>(shift), value.residual < kNear * first);
+    outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
+    const Correction correction = measure_correction(system, x, mass, held);
+    if (sizeof(Real) == 8 || std::hypot(weight, value.reaction) == 0)
+      rounding = kBlur<Real> * std::sqrt(correction.forces2);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double length = std::sqrt(correction.size2 / total_mass);
-    const double share = search(x, value, correction.slope, std::min(1.0, farthest / length));
+    // Of potentials: what their sum loses, and what forces make of rounded positions.
+    const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
+    const double blurred = std::max(kRounding<Real> * value.size, kBlur<Real> * value.internal * extent);
+    const double share = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
     if (potential_.has_self_contact()) farthest = kLonger * share * length;
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (share == 0) {
-      outcome.converged =
-          balanced && (unmoved || -correction.slope <= kRounding<Real> * value.size);  // no more to gain
+      outcome.converged = value.residual <= rounding ||
+                          (balanced && (unmoved || -correction.slope <= blurred));  // no more to gain
       outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
       outcome.converged |= outcome.unbalanced;
       break;
@@ -91,13 +101,13 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   return outcome;
 }
 
-// Newton's direction.  With `full` the membrane's softening under compression counts, and where the stiffness
-// is indefinite the direction leads down along its negative curvature, away from the saddle; without, the
-// stiffness is positive.  Longva et al. 2023 compare such choices.  Returns the linear solver's iterations.
+// Newton's direction.  In a `full` system the membrane's softening under compression counts, and where the
+// stiffness is indefinite the direction leads down along its negative curvature, away from the saddle;
+// without, the stiffness is positive.  Longva et al. 2023 compare such choices.  Returns the linear solver's
+// iterations.
 template <class Real, class Device>
-long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held, double shift, bool full,
+long Newton<Real, Device>::find_direction(const LinearSystem<Real, Device>& system, const char* held,
                                           double tolerance) {
-  const LinearSystem<Real, Device> system = potential_.linearise(x, static_cast<Real>(shift), full);
   negate_gradient();
   return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
 }
@@ -106,9 +116,9 @@ long Newton<Real, Device>::find_direction(const Vec3<Real>* x, const char* held,
 // and returns it; 0 if there is none.  Where the difference is within rounding, the slope must have become
 // flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most) {
+double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most,
+                                    double blurred) {
   if (!(slope < 0)) return 0;
-  const double rounding = kRounding<Real> * value.size;
   double share = potential_.feasible_share(x, direction_.data(), at_most);
   if (!(share > 0)) return 0;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
@@ -116,7 +126,7 @@ double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double
     const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
     const double rise = trial.energy - value.energy;
     const bool lower = rise <= kEnough * share * slope,
-               flatter = std::abs(rise) <= rounding && std::abs(trial.slope) <= -0.9 * slope;
+               flatter = std::abs(rise) <= blurred && std::abs(trial.slope) <= -0.9 * slope;
     if (lower || flatter) {
       take_trial(x);
       potential_.took(x);
@@ -131,21 +141,23 @@ double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double
 }
 
 template <class Real, class Device>
-typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(const Vec3<Real>* x,
-                                                                                   const Real* mass,
-                                                                                   const char* held) {
+typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(
+    const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass, const char* held) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
+  const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
   Correction* result = sums_.data();
-  for_each_sum<3>(
+  for_each_sum<4>(
       device_, "newton: correction", vertices_,
-      HYST_KERNEL(int i, Sums<3>& sums) {
+      HYST_KERNEL(int i, Sums<4>& sums) {
         if (held[i]) return;
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
         sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
+        const Real stiffness = diagonal[i].trace() + rest[i].trace();
+        sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
       },
-      HYST_KERNEL(const Sums<3>& total) {
-        *result = {total.term[0], total.term[1], total.term[2]};
+      HYST_KERNEL(const Sums<4>& total) {
+        *result = {total.term[0], total.term[1], total.term[2], total.term[3]};
       });
   return sums_.download()[0];
 }

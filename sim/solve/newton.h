@@ -8,7 +8,9 @@ namespace hysteron {
 
 // A step has converged when the unbalanced force is small or the last correction was.
 struct NewtonLimits {
-  double residual = 1e-6;  // norm of the unbalanced force over that of the weight and what the handles carry
+  // Norm of the unbalanced force over that of the weight and what the handles carry, or, where the masses'
+  // inertia is larger, over that: free cloth without weight has nothing else to compare with.
+  double residual = 1e-6;
   double velocity = 1e-9;  // root mean square of a correction over the step's time, or of what the unbalanced
                            // force makes of free masses in it [m/s]
   int iterations = 60;
@@ -25,7 +27,7 @@ struct NewtonOutcome {
   int iterations = 0;
   long linear_iterations = 0;
   double residual = 0;  // [N]
-  double load = 0;      // weight and reactions [N]
+  double load = 0;      // weight and reactions, or inertia if that is larger [N]
 };
 
 template <class Real, class Device>
@@ -45,15 +47,17 @@ class Newton {
     double size2;    // sum of m |d|^2 [kg m^2]
     double slope;    // gradient . d [J]
     double extent2;  // sum of m |x|^2 [kg m^2]
+    double forces2;  // sum of (trace of the stiffness times |x|)^2, whose rounding no force escapes [N^2]
   };
-  Correction measure_correction(const Vec3<Real>* x, const Real* mass, const char* held);
+  Correction measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
+                                const Real* mass, const char* held);
   void try_share(const Vec3<Real>* x, Real share);
   void take_trial(Vec3<Real>* x);
   void negate_gradient();
 
  private:
-  long find_direction(const Vec3<Real>* x, const char* held, double shift, bool full, double tolerance);
-  double search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most);
+  long find_direction(const LinearSystem<Real, Device>& system, const char* held, double tolerance);
+  double search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most, double blurred);
 
   Device& device_;
   int vertices_;

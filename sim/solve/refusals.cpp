@@ -134,8 +134,8 @@ void Stepper<Real, Device>::refuse_unbalanced(double start, double h, const Newt
   }
   if (!(outcome.load > 0))
     throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");
-  message += "an unbalanced force of " + number(outcome.residual) + " N remains (weight and handles carry " +
-             number(outcome.load) + " N)";
+  message += "an unbalanced force of " + number(outcome.residual) +
+             " N remains (weight, handles and inertia: " + number(outcome.load) + " N)";
   const Unbalanced worst = implicit_->most_unbalanced(held_.data());
   if (worst.vertex < 0) throw Error::run(message);
   const std::vector<std::string> by = pressing(worst.vertex, worst.position, start + h);

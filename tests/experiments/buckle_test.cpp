@@ -53,6 +53,36 @@ TEST(BucklingReference, FollowsTheSlopeOfTheLawAtRest) {
     EXPECT_NEAR(reference_gamma(kind, friction) / reference_gamma(kind, linear), slope, 1e-4 * slope);
 }
 
+Scene along_weft(Scene scene) {
+  scene.fabric.weft_bending = 0.5;
+  scene.fabric.bias_bending = 0.7;
+  scene.cloth.warp_angle = 90;
+  return scene;
+}
+
+TEST(BucklingReference, IsThatOfTheStripsOwnDirection) {
+  const Scene plain = scene_with("linear"), weft = along_weft(plain);
+  EXPECT_NEAR(reference_gamma(Buckling::upright, weft) / reference_gamma(Buckling::upright, plain), 0.5,
+              1e-9);
+  Scene warp = weft;
+  warp.cloth.warp_angle = 0;
+  EXPECT_NEAR(reference_gamma(Buckling::edge, weft) / reference_gamma(Buckling::edge, warp), std::sqrt(0.5),
+              1e-9);
+}
+
+TEST(BucklingReference, IsRefusedOnEdgeWhereBendingTwists) {
+  Scene scene = along_weft(scene_with("linear"));
+  scene.cloth.warp_angle = 30;
+  EXPECT_LT(reference_gamma(Buckling::upright, scene), 7.8373);
+  try {
+    reference_gamma(Buckling::edge, scene);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("cloth.warp-angle = 30"), std::string::npos) << error.what();
+  }
+}
+
 Scene scene_of(const char* mesh, Buckling kind) {
   Scene scene;
   scene.law = "linear";
@@ -98,6 +128,11 @@ TEST(Buckling, OfANarrowStripOnEdgeMeetsTheClosedForm) {
   scene.cloth.width = kLength / 80;
   const double ratio = threshold_ratio(scene, Buckling::edge);
   EXPECT_NEAR(ratio * (1 + share_of_width(Buckling::edge, scene, kLength)), 1, kTarget);
+}
+
+TEST(Buckling, OfAStripAlongWeftMeetsItsOwnReference) {
+  for (Buckling kind : {Buckling::upright, Buckling::edge})
+    EXPECT_NEAR(threshold_ratio(along_weft(scene_of("unionjack", kind)), kind), 1, kTarget);
 }
 
 TEST(Buckling, FollowsALawWithFriction) {

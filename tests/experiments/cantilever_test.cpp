@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/experiments.h"
+#include "experiments/recoveries.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -80,6 +81,76 @@ TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
   EXPECT_NEAR(residual(1, "residual_drop_over_length") / elastica, 1, 0.01);
   for (const double wrong : {0.95, 1.05})
     EXPECT_GT(std::abs(residual(wrong, "residual_drop_over_length") / elastica - 1), 0.02) << wrong;
+}
+
+// Weft half as stiff as warp: the reference is the strip's own, wherever its warp points.
+TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
+  const auto along = [](const char* law, const char* angle, const char* gamma) {
+    return metrics_of({{"law", law},
+                       {"gamma", gamma},
+                       {"triangles", "512"},
+                       {"fabric.weft-bending", "0.5"},
+                       {"fabric.bias-bending", "0.7"},
+                       {"cloth.warp-angle", angle}});
+  };
+  for (const char* law : {"linear", "prandtl"}) {
+    const auto warp = along(law, "0", "10"), weft = along(law, "90", "5");
+    for (const auto& metrics : {warp, weft}) {
+      EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin) << law;
+      EXPECT_NEAR(
+          metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(), 1,
+          kWithin);
+    }
+    EXPECT_GT(warp["elastica_drop_over_length"], 0.2);
+  }
+  // Half as stiff under half of the weight, or under all of it.
+  const double half = along("linear", "90", "5")["elastica_drop_over_length"];
+  EXPECT_NEAR(half / kDropOfTen, 1, 1e-4);
+  EXPECT_GT(along("linear", "90", "10")["elastica_drop_over_length"].get<double>(), 1.1 * half);
+}
+
+// A long strip cut on the bias twists as it bends: softer than a plate bent to a cylinder, whose rigidity is
+// 0.7 there.
+TEST(Cantilever, OnTheBiasFollowsAFreeStrip) {
+  const auto metrics = metrics_of({{"law", "linear"},
+                                   {"gamma", "1"},
+                                   {"triangles", "1024"},
+                                   {"cloth.width", "0.01"},
+                                   {"fabric.weft-bending", "0.5"},
+                                   {"fabric.bias-bending", "0.7"},
+                                   {"cloth.warp-angle", "45"}});
+  EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 2) << "a cylinder's rigidity is 6 % more";
+}
+
+// Bent far past 2 Ma at the clamp and relieved of its weight, it rests under no moment.
+TEST(Cantilever, CountsWhatWasBentPastTwiceTheElasticLimitAsFullSlip) {
+  const auto cases = [](const char* k0) {
+    const auto metrics =
+        metrics_of({{"law", "prandtl"}, {"gamma", "10"}, {"triangles", "128"}, {"fabric.k0", k0}});
+    return std::array<long, 3>{metrics["recovery_elastic_count"], metrics["recovery_partial_count"],
+                               metrics["recovery_full_slip_count"]};
+  };
+  const auto soft = cases("2"), hard = cases("50");
+  EXPECT_GT(soft[2], soft[0]);
+  EXPECT_GT(soft[1], 0);
+  EXPECT_GT(soft[0], 0) << "at the free end";
+  EXPECT_EQ(hard[1] + hard[2], 0) << "never past Ma";
+}
+
+TEST(Recoveries, GoByTheLastReversalFromPastTheElasticLimit) {
+  Scene scene;
+  const double limit = scene.fabric.virgin_curve().elastic_limit_moment();
+  const auto of = [&](const std::vector<double>& moments) {
+    Recoveries recoveries(scene);
+    for (double m : moments) recoveries.see({m * limit, 0, 0}, 3);
+    const auto cases = recoveries.cases();
+    return cases[0] ? 1 : cases[1] ? 2 : 3;
+  };
+  EXPECT_EQ(of({0.5, 0.9, 0}), 1);
+  EXPECT_EQ(of({0.5, 1.9, 1.2, 0}), 2);
+  EXPECT_EQ(of({1.5, 2.5, 1.2, 0, -0.1, 0.1, 0}), 3);  // trembles at rest
+  EXPECT_EQ(of({2.5, 0, -1.5, 0}), 2);
+  EXPECT_EQ(of({2.5, -1.5, 0}), 2);
 }
 
 TEST(Cantilever, ComesBackWithoutFriction) {

@@ -160,6 +160,43 @@ TEST(Gong, HoldsTheFullFrictionMomentOnlyAfterALongHold) {
   EXPECT_NEAR((law.step(Vec<double, 1>(100.), {}).moment[0] - c.b2 * 100), m0, kRounding);
 }
 
+// Below yield the anchor alone keeps a bend.  One that slipped through bending and was let go at once slips
+// back to g r_0/b2; after a hold friction holds the anchor where it is, and b2 K + g (K - anchor) = 0.
+TEST(Gong, AHoldStrengthensTheFrictionThatTheReleaseMeets) {
+  const VirginCurve c = cotton_broad();
+  const double g = c.b1 - c.b2, first = c.k0 / 2 / 12, bent = 40;
+  const auto residual_after = [&](double held) {
+    Driven<Gong<double>> cloth(Gong<double>::make(c, c.k0, 30));
+    cloth.law.dt = 1e-3;
+    for (int i = 1; i <= 400; ++i) cloth.moment(bent * i / 400);
+    for (int i = 0; i < 10; ++i) {
+      cloth.law.dt = held / 10;
+      cloth.moment(bent);
+    }
+    cloth.law.dt = 1e-3;
+    return cloth.law.residual(cloth.history)[0];
+  };
+  constexpr double kOfTheClock = 0.02;  // thresholds grow by 0.03 % in a step of 1 ms
+  EXPECT_NEAR(residual_after(0), g * first / c.b2, kOfTheClock);  // 4.4/m
+  for (double held : {30., 600.})
+    EXPECT_NEAR(residual_after(held), g / (g + c.b2) * (bent - first), kOfTheClock) << held;  // 25.7/m
+}
+
+// ... and turning back leaves it as strong as it was, until the anchor slips.
+TEST(Gong, KeepsItsFrictionThroughAReversal) {
+  const VirginCurve c = cotton_broad();
+  auto law = Gong<double>::make(c, 1e6, 30);
+  law.dt = 1e9;
+  Driven<Gong<double>> cloth(law);
+  cloth.moment(1);  // stuck, for long
+  cloth.law.dt = 0;
+  const double m0 = c.friction_moment();
+  cloth.moment(20);  // 20 < r_inf = 25
+  EXPECT_NEAR(cloth.moment(-20) + c.b2 * 20, -(c.b1 - c.b2) * 20, kRounding);
+  EXPECT_NEAR(cloth.moment(-100) + c.b2 * 100, -m0, kRounding);
+  EXPECT_NEAR(cloth.moment(-101) + c.b2 * 101, -m0 / 12, kRounding) << "after it has slipped";
+}
+
 TEST(Gong, HardensIsotropicallyAtFirstContactWithFiveSixthsOfTheExcessKept) {
   VirginCurve c = cotton_broad();
   c.b1 = c.b2;  // plasticity alone

@@ -6,6 +6,7 @@
 namespace hysteron {
 namespace {
 
+using test::Positions;
 using test::Trial;
 
 constexpr double kRounding = 1e-10;
@@ -61,6 +62,58 @@ TEST(HandsThatBringHome, AreThereInTime) {
   const Ledger ledger = simulation->ledger();
   EXPECT_GT(ledger.handle_work, 0);
   EXPECT_LT(ledger.remainder_relative, 1e-6);
+}
+
+// Without weight and hands only the cloth's own motion says what is small.
+class FreeCloth : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2"));
+
+Scene weightless(const char* integrator) {
+  Scene scene = test::free_square();
+  scene.gravity.setZero();
+  scene.law = "prandtl";
+  scene.integrator = integrator;
+  scene.step = 1.0 / 120;
+  scene.newton_velocity = 0;
+  return scene;
+}
+
+TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
+  Trial trial(weightless(GetParam()));
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
+    trial.cloth.start[i].z() += 5e-5 * std::sin(20 * trial.cloth.mesh.rest[i].x());
+  const auto simulation = trial.after(100);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+  const Positions v = simulation->velocities();
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  double size = 0;
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
+    momentum += trial.mass(i) * v[i];
+    size += trial.mass(i) * v[i].norm();
+  }
+  EXPECT_GT(size, 0);
+  EXPECT_LT(momentum.norm(), 1e-5 * size);
+}
+
+// Thrown by a hand that lets go: what rounding makes of forces is all that acts then.
+TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
+  constexpr double kSpeed = 1e-4;  // [m/s]
+  Scene scene = weightless(GetParam());
+  scene.precision = "float";
+  Pin hand;
+  hand.low = {-1, -1, -1};
+  hand.high = {1, 1, 1};
+  hand.until = 5 * scene.step;
+  hand.motion.keys = {{0, {0, 0, 0}, 0, 1}, {2 * hand.until, {0, 0, 2 * hand.until * kSpeed}, 0, 1}};
+  scene.pin = {hand};
+  const Trial trial(scene);
+  auto simulation = trial.after(6);
+  const double before = simulation->positions()[0].z();
+  simulation->advance(50);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+  const double speed = (simulation->positions()[0].z() - before) / (50 * scene.step);
+  EXPECT_GT(speed, kSpeed);
+  EXPECT_LT(speed, 2 * kSpeed);
 }
 
 }  // namespace
