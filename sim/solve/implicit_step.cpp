@@ -28,6 +28,9 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
   constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
   limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
   if (statics) {
+    // Equilibria have no error in time that would hide theirs.
+    limits.residual = std::min(limits.residual, 1e-6);
+    limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kLeastVelocity);
     limits.iterations = 400;
     limits.first_shift = 1e4;  // as in a step of 10 ms
     limits.least_shift = 1e-4;
