@@ -103,6 +103,18 @@ TEST(CommandLine, RefusesUnknownWordsAndNamesTheNearest) {
   EXPECT_EQ(refusal({"drape", "--zzzzzzzz"}), "drape: unknown option --zzzzzzzz; see hysteron drape --help");
 }
 
+TEST(CommandLine, SaysWhatCanBeResumed) {
+  for (const char* name : {"drape", "swing", "crease", "fold", "crumple", "cantilever", "buckle"})
+    EXPECT_EQ(refusal({name, "--resume"}),
+              std::string(name) + ": --resume is not built yet for single runs; compare has it");
+  EXPECT_EQ(text_of_flag(*parsed({"compare", "drape", "--resume"}), "resume"), "true");
+}
+
+TEST(CommandLine, RefusesToWriteToNowhere) {
+  EXPECT_EQ(refusal({"drape", "--out", ""}), "drape: --out is empty: name where to write");
+  EXPECT_EQ(refusal({"diff", "a", "b", "--out="}), "diff: --out is empty: name where to write");
+}
+
 TEST(CommandLine, RefusesAFlagWithoutItsValueInOneLine) {
   const std::string message = refusal({"drape", "--step"});
   EXPECT_NE(message.find("drape: --step"), std::string::npos) << message;
