@@ -44,6 +44,11 @@ TEST(AtomicFile, ReplacesWhatALinkLeadsToAndNotTheLink) {
   EXPECT_EQ(test::content_of(folder.file("a.txt")), "new");
 }
 
+TEST(AtomicFile, ReplacesNoFileThatIsStandardOutput) {
+  EXPECT_THROW(AtomicFile("/dev/stdout"), Error);
+  EXPECT_THROW(AtomicFile("/dev/fd/1"), Error);
+}
+
 TEST(AtomicFile, ReplacesNoPipe) {
   const Folder folder;
   ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
