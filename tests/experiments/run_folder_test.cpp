@@ -80,6 +80,14 @@ TEST(RunFolder, LosesWhatAKilledRunHasLeftAndNothingElse) {
   for (const std::string& name : others) EXPECT_EQ(text_of(out / name), "mine") << name;
 }
 
+TEST(RunFolder, LosesThePageThatWasWrittenOfAKilledRun) {
+  const Folder folder;
+  killed([&] { new ExperimentRun(drape_line(), setup_in(folder.path())); });
+  write(folder.path() / "report.html");
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  EXPECT_EQ(run.path("report.html"), folder.path() / "report.html");
+}
+
 TEST(RunFolder, LeavesNoEmptyFoldersOfAnEarlierRun) {
   const Folder folder;
   {
