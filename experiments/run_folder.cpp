@@ -65,10 +65,11 @@ Json run_before(const fs::path& folder) {
   return manifest;
 }
 
-// Names of its files that stand in the folder.
+// Names of its files, and of the page that `hysteron report` may have written since.
 std::vector<fs::path> files_of(const Json& manifest, const fs::path& folder) {
-  std::vector<fs::path> names;
-  if (!manifest.is_object() || !manifest.contains("files")) return names;
+  if (!manifest.is_object()) return {};
+  std::vector<fs::path> names = {"report.html"};
+  if (!manifest.contains("files")) return names;
   for (const Json& file : manifest["files"]) {
     if (!file.is_string()) continue;
     const fs::path name = file.get<std::string>();

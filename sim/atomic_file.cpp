@@ -14,15 +14,19 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-// What is to be replaced: a link keeps its name, and devices and pipes are not for replacing.
+// What is to be replaced: a link keeps its name, and devices and pipes are not for replacing; neither is what
+// /dev/stdout leads to, though it may be a file.
 std::string plain_file(const std::string& target) {
   constexpr int kMostLinks = 40;  // as many as the kernel follows
   std::error_code failure;
+  bool plain = true;
   fs::path file = target;
-  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links)
+  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links) {
+    plain = plain && !fs::weakly_canonical(file.parent_path(), failure).string().starts_with("/proc/");
     file = file.parent_path() / fs::read_symlink(file, failure);
+  }
   const fs::file_status status = fs::symlink_status(file, failure);
-  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+  if (!plain || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)))
     throw Error::request("cannot write " + target + ": it is no plain file; give another name");
   return file.string();
 }

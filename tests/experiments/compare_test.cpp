@@ -12,6 +12,7 @@
 #include "render/comparison_sheet.h"
 #include "sim/error.h"
 #include "sim/mesh/surface.h"
+#include "sim/scene/assets.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
@@ -97,6 +98,73 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
   EXPECT_EQ(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
   ASSERT_EQ(program(line + " --resume --fabric wool-tropical").exit_code, 0);
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
+}
+
+TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
+  const Folder folder;
+  const fs::path root = folder.path(), out = root / "run" / "out";
+  for (const char* side : {"p", "q"}) {
+    fs::create_directories(root / side);
+    fs::copy_file(find_asset("fabrics", "wool-tropical", "--fabric"), root / side / "mine.toml");
+  }
+  fs::create_directories(root / "run");
+  const auto go = [&](const std::string& arguments) {
+    const fs::path here = fs::current_path();
+    fs::current_path(root / "run");
+    const Outcome outcome = program("compare swing --no-images --out out" + std::string(kSmall) + arguments);
+    fs::current_path(here);
+    return outcome;
+  };
+  const Outcome outcome = go(" --law linear --fabrics ../p/mine.toml," + (root / "q" / "mine.toml").string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* column : {"mine", "mine-2"}) EXPECT_TRUE(fs::exists(out / column / "manifest.json"));
+  for (const char* side : {"p", "q"})
+    EXPECT_EQ(std::distance(fs::directory_iterator(root / side), fs::directory_iterator()), 1) << side;
+  EXPECT_EQ(std::distance(fs::directory_iterator(root), fs::directory_iterator()), 3);
+}
+
+TEST(Compare, RefusesTheSameColumnTwice) {
+  const Folder folder;
+  const std::string out = folder.path() / "out";
+  const Outcome twice = program("compare swing --laws linear,linear --out " + out + kSmall);
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_EQ(twice.err, "hysteron compare: linear is named twice: columns must differ\n");
+  EXPECT_EQ(program("compare swing --laws linear,,prandtl --out " + out + kSmall).exit_code, 2);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Compare, ExplainsEachColumnAndWritesNothing) {
+  const Folder folder;
+  const std::string out = folder.path() / "out";
+  const Outcome outcome = program("compare swing --laws linear,prandtl --explain --out " + out + kSmall);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("linear:\n"), 0u) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nprandtl:\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(" triangles, ", outcome.out.find("\nprandtl:\n")), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Compare, KeepsACaptionFileThatIsNotItsOwnBeforeItRunsAnything) {
+  const Folder folder;
+  std::ofstream(folder.path() / "README.md") << "mine";
+  const Outcome outcome =
+      program("compare swing --laws linear,prandtl --out " + folder.path().string() + kSmall);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("README.md is not of an earlier run"), std::string::npos) << outcome.err;
+  EXPECT_EQ(text_of(folder.path() / "README.md"), "mine");
+  EXPECT_FALSE(fs::exists(folder.path() / "linear"));
+}
+
+TEST(ColumnName, OfAFileIsItsStemAndStaysInItsFolder) {
+  EXPECT_EQ(column_name("prandtl"), "prandtl");
+  EXPECT_EQ(column_name("linear+fabric.damping=2e-3"), "linear+fabric.damping=2e-3");
+  EXPECT_EQ(column_name("/a/wool.toml"), "wool");
+  EXPECT_EQ(column_name("wool.toml+mesh=../m/disc.obj"), "wool+mesh=disc");
+  for (const char* text : {"..", ".", "../..", "/", "a/..", "", "a/"}) {
+    const std::string name = column_name(text);
+    EXPECT_EQ(name.find('/'), std::string::npos) << text;
+    EXPECT_EQ(name.find("column"), 0u) << text << ": " << name;
+  }
 }
 
 LawVariant variant(const std::string& fabric, const std::string& law) {

@@ -152,6 +152,17 @@ TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
   refused(a_ + " " + b_ + " --out " + in("empty"), {"*.png"});
 }
 
+TEST_F(Diff, WritesOntoNeitherPicture) {
+  for (const std::string& picture : {a_, b_}) {
+    const std::string before = text_of(picture);
+    const Outcome outcome =
+        diff("--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("which is compared: give another name"), std::string::npos) << outcome.err;
+    EXPECT_EQ(text_of(picture), before);
+  }
+}
+
 // Two folders with pictures in two places; the second picture differs.
 class DiffOfFolders : public testing::Test {
  protected:
@@ -230,6 +241,10 @@ TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("must not be in"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(b_ / "difference"));
+  fs::rename(b_, folder_.path() / "heat");
+  const std::string heat = folder_.path() / "heat", before = text_of(heat + "/sheet.png");
+  EXPECT_EQ(program("diff " + a_.string() + " " + heat + " --out " + folder_.path().string()).exit_code, 2);
+  EXPECT_EQ(text_of(heat + "/sheet.png"), before);
 }
 
 TEST_F(DiffOfFolders, PrintsOneJsonObject) {

@@ -130,6 +130,26 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
+TEST(Program, OffersToResumeComparisonsOnly) {
+  for (const Experiment& experiment : experiments())
+    EXPECT_EQ(program(std::string(experiment.name) + " --help").out.find("--resume") != std::string::npos,
+              experiment.name == std::string("compare"))
+        << experiment.name;
+}
+
+TEST(Program, WritesNoMomentsOntoItsCurvatures) {
+  const Folder folder;
+  const std::string in = folder.path() / "k.csv", link = folder.path() / "link.csv";
+  std::ofstream(in) << "curvature [1/m]\n50\n";
+  fs::create_symlink(in, link);
+  for (const std::string& out : {in, link}) {
+    const Outcome outcome = program("law --in " + in + " --out " + out);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "hysteron law: --out " + out + " is the input: give another file\n");
+    EXPECT_EQ(text_of(in), "curvature [1/m]\n50\n");
+  }
+}
+
 // More than --quick takes by itself.
 TEST(Program, TakesTheTrianglesThatAreAskedForThoughItIsQuick) {
   const char* const lines[] = {"drape --triangles 1500",   "swing --triangles 600",

@@ -96,10 +96,6 @@ TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
   EXPECT_NE(refusal({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
 }
 
-TEST(Setup, SaysThatResumingIsNotBuilt) {
-  EXPECT_EQ(refusal({{"resume", "true"}}), "--resume is not built yet");
-}
-
 TEST(Setup, ChecksTheSceneAsAWhole) {
   EXPECT_NE(refusal({{"fabric.b1", "1e-9"}}).find("fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"),
             std::string::npos);

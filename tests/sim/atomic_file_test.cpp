@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
+#include <filesystem>
 
+#include "sim/error.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
@@ -28,6 +31,36 @@ TEST(AtomicFile, LeavesTheOldContentWithoutCommit) {
   { AtomicFile(folder.file("a.txt")).stream() << "half"; }
   EXPECT_EQ(test::content_of(folder.file("a.txt")), "old");
   EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, ReplacesWhatALinkLeadsToAndNotTheLink) {
+  const Folder folder;
+  folder.write("a.txt", "old");
+  std::filesystem::create_symlink("a.txt", folder.file("link"));
+  AtomicFile file(folder.file("link"));
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
+  EXPECT_EQ(test::content_of(folder.file("a.txt")), "new");
+}
+
+TEST(AtomicFile, ReplacesNoFileThatIsStandardOutput) {
+  EXPECT_THROW(AtomicFile("/dev/stdout"), Error);
+  EXPECT_THROW(AtomicFile("/dev/fd/1"), Error);
+}
+
+TEST(AtomicFile, ReplacesNoPipe) {
+  const Folder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  try {
+    AtomicFile file(folder.file("pipe"));
+    FAIL() << "a pipe was taken for a file";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_EQ(error.what(),
+              "cannot write " + folder.file("pipe") + ": it is no plain file; give another name");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
 }
 
 TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
