@@ -39,7 +39,9 @@ std::string without_unit(std::string_view name) {
 struct Place {
   std::string reader, file;
   int line = 0;
-  Error error(const std::string& what) const {
+  Error error(std::string what) const {
+    std::replace_if(
+        what.begin(), what.end(), [](unsigned char c) { return c < 0x20; }, ' ');  // of the file
     return Error::request(reader + ": " + file + ":" + std::to_string(line) + ": " + what);
   }
 };

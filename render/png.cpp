@@ -2,6 +2,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csetjmp>
 #include <memory>
 #include <new>
@@ -87,7 +88,9 @@ std::string damage_of(std::span<const std::uint8_t> bytes) {
     const std::string type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
     if (length > bytes.size() - at - kAround) break;
     const uLong sum = crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
-    if (sum != big_endian(&bytes[at + 8 + length])) return "chunk " + type + " is damaged";
+    const bool named = std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c); });
+    if (sum != big_endian(&bytes[at + 8 + length]))
+      return (named ? "chunk " + type : std::string("a chunk without a name")) + " is damaged";
     if (type == "IEND") return "";
     at += length + kAround;
   }

@@ -66,7 +66,7 @@ void Mutation::change(std::string& text, const std::vector<std::string>& seeds) 
 
 std::string Mutation::of(const std::vector<std::string>& seeds) {
   std::string text = seeds[below(seeds.size())];
-  for (std::size_t changes = 1 + below(8); changes > 0; --changes) change(text, seeds);
+  for (std::size_t changes = 1 + below(1 + below(8)); changes > 0; --changes) change(text, seeds);
   return text;
 }
 

@@ -107,6 +107,15 @@ TEST(Png, ATruncatedPictureIsRefused) {
   EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
 }
 
+// Four bytes that would break the line of the message.
+TEST(Png, ADamagedNameOfAChunkIsNotRepeated) {
+  auto bytes = encode_png(gradient(6, 6, 3));
+  bytes[bytes.size() - 6] = '\n';  // IEND
+  const Error error = error_of([&] { decode_png(bytes, "a.png"); });
+  EXPECT_EQ(std::string(error.what()),
+            "reading a.png: a broken PNG picture: a chunk without a name is damaged");
+}
+
 // The header announces far more than stands behind it.
 TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
   const auto refusal = [](std::uint32_t width, std::uint32_t height) {
