@@ -60,8 +60,7 @@ Scene measured_scene(Scene scene, const BuckleChoice& choice, Buckling kind) {
 
 Southwell measure(const Scene& scene, Buckling kind, double length, Session& session) {
   const auto stage = session.run().stage("solve");
-  BucklingStrip strip = measured_strip(scene, kind, length);
-  strip.scene.step = 2 * scene.step;  // extrapolated, the threshold needs fewer states than the picture
+  const BucklingStrip strip = measured_strip(scene, kind, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   Southwell found = approach_threshold(strip, *simulation);
   char text[100];

@@ -212,8 +212,8 @@ int drape(const CommandLine& line) {
   question.to_rest = true;
   question.progress = [&](const Moment& m) {
     char text[120];
-    std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time, covered,
-                  m.fastest);
+    std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time,
+                  covered, m.fastest);
     return std::string(text);
   };
   const bool settled = session.simulate(question);

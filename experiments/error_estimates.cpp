@@ -43,14 +43,17 @@ class Estimate {
   }
 
  private:
-  // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.
+  // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.  Two
+  // paths may be the same.
+  static bool unused(const Repeated& r) { return r.unchanged && r.repeat.name != "path"; }
+
   bool is_usable(const Repeated& r) {
     const std::string what = r.repeat.name + " (" + words_of(r.repeat.changes) + ")";
     if (!r.stopped.empty())
       errors_.missing.push_back(what + " is not complete: " + r.stopped);
-    else if (r.unchanged)
+    else if (unused(r))
       errors_.missing.push_back(what + " changes no bit of the run, so it says nothing of an error");
-    return r.stopped.empty() && !r.unchanged;
+    return r.stopped.empty() && !unused(r);
   }
 
   // The headline's values in the repeats of that name, "draw-2" being a "draw".
@@ -108,10 +111,13 @@ class Estimate {
 }  // namespace
 
 Errors errors_of(const std::string& experiment, const Json& metrics, const std::vector<Repeated>& repeats) {
-  Errors errors = Estimate(headlines_of(experiment)->metrics, metrics, repeats).errors();
+  const Headlines& headlines = *headlines_of(experiment);
+  Errors errors = Estimate(headlines.metrics, metrics, repeats).errors();
   const bool meshed =
       std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) { return r.repeat.name == "mesh"; });
   if (!meshed) errors.missing.push_back("mesh and draw: the cloth's triangles come from a file");
+  if (headlines.equilibria)
+    errors.missing.push_back("step: " + experiment + " finds equilibria at loads that --step does not set");
   return errors;
 }
 

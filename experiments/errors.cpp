@@ -130,7 +130,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
   const bool meshed = !from_a_file(scene);
   // The longest first: they run side by side.
   if (meshed) repeats.push_back({"mesh", {{"triangles", std::to_string(kFiner * scene.triangles)}}});
-  repeats.push_back({"step", {{"step", number_text(scene.step / 2)}}});
+  if (!headlines.equilibria) repeats.push_back({"step", {{"step", number_text(scene.step / 2)}}});
   for (int draw = 1; meshed && draw <= draws; ++draw)
     repeats.push_back({"draw-" + std::to_string(draw),
                        headlines.own_mesh ? drawn_number(scene, draw) : drawn_mesh(scene, draw)});

@@ -16,7 +16,7 @@ const Headlines* headlines_of(const std::string& experiment) {
       {.experiment = "crumple",
        .metrics = {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m"}},
       {.experiment = "cantilever", .metrics = {"tip_drop_over_length", "bending_length_m"}},
-      {.experiment = "buckle", .metrics = {"critical_gamma"}}};
+      {.experiment = "buckle", .metrics = {"critical_gamma"}, .equilibria = true}};
   for (const Headlines& headlines : kAll)
     if (headlines.experiment == experiment) return &headlines;
   return nullptr;

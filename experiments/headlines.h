@@ -9,6 +9,7 @@ namespace hysteron::experiments {
 struct Headlines {
   std::string experiment;
   std::vector<std::string> metrics;
+  bool equilibria = false;           // found at loads that --step does not set
   bool own_mesh = false;             // the experiment cuts its mesh, whatever --mesh and --seed say
   std::string release{};             // key of how the cloth is let go, where that matters
   std::vector<std::string> paths{};  // its values; the first that is not the run's is the other path

@@ -26,13 +26,13 @@ struct Options {
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
   bool check_intersections = false;                  // check-intersections  of every moment that is recorded
-  bool errors = false;   // errors     repeat the run, for the error of its headlines
-  int errors_draws = 2;  // errors.draws  other meshes
-  int errors_jobs = 0;   // errors.jobs   repeats at a time
-  bool quick = false;    // quick      a small version of the same question
-  bool explain = false;  // explain    print what the scene includes, and stop
-  bool quiet = false;    // quiet      no progress on stderr
-  bool json = false;     // json       the manifest on stdout
+  bool errors = false;                               // errors       of headlines, by repeating the run
+  int errors_draws = 2;                              // errors.draws other meshes
+  int errors_jobs = 0;                               // errors.jobs  repeats at a time, 0: as many as fit
+  bool quick = false;                                // quick      a small version of the same question
+  bool explain = false;                              // explain    print what the scene includes, and stop
+  bool quiet = false;                                // quiet      no progress on stderr
+  bool json = false;                                 // json       the manifest on stdout
 
   int width() const;   // [pixels], of `size`
   int height() const;  // [pixels]

@@ -222,9 +222,10 @@ void check_command(const Scene& scene, const Command& command, const std::string
 
 void check_steps(const Scene& scene) {
   if (scene.self_contact && scene.integrator == "explicit")
-    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
-                         ") needs integrator = implicit | bdf2 | quasi-static | semi-implicit, not explicit (" +
-                         origin_of(scene, "integrator") + ")");
+    throw Error::request(
+        "self-contact (" + origin_of(scene, "self-contact") +
+        ") needs integrator = implicit | bdf2 | quasi-static | semi-implicit, not explicit (" +
+        origin_of(scene, "integrator") + ")");
   if (scene.self_contact && scene.integrator == "semi-implicit" && scene.implicit_every == "step")
     throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
                          ") needs implicit-every = substep, not step (" + origin_of(scene, "implicit-every") +

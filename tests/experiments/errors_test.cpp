@@ -69,45 +69,56 @@ TEST(Repeats, OfAClothFromAFileHaveNoOtherMesh) {
   EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
 }
 
-Repeated buckled(const std::string& name, double gamma) {
-  return {{name, {{"seed", "2"}}}, {{"critical_gamma", gamma}}};
+Repeated bent(const std::string& name, double length) {
+  return {{name, {{"seed", "2"}}}, {{"bending_length_m", length}}};
+}
+
+TEST(Repeats, OfEquilibriaHaveNoStep) {
+  EXPECT_EQ(words(repeats_of("buckle", scene_on("random", "strip"), "", 1)),
+            "mesh: triangles=4000; draw-1: mesh=random seed=8");
+  const Errors errors =
+      errors_of("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});
+  EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"], 1);
+  EXPECT_TRUE(errors.metrics["critical_gamma_step_error"].is_null());
+  EXPECT_EQ(errors.missing,
+            std::vector<std::string>{"step: buckle finds equilibria at loads that --step does not set"});
 }
 
 TEST(Errors, AreDifferencesToTheRunAndTheDeviationOverDraws) {
-  const Json metrics = {{"critical_gamma", 8.0}};
-  const Errors errors = errors_of("buckle", metrics,
-                                  {buckled("mesh", 7.5), buckled("step", 8.25), buckled("draw-1", 7),
-                                   buckled("draw-2", 9), buckled("path", 7)});
-  EXPECT_EQ(errors.metrics["critical_gamma_step_error"], 0.25);
-  EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"], 0.5);
-  EXPECT_EQ(errors.metrics["critical_gamma_draw_error"], 1);  // of 7, 8, 9
-  EXPECT_EQ(errors.metrics["critical_gamma_path_difference"], -1);
-  EXPECT_FALSE(errors.metrics.contains("critical_gamma_mean"));
+  const Json metrics = {{"bending_length_m", 8.0}};
+  const Errors errors = errors_of(
+      "cantilever", metrics,
+      {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 7), bent("draw-2", 9), bent("path", 7)});
+  EXPECT_EQ(errors.metrics["bending_length_m_step_error"], 0.25);
+  EXPECT_EQ(errors.metrics["bending_length_m_mesh_error"], 0.5);
+  EXPECT_EQ(errors.metrics["bending_length_m_draw_error"], 1);  // of 7, 8, 9
+  EXPECT_EQ(errors.metrics["bending_length_m_path_difference"], -1);
+  EXPECT_FALSE(errors.metrics.contains("bending_length_m_mean"));
   EXPECT_TRUE(errors.missing.empty());
 }
 
 TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
-  const Json metrics = {{"critical_gamma", 6.0}};
-  const Errors errors = errors_of("buckle", metrics,
-                                  {buckled("mesh", 7.5), buckled("step", 8.25), buckled("draw-1", 6),
-                                   buckled("draw-2", 8), buckled("draw-3", 8)});
-  EXPECT_EQ(errors.metrics["critical_gamma_mean"], 7);
-  EXPECT_NEAR(errors.metrics["critical_gamma_draw_error"].get<double>(), std::sqrt(4.0 / 3), 1e-15);
-  EXPECT_NEAR(errors.metrics["critical_gamma_mean_stderr"].get<double>(), std::sqrt(1.0 / 3), 1e-15);
+  const Json metrics = {{"bending_length_m", 6.0}};
+  const Errors errors = errors_of(
+      "cantilever", metrics,
+      {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 6), bent("draw-2", 8), bent("draw-3", 8)});
+  EXPECT_EQ(errors.metrics["bending_length_m_mean"], 7);
+  EXPECT_NEAR(errors.metrics["bending_length_m_draw_error"].get<double>(), std::sqrt(4.0 / 3), 1e-15);
+  EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].get<double>(), std::sqrt(1.0 / 3), 1e-15);
 }
 
 TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
-  Repeated stopped = buckled("mesh", 7.5), same = buckled("step", 8), without = buckled("draw-1", 7);
+  Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
   stopped.stopped = "no convergence";
   same.unchanged = true;
   without.metrics = Json::object();
-  const Errors errors = errors_of("buckle", {{"critical_gamma", 8.0}}, {stopped, same, without});
+  const Errors errors = errors_of("cantilever", {{"bending_length_m", 8.0}}, {stopped, same, without});
   for (const char* ending : {kStepError, kMeshError, kDrawError})
-    EXPECT_TRUE(errors.metrics.at(std::string("critical_gamma") + ending).is_null()) << ending;
+    EXPECT_TRUE(errors.metrics.at(std::string("bending_length_m") + ending).is_null()) << ending;
   ASSERT_EQ(errors.missing.size(), 3);
   EXPECT_EQ(errors.missing[0], "mesh (--seed=2) is not complete: no convergence");
   EXPECT_NE(errors.missing[1].find("changes no bit"), std::string::npos);
-  EXPECT_EQ(errors.missing[2], "draw-1 has no critical_gamma");
+  EXPECT_EQ(errors.missing[2], "draw-1 has no bending_length_m");
 }
 
 const Json kDrape = {{"drape_coefficient_percent", 86.0213},
