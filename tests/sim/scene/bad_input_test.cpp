@@ -48,6 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadScene{"NoToml", "step = = 3\n", 1, {"TOML"}},
         BadScene{"KeyBeyondAscii", "\n[\xC3\xA9]\n", 2, {"TOML", "malformed"}},
+        BadScene{"LettersBeyondAscii", "\nstep\xCF\x80 = 1\n", 2, {"TOML"}},
         BadScene{"ThreeBrackets", "step = 1e-3\n[[[pin]]\n\n", 2, {"TOML", "malformed"}},
         BadScene{"BraceForAKey", "[}]\n", 1, {"TOML", "malformed"}},
         BadScene{"OpenBraceForAKey", "[{]\n", 1, {"TOML", "malformed"}},
