@@ -22,16 +22,17 @@ struct Command {
   std::vector<std::string> names;
 };
 
-std::vector<KeyDescription> keys_of(const Experiment& experiment) {
+// Defaults are read, with the fabric's file, only to be shown: `for_help`.
+std::vector<KeyDescription> keys_of(const Experiment& experiment, bool for_help) {
   std::vector<KeyDescription> keys;
   if (experiment.own_keys) keys = experiment.own_keys();
   if (!experiment.simulates) return keys;
-  Setup setup{default_scene(), {}};
-  if (experiment.defaults) setup = experiment.defaults();
+  const bool shown = for_help && experiment.defaults;
+  Setup setup = shown ? experiment.defaults() : Setup();
   std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
   for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
   for (KeyDescription& key : general) {
-    if (!experiment.defaults) key.usual.clear();
+    if (!shown) key.usual.clear();
     keys.push_back(std::move(key));
   }
   return keys;
@@ -56,12 +57,12 @@ CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
   return option->take_last();
 }
 
-void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
+void add_command(CLI::App& program, const Experiment& experiment, bool for_help, Command& command) {
   command.experiment = &experiment;
   command.app = program.add_subcommand(experiment.name, experiment.question);
   command.app->allow_extras();
   if (!experiment.run) return;
-  for (const KeyDescription& key : keys_of(experiment)) {
+  for (const KeyDescription& key : keys_of(experiment, for_help)) {
     command.flags.emplace_back(key.path == "fabric.name" ? "fabric" : key.path, add_flag(*command.app, key));
   }
   if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);
@@ -146,7 +147,9 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
   program.allow_extras();
   program.require_subcommand(0, 1);
   std::vector<Command> commands(known.size());
-  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], commands[i]);
+  const bool for_help = std::any_of(
+      words, words + count, [](const std::string_view word) { return word == "--help" || word == "-h"; });
+  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], for_help, commands[i]);
   const auto chosen = [&]() -> const Command* {
     for (const Command& command : commands) {
       if (command.app->parsed()) return &command;
