@@ -83,30 +83,22 @@ TEST(Cantilever, ShowsAWrongRigidityInItsDroopAsWell) {
     EXPECT_GT(std::abs(residual(wrong, "residual_drop_over_length") / elastica - 1), 0.02) << wrong;
 }
 
-// Weft half as stiff as warp: the reference is the strip's own, wherever its warp points.
+// Weft half as stiff as warp: half the weight bends it as far, and the reference is the strip's own.
 TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
-  const auto along = [](const char* law, const char* angle, const char* gamma) {
-    return metrics_of({{"law", law},
-                       {"gamma", gamma},
-                       {"triangles", "512"},
-                       {"fabric.weft-bending", "0.5"},
-                       {"fabric.bias-bending", "0.7"},
-                       {"cloth.warp-angle", angle}});
-  };
   for (const char* law : {"linear", "prandtl"}) {
-    const auto warp = along(law, "0", "10"), weft = along(law, "90", "5");
-    for (const auto& metrics : {warp, weft}) {
-      EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin) << law;
-      EXPECT_NEAR(
-          metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(), 1,
-          kWithin);
-    }
-    EXPECT_GT(warp["elastica_drop_over_length"], 0.2);
+    const auto metrics = metrics_of({{"law", law},
+                                     {"gamma", "5"},
+                                     {"triangles", "256"},
+                                     {"fabric.weft-bending", "0.5"},
+                                     {"fabric.bias-bending", "0.7"},
+                                     {"cloth.warp-angle", "90"}});
+    EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kWithin) << law;
+    EXPECT_NEAR(
+        metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(), 1,
+        kWithin);
+    if (law == std::string("linear"))
+      EXPECT_NEAR(metrics["elastica_drop_over_length"].get<double>() / kDropOfTen, 1, 1e-4);
   }
-  // Half as stiff under half of the weight, or under all of it.
-  const double half = along("linear", "90", "5")["elastica_drop_over_length"];
-  EXPECT_NEAR(half / kDropOfTen, 1, 1e-4);
-  EXPECT_GT(along("linear", "90", "10")["elastica_drop_over_length"].get<double>(), 1.1 * half);
 }
 
 // A long strip cut on the bias twists as it bends: softer than a plate bent to a cylinder, whose rigidity is
@@ -114,7 +106,7 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
 TEST(Cantilever, OnTheBiasFollowsAFreeStrip) {
   const auto metrics = metrics_of({{"law", "linear"},
                                    {"gamma", "1"},
-                                   {"triangles", "1024"},
+                                   {"triangles", "512"},
                                    {"cloth.width", "0.01"},
                                    {"fabric.weft-bending", "0.5"},
                                    {"fabric.bias-bending", "0.7"},
