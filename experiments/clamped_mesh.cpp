@@ -66,7 +66,6 @@ Cloth clamp_at(Scene& scene, double line) {
   const double width = shape.shape == "square" ? shape.length : shape.width;
   ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);
   for (Eigen::Vector3d& x : clamped.mesh.rest) x.x() += line - clamped.spacing / 2;
-  scene.triangles = clamped.mesh.faces();
   Pin clamp;
   clamp.low = {-1, -1, -1};
   clamp.high = {line + clamped.spacing / 2, 1, 1};

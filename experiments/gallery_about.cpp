@@ -11,10 +11,14 @@ namespace {
 
 bool known(const Json& json, const std::string& key) { return json.contains(key) && !json[key].is_null(); }
 
-// "prandtl,linear" or a list, as the manifests of experiments over several laws or fabrics have it.
+// "prandtl,linear" or a list of names or of what has one, as the manifests of experiments over several laws
+// or fabrics have it.
 std::vector<std::string> names_in(const Json& value) {
   if (value.is_string()) return split(value.get<std::string>());
-  return value.is_array() ? value.get<std::vector<std::string>>() : std::vector<std::string>{};
+  std::vector<std::string> names;
+  for (const Json& entry : value.is_array() ? value : Json::array())
+    names.push_back(entry.is_object() ? entry.value("name", "") : entry.get<std::string>());
+  return names;
 }
 
 // "law prandtl", "laws prandtl, linear", "14 laws"; `one`: the scene's key, or that with an s.

@@ -39,8 +39,7 @@ const Rule kRules[] = {{"/experiment", {"a text"}},
                        {"/scene/fabric/published", {"an object"}}};
 
 // Lists of names may also be one text, "linear,prandtl".
-const char* const kNames[] = {"/scene/fabrics", "/scene/law", "/scene/laws", "/scene/element",
-                              "/scene/elements"};
+const char* const kNames[] = {"/scene/law", "/scene/laws", "/scene/element", "/scene/elements"};
 
 // Entries of which each is an object with these keys.
 struct Entries {

@@ -13,8 +13,9 @@ constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow
 // What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
-// Rounding of positions.  What it makes of forces, stiffness times position times this, may in single
-// precision be as large as the weight of fine cloth: where there is weight, the last correction decides.
+// Rounding of positions.  What it makes of forces, stiffness times position times this, may exceed the forces
+// that decide, as those of a thin strip on edge, or the weight of fine cloth in single precision: it ends a
+// step only of free cloth without weight, whose forces have nothing else to compare with.
 template <class Real>
 constexpr double kBlur = sizeof(Real) == 8 ? 1e-16 : 6e-8;
 // Corrections that rounding of positions cannot tell from none, relative to the positions.
@@ -70,14 +71,15 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
         potential_.linearise(x, static_cast<Real>(shift), value.residual < kNear * first);
     outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
     const Correction correction = measure_correction(system, x, mass, held);
-    if (sizeof(Real) == 8 || std::hypot(weight, value.reaction) == 0)
-      rounding = kBlur<Real> * std::sqrt(correction.forces2);
+    const bool is_free = std::hypot(weight, value.reaction) == 0;
+    if (is_free) rounding = kBlur<Real> * std::sqrt(correction.forces2);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double length = std::sqrt(correction.size2 / total_mass);
     // Of potentials: what their sum loses, and what forces make of rounded positions.
     const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
-    const double blurred = std::max(kRounding<Real> * value.size, kBlur<Real> * value.internal * extent);
+    const double blurred =
+        std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
     const double share = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
     if (potential_.has_self_contact()) farthest = kLonger * share * length;
     const bool balanced =

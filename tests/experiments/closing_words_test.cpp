@@ -99,7 +99,7 @@ TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
   EXPECT_EQ(progress_in(folder.path()), "1.20/4 s");
 }
 
-TEST(Report, SaysAtItsTopThatTheClothDidNotComeToRest) {
+TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
   const Folder folder;
   const Outcome outcome = program("drape --quick --no-images --quiet --triangles 100 --seconds 0.1 --out " +
                                   folder.path().string());

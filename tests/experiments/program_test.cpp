@@ -190,7 +190,7 @@ TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
              help.end());
   std::replace(help.begin(), help.end(), '\n', ' ');
   for (const char* part :
-       {"radius of the pedestal [m], > 0, default 0.09", "lowered | dropped, default lowered",
+       {"radius of the pedestal [m], > 0, default 0.09", "lowered | dropped | relifted, default lowered",
         "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default bdf2"})
     EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
   EXPECT_NE(program("swing --help").out.find("default 1000"), std::string::npos)

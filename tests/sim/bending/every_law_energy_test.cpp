@@ -41,7 +41,8 @@ void expect_balance(const Law& law) {
   Path<double, Law::kDimension> corners;
   for (const auto& k : random_tensors(6, 2 * c.k0, 4)) corners.push_back(k.head<Law::kDimension>());
   const double scale = c.friction_moment() * c.k0;
-  const double coarse = balance_error(law, corners, 500), fine = balance_error(law, corners, 4000);
+  // Fine enough for laws that stick and slip: below, their error depends on where in a step they slip.
+  const double coarse = balance_error(law, corners, 4000), fine = balance_error(law, corners, 32000);
   constexpr double kFirstOrder = 0.8, kQuadratureRounding = 1e-10;
   EXPECT_LE(coarse, 0.1 * scale);
   if (fine > kQuadratureRounding * scale) {

@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"BareNumber", "thickness = 4e-4", 8, "{value, unit, source, confidence}"},
         BadFabric{"OwnConfidence",
                   "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"sure\"}", 8,
-                  "published | fitted | derived | assumed"},
+                  "published | fitted | derived | given | assumed"},
         BadFabric{"OutOfRange",
                   "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "fabric.thickness = 0 m must be > 0"},
