@@ -283,7 +283,9 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
         // What Newton's method has left unbalanced acts like one more force on the masses.
         sum.unbalanced -= static_cast<double>(gradient[i].dot(d));
         sum.air -= static_cast<double>(air.dot(d));
-        const Vec3<Real> moved = drift[i] + rate * (end[i] - predicted[i]);
+        // Statics take the velocities of a motion before them.
+        const Vec3<Real> moved =
+            rate > 0 ? Vec3<Real>(drift[i] + rate * (end[i] - predicted[i])) : Vec3<Real>(Vec3<Real>::Zero());
         sum.inertia +=
             static_cast<double>(inertial.dot(d) - mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
       });

@@ -113,6 +113,47 @@ void expect_opening(const char* fold, double tolerance, double least, double mos
 // Bent to 1/r everywhere, well beyond K0, a strip keeps at most M0/b2 over the arc; it opens as the law does.
 TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130); }
 
+// Let go slowly, it passes through equilibria: what stays does not depend on the step.
+TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
+  const auto kept = [](const char* step) {
+    const Folder folder;
+    CommandLine line = soft_fold("rod", folder.path());
+    line.flags.push_back({"step", step});
+    EXPECT_EQ(crease(line), 0);
+    const auto metrics = metrics_in(folder.path());
+    return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
+  };
+  const auto [angle, residual] = kept("0.016666666666666666");
+  const auto [finer_angle, finer_residual] = kept("0.008333333333333333");
+  EXPECT_NEAR(angle, finer_angle, 1);
+  EXPECT_NEAR(residual / finer_residual, 1, 0.05);
+}
+
+TEST(CreaseSpecimen, HasFinerColumnsWhereMoreTrianglesAreAskedFor) {
+  const auto shortest = [](int triangles) {
+    Scene scene = small_scene();
+    scene.triangles = triangles;
+    const ClothMesh mesh = creased(scene, {}, 1.4e-3).cloth.mesh;
+    double least = 1;
+    for (const Edge& e : mesh.edge) {
+      const double along = std::abs(mesh.rest[e.p2].x() - mesh.rest[e.p3].x());
+      if (along > 1e-9) least = std::min(least, along);
+    }
+    return least;
+  };
+  EXPECT_NEAR(shortest(2000) / shortest(500), 0.5, 0.05);
+}
+
+TEST(CreaseSpecimen, IsLeftByASlowPlateSlowly) {
+  CreaseChoice slow, quick;
+  quick.release = "quick";
+  const CreaseTimes one = creased(small_scene(), slow, 1.4e-3).times,
+                    other = creased(small_scene(), quick, 1.4e-3).times;
+  EXPECT_EQ(one.released, other.released);
+  EXPECT_NEAR(one.lifted - one.released, slow.lift, 1e-12);
+  EXPECT_LT(other.lifted - other.released, 0.2);
+}
+
 // Pulled straight, it does not return to the angle that it was made with.
 TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) { expect_opening("pleat", 5, 65, 120); }
 

@@ -197,6 +197,24 @@ TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
       << "its own number of triangles";
 }
 
+// Along every path, and says what bringing it to rest has moved.
+TEST(Program, EndsADrapeAtRest) {
+  const Folder folder;
+  for (const std::string release : {"lowered", "dropped", "relifted"}) {
+    const Outcome outcome = program(
+        "drape --triangles 200 --seconds 0.5 --drape.lowering 0.1 --device cpu --no-images --quiet "
+        "--drape.release " +
+        release + " --out " + (folder.path() / release).string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("at rest"), std::string::npos) << outcome.out;
+    const Json manifest = Json::parse(text_of(folder.path() / release / "manifest.json"));
+    EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
+    EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;
+    EXPECT_EQ(manifest["energy"]["kinetic"], 0) << release;
+    EXPECT_LT(manifest["metrics"]["energy_remainder_relative"], 1e-9) << release;
+  }
+}
+
 TEST(Program, DrivesALawThroughAFileOfCurvatures) {
   const Folder folder;
   const std::string in = folder.path() / "k.csv", out = folder.path() / "m.csv";

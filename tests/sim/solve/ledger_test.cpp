@@ -101,6 +101,30 @@ TEST(Ledger, ClosesForClothFallingOnTheGround) {
   }
 }
 
+// What has been moving is brought to rest: nothing moves any more, and what was kinetic energy is booked.
+TEST(Ledger, ClosesWhenAMotionIsEndedAtItsEquilibrium) {
+  for (const char* integrator : {"implicit", "bdf2"}) {
+    Trial trial(scene_of("prandtl", integrator));
+    test::ripple(trial.cloth, 3e-3);
+    const auto simulation = trial.after(20);
+    ASSERT_GT(simulation->ledger().kinetic, 0);
+    simulation->become_static();
+    simulation->advance(4);
+    const std::vector<Eigen::Vector3d> before = simulation->positions();
+    simulation->advance(1);
+    const std::vector<Eigen::Vector3d> x = simulation->positions();
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_LT((x[i] - before[i]).norm(), 1e-9) << integrator;
+    const Ledger ledger = simulation->ledger();
+    EXPECT_EQ(ledger.kinetic, 0);
+    EXPECT_LT(ledger.remainder_relative, kClosed) << integrator;
+  }
+}
+
+TEST(Equilibrium, IsNotForIntegratorsThatAreExplicitInBending) {
+  Trial trial(scene_of("prandtl", "semi-implicit"));
+  EXPECT_THROW(trial.after(1)->become_static(), Error);
+}
+
 // Flat cloth in free fall: kinetic energy m v^2/2 with v = g t; the height lost is g t (t + he)/2 (symplectic
 // Euler), so that the integrator's loss is m g^2 t he/2, all of it inertia.
 TEST(Ledger, OfFreeFallIsItsClosedForm) {
