@@ -49,10 +49,12 @@ Setup defaults() {
   return setup;
 }
 
-// A quick release needs inertia, and steps whose own damping is small beside the fabric's.
+// A quick release needs inertia, and steps whose own damping is small beside the fabric's, solved as well as
+// that.
 void let_go_quickly(Scene& scene) {
   if (!scene.origin.contains("integrator")) scene.integrator = "bdf2";
   if (!scene.origin.contains("step")) scene.step = 1.0 / 960;
+  if (!scene.origin.contains("newton-residual")) scene.newton_residual = 1e-6;
 }
 
 // What came of one law.
