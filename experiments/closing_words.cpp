@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/error_words.h"
 #include "experiments/report_manifest.h"
 
 namespace hysteron::experiments {
@@ -55,7 +56,7 @@ constexpr Headline kHeadlines[] = {
 
 // Endings of metrics that say how far another one may be off, and what they are from.
 constexpr std::pair<const char*, const char*> kErrors[] = {
-    {"_stderr", ""}, {"_step_error", " (step)"}, {"_mesh_error", " (mesh)"}, {"_draw_error", " (draw)"}};
+    {"_stderr", ""}, {kStepError, " (step)"}, {kMeshError, " (mesh)"}, {kDrawError, " (draw)"}};
 
 std::string formatted(const char* format, double value) {
   char text[40];

@@ -70,8 +70,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     const LinearSystem<Real, Device> system =
         potential_.linearise(x, static_cast<Real>(shift), value.residual < kNear * first);
     outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
-    const Correction correction = measure_correction(system, x, mass, held);
     const bool is_free = std::hypot(weight, value.reaction) == 0;
+    const Correction correction = measure_correction(system, x, mass, held, is_free);
     if (is_free) rounding = kBlur<Real> * std::sqrt(correction.forces2);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
@@ -144,7 +144,8 @@ double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double
 
 template <class Real, class Device>
 typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(
-    const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass, const char* held) {
+    const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass, const char* held,
+    bool is_free) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
   const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
   Correction* result = sums_.data();
@@ -155,6 +156,7 @@ typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correcti
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
         sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
+        if (!is_free) return;  // the blocks are most of what would be read
         const Real stiffness = diagonal[i].trace() + rest[i].trace();
         sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
       },

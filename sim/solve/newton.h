@@ -47,10 +47,11 @@ class Newton {
     double size2;    // sum of m |d|^2 [kg m^2]
     double slope;    // gradient . d [J]
     double extent2;  // sum of m |x|^2 [kg m^2]
-    double forces2;  // sum of (trace of the stiffness times |x|)^2, whose rounding no force escapes [N^2]
+    double forces2;  // sum of (trace of the stiffness times |x|)^2, whose rounding no force escapes; of free
+                     // cloth [N^2]
   };
   Correction measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
-                                const Real* mass, const char* held);
+                                const Real* mass, const char* held, bool is_free);
   void try_share(const Vec3<Real>* x, Real share);
   void take_trial(Vec3<Real>* x);
   void negate_gradient();
