@@ -28,7 +28,7 @@ struct CompareChoice {
   bool no_outlines = false;
   int jobs = 0;
   bool resume = false;
-  std::string match = "fabric";
+  std::string match = "energy";
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";
 };
@@ -45,7 +45,7 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
     {"resume", at<&C::resume>, "", any(), "", "keeps columns that the same program has finished in this folder"},
-    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal between laws: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "to which energy is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, where ffmpeg is there"},
 };
@@ -237,10 +237,9 @@ void write_table(Run& run, const Plan& plan) {
 }
 
 std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
-  if (choice.match == "fabric") {
-    if (plan.laws < 2) return {};
-    return {"Each law makes of the same fabric what its own definition says (no stiffness matched)."};
-  }
+  if (plan.laws < 2) return {};
+  if (choice.match == "fabric")
+    return {"No stiffness is matched: a difference between laws may be one of stiffness alone."};
   char text[120];
   if (choice.match == "energy")
     std::snprintf(text, sizeof text, "Matched to %s: equal work to bend from flat to %g 1/m; b1, b2 times",

@@ -41,24 +41,28 @@ hysteron() {
   command "$program" "$@"
 }
 
-# lost ARGUMENT...: what friction and viscosity in bending have taken in a small swing [J].
-lost() {
-  command "$program" swing --quick --no-images --quiet --json --triangles 100 --out "$out/.tuning" "$@" "${more[@]}" |
-    awk -F'[:,]' '/"(bending_friction|viscous)_J"/ { sum += $2 } END { printf "%.9g", sum }'
+# A number of a column of a comparison: metric_of FOLDER COLUMN METRIC.
+metric_of() {
+  awk -F, -v column="$2" -v metric="$3" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == metric) at = i }
+    $1 == column { print $at + 0 }' "$1/table.csv"
 }
 
-# The viscosity with which a linear strip loses as much in its first 0.4 s as the hysteretic one: bisection in
-# the logarithm of fabric.damping [s].
+# Whether a linear strip, matched in stiffness, loses less to this viscosity in its first 0.4 s than the hysteretic
+# one to friction: loses_less DAMPING.
+loses_less() {
+  local folder=$out/.tuning
+  command "$program" compare swing --quick --no-images --quiet --resume --triangles 100 --out "$folder" \
+    --laws "linear+fabric.damping=$1,prandtl" "${more[@]}" >&2
+  awk "BEGIN { exit !($(metric_of "$folder" "linear+fabric.damping=$1" viscous_J) <
+    $(metric_of "$folder" prandtl bending_friction_J)) }"
+}
+
+# The viscosity with which both lose as much: bisection in the logarithm of fabric.damping [s].
 tuned_damping() {
-  local wanted low=1e-5 high=1e-1 middle
-  wanted=$(lost --law prandtl)
+  local low=1e-5 high=1e-1 middle
   for _ in $(seq 9); do
     middle=$(awk "BEGIN { printf \"%.4g\", sqrt($low * $high) }")
-    if awk "BEGIN { exit !($(lost --law linear --fabric.damping "$middle") < $wanted) }"; then
-      low=$middle
-    else
-      high=$middle
-    fi
+    if loses_less "$middle"; then low=$middle; else high=$middle; fi
   done
   printf '%s' "$middle"
 }

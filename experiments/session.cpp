@@ -123,7 +123,18 @@ bool Session::checks_intersections() const {
 void Session::watch_intersections(const std::vector<Eigen::Vector3d>& x) {
   if (!checks_intersections()) return;
   const auto stage = run_->stage("intersections");
-  intersections_ += static_cast<long>(intersecting_triangles(cloth_.mesh.face, x).size());
+  const auto found = intersecting_triangles(cloth_.mesh.face, x);
+  intersections_ += static_cast<long>(found.size());
+  if (found.empty()) return;
+  const auto [a, b] = found.front();
+  const Eigen::Vector3d at = x[cloth_.mesh.face[a][0]];
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "warning: %zu pairs of triangles cross at t = %.4f s, the first are %d and %d near (%.4f, %.4f, "
+      "%.4f) m",
+      found.size(), simulation_->time(), a, b, at.x(), at.y(), at.z());
+  run_->progress(text);
 }
 
 void Session::note_folds() {

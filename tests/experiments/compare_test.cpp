@@ -319,5 +319,22 @@ TEST(Compare, StatesTheStiffnessThatItMatched) {
   EXPECT_NEAR(fabric["b2"].get<double>() / other["b1"].get<double>(), 1, 1e-4);
 }
 
+// A difference that a page shows between laws is one of kind, not of stiffness, unless the fabric's own
+// numbers are asked for.
+TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string(),
+                    line = "compare swing --laws linear,prandtl --out " + out + kSmall;
+  const auto times = [&] {
+    return nlohmann::json::parse(
+               text_of(fs::path(out) / "manifest.json"))["scene"]["columns"][0]["stiffness_times"]
+        .get<double>();
+  };
+  ASSERT_EQ(program(line).exit_code, 0);
+  EXPECT_GT(times(), 1.2);
+  ASSERT_EQ(program(line + " --compare.match fabric").exit_code, 0);
+  EXPECT_EQ(times(), 1);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
