@@ -267,7 +267,7 @@ void Session::finish(const std::string& title) {
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
     run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
-    if (setup_.scene.newton_iterations > 0)
+    if (setup_.scene.newton_iterations > 0 || simulation_->unbalanced_steps() > 0)
       run_->metric("unbalanced_steps_count", simulation_->unbalanced_steps());
   }
   if (setup_.scene.is_implicit() || setup_.scene.self_contact || setup_.scene.tolerance > 0) {

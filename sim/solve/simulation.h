@@ -36,7 +36,8 @@ class Simulation {
   // Error::run when the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.
   virtual void advance(int steps) = 0;
   // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
-  // stands still.  Error::request for integrators that are not implicit in all forces.
+  // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
+  // Error::request for integrators that are not implicit in all forces.
   virtual void become_static() = 0;
   virtual void wait() = 0;          // until the device has done what advance() ordered
   virtual double time() const = 0;  // [s]

@@ -39,6 +39,19 @@ TEST(UnconvergedSteps, AreNoneWhereTheLimitIsNotReached) {
   EXPECT_LT(std::abs(full->ledger().unbalanced), 1e-6 * std::abs(full->ledger().gravitational));
 }
 
+// Cloth that falls freely has no equilibrium: the search for one ends, and says so by counting.
+TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
+  Scene scene = test::free_square();
+  scene.integrator = "bdf2";
+  scene.step = 1.0 / 120;
+  const auto simulation = Trial(scene).after(5);
+  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+  simulation->become_static();
+  simulation->advance(1);
+  EXPECT_EQ(simulation->unbalanced_steps(), 1);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+}
+
 // Taken late and far from where it was, a corner is back after the pin's time for that, and the hand's work
 // is booked.
 TEST(HandsThatBringHome, AreThereInTime) {
