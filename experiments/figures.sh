@@ -50,11 +50,12 @@ metric_of() {
 # Whether a linear strip, matched in stiffness, loses less to this viscosity in its first 0.4 s than the hysteretic
 # one to friction: loses_less DAMPING.
 loses_less() {
-  local folder=$out/.tuning
+  local folder=$out/.tuning viscous friction
   command "$program" compare swing --quick --no-images --quiet --resume --triangles 100 --out "$folder" \
     --laws "linear+fabric.damping=$1,prandtl" "${more[@]}" >&2
-  awk "BEGIN { exit !($(metric_of "$folder" "linear+fabric.damping=$1" viscous_J) <
-    $(metric_of "$folder" prandtl bending_friction_J)) }"
+  viscous=$(metric_of "$folder" "linear+fabric.damping=$1" viscous_J)
+  friction=$(metric_of "$folder" prandtl bending_friction_J)
+  awk "BEGIN { exit !($viscous < $friction) }"
 }
 
 # The viscosity with which both lose as much: bisection in the logarithm of fabric.damping [s].
