@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "experiments/closing_words.h"
-#include "experiments/command_line.h"
-#include "sim/error.h"
+#include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/pages/closing_words.h"
+#include "sim/base/error.h"
 
 namespace {
 

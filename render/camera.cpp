@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

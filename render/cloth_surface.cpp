@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/gl/capture.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

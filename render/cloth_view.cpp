@@ -7,7 +7,7 @@
 
 #include "render/refine.h"
 #include "render/srgb.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "render/color_map.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

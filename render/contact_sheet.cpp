@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/caption.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

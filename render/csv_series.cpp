@@ -3,8 +3,8 @@
 #include <sstream>
 
 #include "render/plot.h"
-#include "sim/error.h"
-#include "sim/whole_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::render {
 namespace {

@@ -14,11 +14,11 @@ foreach(file IN LISTS FILES)
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE "${OUTPUT}" "// Written by render/embed.cmake.
-#include \"render/embedded.h\"
+#include \"render/shaders/embedded.h\"
 
 #include <string>
 
-#include \"sim/error.h\"
+#include \"sim/base/error.h\"
 
 namespace hysteron::render {
 namespace {

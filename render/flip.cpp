@@ -10,7 +10,7 @@
 #include "render/color_map.h"
 #include "render/compare.h"
 #include "render/srgb.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

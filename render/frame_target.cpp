@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "render/color_map.h"
-#include "render/process.h"
-#include "sim/atomic_file.h"
-#include "sim/error.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/base/process.h"
 
 namespace hysteron::render::gnuplot {
 namespace {

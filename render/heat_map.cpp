@@ -4,7 +4,7 @@
 
 #include "render/gnuplot.h"
 #include "render/panel_page.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/srgb.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

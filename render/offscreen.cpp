@@ -4,7 +4,7 @@
 
 #include "render/egl_context.h"
 #include "render/osmesa_context.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

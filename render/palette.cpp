@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

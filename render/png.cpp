@@ -10,9 +10,9 @@
 
 #include "render/image.h"
 #include "render/palette.h"
-#include "sim/atomic_file.h"
-#include "sim/error.h"
-#include "sim/whole_file.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

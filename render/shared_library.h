@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 

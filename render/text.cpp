@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "render/caption.h"
-#include "render/embedded.h"
+#include "render/shaders/embedded.h"
 #include "render/srgb.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

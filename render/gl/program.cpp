@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "render/embedded.h"
-#include "sim/error.h"
+#include "render/shaders/embedded.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {

@@ -90,7 +90,7 @@ OperatorView<Real> Bending<Real, Device>::view() const {
 }
 
 template <class Real, class Device>
-BendingForceView<Real> Bending<Real, Device>::forces() const {
+GatheredForces<Real> Bending<Real, Device>::forces() const {
   return {vertex_start_.data(), vertex_item_.data(), force_.data()};
 }
 

@@ -3,25 +3,13 @@
 
 #include <memory>
 
+#include "sim/base/step_formula.h"
 #include "sim/bending/angle.h"
 #include "sim/bending/law_loop.h"
+#include "sim/linear/gathered_forces.h"
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/solve/step_formula.h"
 
 namespace hysteron {
-
-// Forces on the vertices, gathered in a fixed order from four forces per hinge.
-template <class Real>
-struct BendingForceView {
-  const int* start;         // rows: vertices
-  const int* item;          // 4*hinge + slot (p0, p1, p2, p3)
-  const Vec3<Real>* force;  // [N]
-  HYST_HD Vec3<Real> at(int vertex) const {
-    Vec3<Real> f = Vec3<Real>::Zero();
-    for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
-    return f;
-  }
-};
 
 enum class ForceConvention { energy, chapter };
 
@@ -34,7 +22,7 @@ class Bending {
   // Accepts the positions: angles continued, history committed, hinge forces ready in forces().  `velocity`
   // acts through the viscosity alone, whose loss is that over the coming dt [s].
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
-  BendingForceView<Real> forces() const;
+  GatheredForces<Real> forces() const;
 
   // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed: (angle - reference)/over
   // with the reference (1 + lag) times the accepted angle minus lag times the one accepted before it; lag is

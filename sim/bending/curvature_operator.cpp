@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/error.h"
 #include "sim/bending/angle.h"
-#include "sim/error.h"
 
 namespace hysteron {
 

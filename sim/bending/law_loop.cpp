@@ -1,6 +1,6 @@
 #include "sim/bending/law_loop.h"
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sim/bending/curvature_operator.h"
-#include "sim/bending/law.h"
-#include "sim/bending/law_parameters.h"
+#include "sim/bending/laws/law.h"
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/device/device.h"
 
 namespace hysteron {

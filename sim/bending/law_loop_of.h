@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "sim/bending/law_commands.h"
 #include "sim/bending/law_loop.h"
-#include "sim/bending/law_potential.h"
+#include "sim/bending/laws/law_commands.h"
+#include "sim/bending/laws/law_potential.h"
 
 namespace hysteron {
 

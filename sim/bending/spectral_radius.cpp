@@ -1,5 +1,5 @@
 #include "sim/bending/bending.h"
-#include "sim/solve/power_iteration.h"
+#include "sim/linear/power_iteration.h"
 
 namespace hysteron {
 namespace {

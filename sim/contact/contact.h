@@ -7,8 +7,8 @@
 #pragma once
 
 #include "sim/contact/obstacle_set.h"
+#include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
-#include "sim/solve/block_rows.h"
 
 namespace hysteron {
 

@@ -190,7 +190,7 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* 
         const Vec3<Real> force = (slides ? f.limit / length : k_t) * e;
         for (int k = 0; k < 4; ++k) slot[4 * p + k] += f.weight[k] * force;
       });
-  const PairForceView<Real> forces = gathered(rows_);
+  const GatheredForces<Real> forces = gathered(rows_);
   for_each(
       device_, "self-contact: forces", vertices_, HYST_KERNEL(int i) { gradient[i] += forces.at(i); });
   clock_.end(Stage::contact);
@@ -250,7 +250,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-PairForceView<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>* v) {
+GatheredForces<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>* v) {
   clock_.begin(Stage::contact);
   const PairStiffness<Real>* stiffness = stiffness_.data();
   Vec3<Real>* slot = slot_.data();
@@ -269,7 +269,7 @@ PairForceView<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>*
 template <class Real, class Device>
 void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
   const PairStiffness<Real>* stiffness = stiffness_.data();
-  const PairForceView<Real> rows = gathered(stiffness_rows_);
+  const GatheredForces<Real> rows = gathered(stiffness_rows_);
   for_each(
       device_, "self-contact: diagonal", vertices_, HYST_KERNEL(int i) {
         for (int j = rows.start[i]; j < rows.start[i + 1]; ++j) {

@@ -14,22 +14,10 @@
 
 #include "sim/contact/self_pairs.h"
 #include "sim/device/stage_clock.h"
+#include "sim/linear/gathered_forces.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
-
-// Numbers of pairs' vertices, gathered by vertex.
-template <class Real>
-struct PairForceView {
-  const int* start = nullptr;  // rows: vertices; null: no self-contact
-  const int* item = nullptr;   // 4 * pair + corner
-  const Vec3<Real>* force = nullptr;
-  HYST_HD Vec3<Real> at(int vertex) const {
-    Vec3<Real> f = Vec3<Real>::Zero();
-    for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
-    return f;
-  }
-};
 
 template <class Real>
 struct PairFriction {
@@ -77,7 +65,7 @@ class SelfContact {
   const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
   int pairs() const { return pairs_.count(); }
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before);
-  PairForceView<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
+  GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
@@ -97,7 +85,7 @@ class SelfContact {
   Real longest_way(const Vec3<Real>* way);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* way, Real share);
   int find_pressing(const Vec3<Real>* x);
-  PairForceView<Real> gathered(const PairRows<Device>& rows) const {
+  GatheredForces<Real> gathered(const PairRows<Device>& rows) const {
     return {rows.start.data(), rows.item.data(), slot_.data()};
   }
 

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
+#include "sim/base/error.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/self_touch.h"
-#include "sim/error.h"
 #include "sim/mesh/intersections.h"
 
 namespace hysteron {

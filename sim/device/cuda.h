@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "sim/base/error.h"
 #include "sim/device/cpu.h"
-#include "sim/error.h"
 
 namespace hysteron {
 

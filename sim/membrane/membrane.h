@@ -1,11 +1,11 @@
 // The membrane of a whole cloth on one device: stresses by face, forces and implicit matrix by vertex.
 #pragma once
 
+#include "sim/base/step_formula.h"
+#include "sim/linear/block_rows.h"
 #include "sim/membrane/green_lagrange.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
-#include "sim/solve/block_rows.h"
-#include "sim/solve/step_formula.h"
 
 namespace hysteron {
 

@@ -1,5 +1,5 @@
+#include "sim/linear/power_iteration.h"
 #include "sim/membrane/membrane.h"
-#include "sim/solve/power_iteration.h"
 
 namespace hysteron {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/mesh/random_points.h"
 
 namespace hysteron {

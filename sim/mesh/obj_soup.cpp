@@ -12,9 +12,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/mesh/quad.h"
-#include "sim/whole_file.h"
 
 namespace hysteron {
 namespace {

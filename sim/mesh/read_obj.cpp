@@ -2,7 +2,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/weld.h"

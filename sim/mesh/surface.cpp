@@ -4,11 +4,11 @@
 #include <cctype>
 #include <filesystem>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/ply_content.h"
 #include "sim/mesh/quad.h"
-#include "sim/whole_file.h"
 
 namespace hysteron {
 namespace {

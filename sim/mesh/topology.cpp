@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/mesh/builders.h"
 #include "sim/mesh/weld.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "sim/atomic_file.h"
-#include "sim/error.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {

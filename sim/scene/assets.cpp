@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron {

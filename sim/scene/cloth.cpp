@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/toml_file.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron {
 namespace {

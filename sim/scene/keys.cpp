@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/bending/law_parameters.h"
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron {

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron {

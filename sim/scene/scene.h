@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/bending/law.h"
+#include "sim/bending/laws/law.h"
 
 namespace hysteron {
 

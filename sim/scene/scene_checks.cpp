@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/bending/law_parameters.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
 

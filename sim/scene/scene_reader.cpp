@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/phases.h"
 #include "sim/scene/toml_file.h"

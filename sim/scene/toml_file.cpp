@@ -29,10 +29,10 @@ struct BrokenAssertion {};
 #define TOML_UNREACHABLE hysteron::break_off()
 #include <toml++/toml.h>
 
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/toml_text.h"
-#include "sim/whole_file.h"
 
 namespace hysteron {
 namespace {

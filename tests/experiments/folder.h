@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-#include "experiments/run.h"
+#include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
 
 namespace hysteron::experiments {

@@ -3,7 +3,7 @@
 #include <cctype>
 #include <cstdio>
 
-#include "experiments/experiments.h"
+#include "experiments/workbench/app/experiment.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 

@@ -2,13 +2,13 @@
 
 #include <zlib.h>
 
-#include "experiments/csv.h"
-#include "experiments/fit_series.h"
-#include "experiments/gallery.h"
-#include "experiments/report.h"
-#include "experiments/word_table.h"
+#include "experiments/fit/series.h"
+#include "experiments/workbench/pages/gallery.h"
+#include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pages/word_table.h"
 #include "render/image.h"
 #include "render/plot.h"
+#include "sim/base/csv.h"
 #include "sim/mesh/builders.h"
 #include "sim/mesh/surface.h"
 #include "sim/scene/fabric_reader.h"
@@ -118,7 +118,7 @@ Format csv() {
           with_numbers({",", "\n", "\"", "\"\"", "curvature [1/m]", "moment [N]", "time [s]", "[", "]",
                         "1/cm", "\xEF\xBB\xBF", ";", "\r"}),
           {[](const fs::path& file) {
-             experiments::read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
+             read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
            },
            [](const fs::path& file) { experiments::read_series(file, 0.05); },
            [](const fs::path& file) { experiments::read_words(file); },

@@ -12,8 +12,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "sim/error.h"
-#include "sim/whole_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
 #include "tests/fuzz/formats.h"
 #include "tests/fuzz/mutation.h"
 

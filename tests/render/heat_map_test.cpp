@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "render/image.h"
-#include "render/process.h"
+#include "sim/base/process.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {

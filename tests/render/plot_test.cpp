@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "render/image.h"
-#include "render/process.h"
+#include "sim/base/process.h"
 #include "tests/render/test_scene.h"
 
 namespace hysteron::render {

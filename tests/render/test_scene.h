@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/cloth_view.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron::render::test {
 

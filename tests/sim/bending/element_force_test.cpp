@@ -4,7 +4,7 @@
 #include <random>
 
 #include "sim/bending/bending.h"
-#include "tests/sim/bending/law_fixtures.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "sim/base/error.h"
 #include "sim/bending/curvature_operator.h"
-#include "sim/error.h"
 
 namespace hysteron {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "tests/sim/solve/scenes.h"
+#include "tests/sim/time/scenes.h"
 
 namespace hysteron {
 namespace {

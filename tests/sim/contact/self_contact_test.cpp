@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "sim/base/error.h"
 #include "sim/contact/barrier.h"
-#include "sim/error.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
 

@@ -1,7 +1,7 @@
 // Two sheets of one cloth, one above the other: what the tests of self-contact start from.
 #pragma once
 
-#include "tests/sim/solve/scenes.h"
+#include "tests/sim/time/scenes.h"
 
 namespace hysteron::test {
 

@@ -1,11 +1,11 @@
 // CPU against CUDA: the same source on both must give the same cloth.
 #include <gtest/gtest.h>
 
-#include "sim/bending/law_parameters.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_parameters.h"
 #include "sim/mesh/intersections.h"
-#include "sim/solve/back_end.h"
-#include "tests/sim/solve/scenes.h"
+#include "sim/time/back_end.h"
+#include "tests/sim/time/scenes.h"
 
 namespace hysteron {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "render/cloth_view.h"
-#include "sim/error.h"
-#include "sim/solve/back_end.h"
-#include "tests/sim/solve/scenes.h"
+#include "sim/base/error.h"
+#include "sim/time/back_end.h"
+#include "tests/sim/time/scenes.h"
 
 namespace hysteron {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/sim/base/folder.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {

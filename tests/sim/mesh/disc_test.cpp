@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/sim/base/folder.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "tests/sim/base/folder.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/error.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron::test {
@@ -23,25 +22,5 @@ double least_angle(const ClothMesh& mesh);        // [degrees]
 int euler_characteristic(const ClothMesh& mesh);  // V - E + F
 std::set<int> boundary_vertices(const ClothMesh& mesh);
 std::uint64_t fingerprint(const ClothMesh& mesh);  // FNV-1a over the bits of vertices and triangles
-
-// A folder of this test and process alone, removed with all it holds.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  std::string write(const std::string& name, const std::string& content) const;  // returns the file's path
-  std::vector<std::string> names() const;
-
- private:
-  std::string path_;
-};
-
-std::string content_of(const std::string& file);
-
-// The Error that the call throws; fails the test if there is none.
-Error error_of(const std::function<void()>& call);
 
 }  // namespace hysteron::test

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "tests/sim/base/folder.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gtest/gtest.h"
-#include "sim/error.h"
+#include "sim/base/error.h"
 
 namespace hysteron {
 

@@ -1,0 +1,115 @@
+// `hysteron accuracy`: error against run time, for problems with references of their own.
+#include <algorithm>
+#include <cstdio>
+
+#include "experiments/accuracy/output.h"
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct AccuracyFlags {
+  std::string problem = "all", device = "cpu";
+  Options options;
+};
+
+using F = AccuracyFlags;
+// clang-format off
+const KeyRow<F> kRows[] = {
+    {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several apart by commas, or all"},
+    {"device", at<&F::device>, "", any(), "cpu | cuda", "where settings are computed, one after the other; on the cpu by one thread"},
+};
+// clang-format on
+
+Keys keys_of(F& flags) {
+  Keys keys = bind(kRows, flags);
+  const Keys output = bind_output_options(flags.options);
+  keys.insert(keys.end(), output.begin(), output.end());
+  return keys;
+}
+
+std::vector<Problem> problems_of(const F& flags) {
+  const Effort effort{flags.options.quick, flags.device};
+  std::vector<Problem> all;
+  for (const auto& make : {bend_problem, sag_problem, droop_problem, buckle_problem, decay_problem,
+                           swing_problem, crease_problem})
+    all.push_back(make(effort));
+  if (flags.problem == "all") return all;
+  std::vector<Problem> chosen;
+  for (const std::string& name : split(flags.problem)) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Problem& problem) { return problem.name == name; });
+    if (found == all.end()) {
+      std::string known;
+      for (const Problem& problem : all) known += (known.empty() ? "" : ", ") + problem.name;
+      throw Error::request("accuracy: problem = " + name + " is not one of: " + known);
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+// Settings that cannot be solved are findings too; a machine that fails is not.
+Found tried(const Problem& problem, const Setting& setting) {
+  try {
+    return problem.solve(setting);
+  } catch (const Error& error) {
+    if (error.exit_code() == 1) throw;
+    Found found;
+    found.failed = error.what();
+    return found;
+  }
+}
+
+Solution solved(const Problem& problem, Run& run) {
+  Solution solution{problem, {}};
+  for (const Setting& setting : problem.settings) {
+    solution.solved.push_back({setting, tried(problem, setting)});
+    const Found& found = solution.solved.back().found;
+    char numbers[80];
+    std::snprintf(numbers, sizeof numbers, ": error %.3g, %.3g s", found.error, found.seconds);
+    run.progress(problem.name + ", " + describe(solution, setting) +
+                 (found.failed.empty() ? numbers : ": " + found.failed));
+  }
+  return solution;
+}
+
+std::vector<KeyDescription> own_keys() {
+  F flags;
+  return descriptions(keys_of(flags));
+}
+
+int run_accuracy(const CommandLine& line) {
+  F flags;
+  set_keys(line, keys_of(flags));
+  const std::vector<Problem> problems = problems_of(flags);
+  if (flags.options.out.empty()) flags.options.out = "out/accuracy";
+  Run run(line, flags.options, to_json(bind(kRows, flags)));
+  std::vector<Solution> solutions;
+  for (const Problem& problem : problems) {
+    solutions.push_back(solved(problem, run));
+    write_accuracy(run, solutions);  // a run that is cut short keeps what it has found
+  }
+  write_accuracy_metrics(run, solutions);
+  if (!flags.options.no_images) draw_accuracy(run, solutions);
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
+  if (!flags.options.json) print_accuracy(solutions);
+  return 0;
+}
+
+}  // namespace
+
+Experiment accuracy() {
+  return {
+      .name = "accuracy",
+      .question = "error against run time, against references of their own; orders; the cheapest settings",
+      .run = run_accuracy,
+      .own_keys = own_keys};
+}
+
+}  // namespace hysteron::experiments

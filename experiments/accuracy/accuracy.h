@@ -1,0 +1,80 @@
+// Error against run time: problems with references of their own, each solved by many settings that differ
+// from one base in one factor at a time.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/scene/scene.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+// One way to solve a problem.
+struct Setting {
+  std::string factor = "base";  // what it varies: mesh, size, element, law, integrator, step, tolerance, ...
+  std::string mesh = "unionjack", element = "shape", law = "linear";
+  std::string integrator = "quasi-static", implicit_every = "substep";
+  std::string precision = "double", device = "cpu";
+  int triangles = 0;               // asked for; the mesh may have a few others
+  double step = 0, tolerance = 0;  // [s], [m]
+  double load = 0;                 // of problems that have several: heaviness Gamma, decay's kind; else 0
+};
+
+// `base` with one factor changed.
+template <class Change>
+Setting varied(Setting base, const std::string& factor, const Change& change) {
+  base.factor = factor;
+  change(base);
+  return base;
+}
+
+// What came of it.
+struct Found {
+  double value = 0, reference = 0;  // of the problem's quantity
+  double error = 0;                 // as the problem defines it, no sign, 0.01 is 1 %
+  double uncertainty = 0;           // of the reference, in the error's unit; 0: beyond the digits that count
+  int triangles = 0;
+  long steps = 0;         // substeps, or parts of steps, or equilibria
+  double seconds = 0;     // wall clock of the simulation, without set-up and reference
+  std::size_t bytes = 0;  // that the simulation holds on its device
+  std::string failed;     // why there is no number; else empty
+};
+
+struct Problem {
+  std::string name;       // "sag"
+  std::string title;      // of the plot
+  std::string quantity;   // what `value` is, with its unit
+  std::string error;      // what `error` is
+  std::string reference;  // where the reference comes from
+  std::vector<Setting> settings;
+  std::function<Found(const Setting&)> solve;  // may throw Error::request, Error::run: noted as failed
+  std::string load = "load";                   // what Setting::load is
+  bool reference_per_mesh = false;  // errors on different meshes, or sizes, say nothing about each other
+};
+
+// Which of a problem's settings are wanted.
+struct Effort {
+  bool quick = false;          // a few of them: seconds instead of minutes
+  std::string device = "cpu";  // of the base: cpu | cuda
+};
+
+// A scene with the setting's choices; what the setting does not say is the scene's.
+Scene with(const Setting& setting, Scene scene);
+
+// Steps and bytes of a simulation, and the seconds since `start`, when it was begun.
+void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_clock::time_point start,
+               Found& found);
+
+Problem sag_problem(const Effort& effort);     // heavy strips against the elastica
+Problem droop_problem(const Effort& effort);   // what remains of the sag with friction, unloaded
+Problem bend_problem(const Effort& effort);    // loop of a strip in pure bending against the law's own
+Problem buckle_problem(const Effort& effort);  // critical heaviness
+Problem decay_problem(const Effort& effort);   // free vibrations against the laws of decay
+Problem swing_problem(const Effort& effort);   // smooth motion: order in time
+Problem crease_problem(const Effort& effort);  // motion through reversals
+
+}  // namespace hysteron::experiments

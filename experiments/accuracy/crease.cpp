@@ -1,0 +1,100 @@
+// A crease: a strip is folded by a clamp, let go, and opens as far as the friction of its fabric lets it.
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/accuracy/motion.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kLength = 0.06, kWidth = 0.02, kClamp = 0.01;          // of the strip [m]
+constexpr double kFold = 150;                                           // [degree]
+constexpr double kFolded = 0.3, kReleased = 0.4, kSampling = 1.0 / 30;  // [s]
+constexpr double kFrame = 1.0 / 60;                                     // [s]
+
+Scene crease(const Setting& setting) {
+  Scene scene = with(setting, {});
+  scene.cloth.shape = "strip";
+  scene.cloth.length = kLength;
+  scene.cloth.width = kWidth;
+  scene.seconds = 0.8;
+  scene.air_drag = 0.3;
+  Pin fixed, folding;
+  fixed.low = {-1, -1, -1};
+  fixed.high = {kClamp, 1, 1};
+  folding.low = {kLength - kClamp, -1, -1};
+  folding.high = {1, 1, 1};
+  folding.until = kReleased;
+  folding.motion.axis = {0, 1, 0};
+  folding.motion.center = {kLength / 2, 0, 0};
+  folding.motion.keys = {{0, {0, 0, 0}, 0}, {kFolded, {0, 0, 0}, -kFold}, {kReleased, {0, 0, 0}, -kFold}};
+  scene.pin = {fixed, folding};
+  return scene;
+}
+
+// Angle between the two ends of the strip seen from the side [degree]: 180 when flat.
+double opening_angle(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
+  const auto direction = [&](double from, double to) {
+    Eigen::Vector3d near = Eigen::Vector3d::Zero(), far = near;
+    int near_count = 0, far_count = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double s = cloth.mesh.rest[i].x();
+      if (std::abs(s - from) < kClamp / 4) near += x[i], ++near_count;
+      if (std::abs(s - to) < kClamp / 4) far += x[i], ++far_count;
+    }
+    return Eigen::Vector3d((far / far_count - near / near_count).normalized());
+  };
+  const double cosine = direction(kClamp, 0).dot(direction(kLength - kClamp, kLength));
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / 3.14159265358979323846;
+}
+
+void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
+  const int most = quick ? 2 : 16;
+  const auto add = [&](const char* integrator, const char* implicit_every, double step, double tolerance) {
+    list.push_back(varied(base, tolerance > 0 ? "tolerance" : "step", [&](Setting& s) {
+      s.integrator = integrator, s.implicit_every = implicit_every, s.step = step, s.tolerance = tolerance;
+    }));
+  };
+  for (const char* name : {"bdf2", "implicit"})
+    for (int parts = 1; parts <= most; parts *= 2) add(name, "substep", kFrame / parts, 0);
+  for (int parts = 1; parts <= most; parts *= quick ? 2 : 4) {
+    add("semi-implicit", "step", kFrame / parts, 0);  // the chapter's
+    add("semi-implicit", "substep", kFrame / (parts * 64), 0);
+  }
+  if (quick) return;
+  for (double tolerance : {1e-4, 1e-5, 1e-6}) add("bdf2", "substep", kFrame, tolerance);
+}
+
+}  // namespace
+
+Problem crease_problem(const Effort& effort) {
+  Problem problem{"crease",
+                  "A crease, folded and let go: motion through reversals",
+                  "opening angle [degree]",
+                  "position error (root mean square) over the length",
+                  "bdf2 with 1/64 of 1/60 s on the same mesh",
+                  {},
+                  {}};
+  MotionQuestion question{crease, kLength, kSampling, {}, opening_angle};
+  question.reference.integrator = "bdf2";
+  question.reference.step = kFrame / (effort.quick ? 16 : 64);
+  problem.solve = solve_motion(question);
+  problem.reference_per_mesh = true;
+  Setting base;
+  base.mesh = "random";
+  base.law = "prandtl";
+  base.device = effort.device;
+  base.integrator = "bdf2";
+  base.step = kFrame / 2;
+  base.triangles = effort.quick ? 60 : 600;
+  vary_steps(base, effort.quick, problem.settings);
+  if (effort.quick) return problem;
+  for (int triangles : {36, 150}) {
+    Setting smaller = base;
+    smaller.triangles = triangles;
+    vary_steps(smaller, false, problem.settings);
+  }
+  return problem;
+}
+
+}  // namespace hysteron::experiments

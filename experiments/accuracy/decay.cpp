@@ -1,0 +1,100 @@
+// Free vibrations of a clamped strip: how much amplitude bending friction and viscosity take, and how much
+// the integrator.
+#include <cmath>
+
+#include "experiments/accuracy/accuracy.h"
+#include "experiments/accuracy/free_decay.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kCycles = 20;
+constexpr int kParts = 400;  // of the strip in the energy balance: its loss is known to 1e-5
+constexpr DecayKind kKinds[] = {DecayKind::hyperbolic, DecayKind::linear, DecayKind::exponential};
+
+// Setting::load counts the kinds from 0.
+DecayKind kind_of(const Setting& setting) { return kKinds[std::lround(setting.load)]; }
+
+Setting base_of(DecayKind kind, const Effort& effort) {
+  const Scene scene = decay_scene(kind);
+  Setting base;
+  base.factor = kind == DecayKind::hyperbolic ? "base" : "kind";
+  base.law = scene.law;
+  base.integrator = "bdf2";
+  base.device = effort.device;
+  base.triangles = effort.quick ? 32 : 128;
+  base.step = decay_period(scene) / (effort.quick ? 150 : 200);
+  base.load = static_cast<double>(kind);
+  return base;
+}
+
+void vary_integrators(const Setting& base, std::vector<Setting>& list) {
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "semi-implicit"; }));
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "implicit"; }));
+}
+
+// `times` the base's step.  Those of semi-implicit follow from the mesh.
+void vary_step(const Setting& base, const char* integrator, double times, std::vector<Setting>& list) {
+  list.push_back(varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step *= times; }));
+}
+
+void vary_size(const Setting& base, int triangles, std::vector<Setting>& list) {
+  list.push_back(varied(base, "size", [&](Setting& s) { s.triangles = triangles; }));
+}
+
+// Everything for one kind, time and size for the others.
+void vary_all(const Setting& base, std::vector<Setting>& list) {
+  list.push_back(base);
+  vary_integrators(base, list);
+  for (double times : {2.0, 0.5}) vary_step(base, "bdf2", times, list);
+  for (int triangles : {32, 192}) vary_size(base, triangles, list);
+  if (kind_of(base) != DecayKind::hyperbolic) return;
+  list.push_back(varied(base, "integrator",
+                        [](Setting& s) { s.integrator = "semi-implicit", s.implicit_every = "step"; }));
+  vary_step(base, "bdf2", 4, list);
+  for (double times : {4.0, 0.5}) vary_step(base, "implicit", times, list);
+  vary_size(base, 64, list);
+  for (const char* mesh : {"aligned", "aligned-45", "flipped", "equilateral", "random"})
+    list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
+  list.push_back(varied(base, "element", [](Setting& s) { s.element = "hinge"; }));
+}
+
+void vary_a_few(const Setting& base, std::vector<Setting>& list) {
+  list.push_back(base);
+  if (kind_of(base) != DecayKind::hyperbolic) return;
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "semi-implicit"; }));
+  vary_step(base, "implicit", 3, list);
+}
+
+Found solve(const Setting& setting) {
+  Found found;
+  const Scene scene = with(setting, decay_scene(kind_of(setting)));
+  const auto amplitudes =
+      amplitudes_by_energy(decaying_bend(scene), mode_curvatures(kParts), decay_first_amplitude(), kCycles);
+  found.reference = 1 - amplitudes.back() / amplitudes.front();
+  const Overhang flat = overhang(scene, decay_length());
+  found.triangles = flat.cloth.mesh.faces();
+  const auto simulation = make_simulation(flat.scene, bent_in_first_mode(flat));
+  const auto start = std::chrono::steady_clock::now();
+  found.value = measure_decay(*simulation, flat, kCycles).loss();
+  note_cost(*simulation, flat.scene, start, found);
+  found.error = std::abs(found.value / found.reference - 1);
+  return found;
+}
+
+}  // namespace
+
+Problem decay_problem(const Effort& effort) {
+  Problem problem{"decay",
+                  "Free vibrations of a clamped strip: amplitude lost in 20 cycles",
+                  "lost amplitude over the first (load 0: hyperbolic, 1: linear, 2: exponential decay)",
+                  "|lost amplitude over that of the energy balance - 1|",
+                  "energy balance of the first mode with the closed areas of the law's loops",
+                  {},
+                  solve};
+  for (DecayKind kind : kKinds)
+    (effort.quick ? vary_a_few : vary_all)(base_of(kind, effort), problem.settings);
+  return problem;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,135 @@
+#include "experiments/accuracy/front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace hysteron::experiments {
+namespace {
+
+bool is_static(const Setting& s) { return s.integrator == "quasi-static"; }
+
+std::string formatted(const char* format, double value) {
+  char text[60];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string duration(double seconds) {
+  if (seconds >= 1e-3) return formatted("1/%.0f s", 1 / seconds);
+  return formatted("%.2g ms", 1e3 * seconds);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
+  const Setting& base = solution.problem.settings.front();
+  std::vector<std::string> words;
+  if (is_static(base)) {
+    words = {s.element, s.mesh};
+  } else {
+    words = {s.integrator == "semi-implicit" && s.implicit_every == "step" ? "the chapter's" : s.integrator};
+    if (s.tolerance > 0) words.back() += " adaptive";
+    if (s.element != base.element) words.push_back(s.element);
+    if (s.mesh != base.mesh) words.push_back(s.mesh);
+  }
+  if (s.law != base.law) words.push_back(s.law);
+  if (s.load != base.load) words.push_back(solution.problem.load + " = " + formatted("%g", s.load));
+  if (s.precision != base.precision) words.push_back(s.precision);
+  return words;
+}
+
+// Settings of a group differ in the size, or in the step, alone.
+std::string group_of(const Solution& solution, const Setting& s, bool in_space) {
+  std::vector<std::string> words = words_of(solution, s);
+  words.push_back(in_space ? duration(s.step) : formatted("%.0f triangles", s.triangles));
+  words.push_back(formatted("tolerance %g", s.tolerance));
+  return joined(words);
+}
+
+void add_orders(const Solution& solution, bool in_space, std::vector<Order>& orders) {
+  struct Point {
+    double size, error;
+  };
+  std::map<std::string, std::vector<Point>> groups;
+  for (const Solved& s : solution.solved) {
+    if (!s.found.failed.empty() || !(s.found.error > 0)) continue;
+    const double size = in_space ? 1 / std::sqrt(s.found.triangles) : s.setting.step;
+    if (size > 0) groups[group_of(solution, s.setting, in_space)].push_back({size, s.found.error});
+  }
+  for (auto& [name, points] : groups) {
+    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.size > b.size; });
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const Point &a = points[i], &b = points[i + 1];
+      const double unit = in_space ? points[0].size : 1;
+      if (a.size > 1.1 * b.size)
+        orders.push_back({in_space ? "space" : "time", name, a.size / unit, b.size / unit, a.error, b.error,
+                          std::log(a.error / b.error) / std::log(a.size / b.size)});
+    }
+  }
+}
+
+}  // namespace
+
+bool Solution::comparable(const Setting& s) const {
+  const Setting& base = problem.settings.front();
+  const bool same_mesh = s.mesh == base.mesh && s.triangles == base.triangles && s.element == base.element;
+  return s.law == base.law && s.load == base.load && (!problem.reference_per_mesh || same_mesh);
+}
+
+std::vector<std::size_t> pareto_front(const Solution& solution) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < solution.solved.size(); ++i)
+    if (solution.comparable(solution.solved[i].setting) && solution.solved[i].found.failed.empty())
+      order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return solution.solved[a].found.seconds < solution.solved[b].found.seconds;
+  });
+  std::vector<std::size_t> front;
+  double least = INFINITY;
+  for (std::size_t i : order)
+    if (solution.solved[i].found.error < least) {
+      least = solution.solved[i].found.error;
+      front.push_back(i);
+    }
+  return front;
+}
+
+std::optional<std::size_t> cheapest(const Solution& solution, double error) {
+  for (std::size_t i : pareto_front(solution))
+    if (solution.solved[i].found.error <= error) return i;
+  return {};
+}
+
+std::vector<Order> observed_orders(const Solution& solution) {
+  std::vector<Order> orders;
+  if (!solution.problem.reference_per_mesh) add_orders(solution, true, orders);
+  if (!is_static(solution.problem.settings.front())) add_orders(solution, false, orders);
+  return orders;
+}
+
+// Few enough for as many colours: other elements, and other meshes of a motion, are one curve each.
+std::string series_of(const Solution& solution, const Setting& setting) {
+  const Setting& base = solution.problem.settings.front();
+  if (setting.element != base.element) return setting.element + ", every mesh";
+  if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
+  if (setting.precision != base.precision) return setting.precision;
+  return joined(words_of(solution, setting));
+}
+
+std::string describe(const Solution& solution, const Setting& s) {
+  std::vector<std::string> words = words_of(solution, s);
+  words.push_back(formatted("%.0f triangles", s.triangles));
+  if (!is_static(s)) words.push_back(duration(s.step));
+  const Setting& base = solution.problem.settings.front();
+  if (is_static(s) && s.step != base.step) words.push_back(formatted("%.0f load steps", 1 / s.step));
+  if (s.tolerance != base.tolerance) words.push_back(formatted("tolerance %g", s.tolerance));
+  return joined(words);
+}
+
+}  // namespace hysteron::experiments

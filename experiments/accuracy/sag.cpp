@@ -1,0 +1,195 @@
+// Heavy strips against the elastica: how far they sag, and what remains when the weight is taken away.
+#include <cmath>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "experiments/accuracy/accuracy.h"
+#include "experiments/kes/strip.h"
+#include "experiments/specimens/overhang.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kLength = 0.1, kWidth = 0.025;  // [m]
+constexpr int kAlong64 = 2048;                   // triangles: 64 square cells along the strip, 16 across
+constexpr double kGamma = 10;                    // density g L^3/b2
+
+Scene strip_of(const Setting& setting, bool unloaded) {
+  Scene scene = with(setting, {});
+  scene.cloth.width = kWidth;
+  scene.fabric.density = setting.load * scene.fabric.b2 / (scene.gravity.norm() * std::pow(kLength, 3));
+  // So stiff that the strip's own weight stretches it by less than 1e-5 of its length, also the heaviest.
+  const double tension = scene.fabric.density * scene.gravity.norm() * kLength;
+  scene.fabric.warp = scene.fabric.weft = std::max(1000.0, 1e4 * tension);
+  scene.fabric.shear = 0.3 * scene.fabric.warp;
+  scene.ramp = 1;
+  scene.unload = unloaded ? 1 : 0;
+  scene.seconds = unloaded ? 2 : 1;
+  return scene;
+}
+
+// Drops over the length under the whole weight and at the end.
+struct Sag {
+  double loaded = 0, last = 0;
+};
+
+// Of the elastica: two numbers of segments, extrapolated, as its error falls with their square.
+Sag sag_of_curve(const Scene& scene) {
+  constexpr int kSegments = 60;
+  const auto with_segments = [&](int segments) {
+    HeavyStrip strip = elastica_of(scene, kLength);
+    strip.segments = segments;
+    std::vector<double> loads;
+    for (int k = 1; k <= 20; ++k) loads.push_back(load_at(scene, k * scene.seconds / 20));
+    const auto states = sagging_strips(strip, loads);
+    Sag sag;
+    for (const auto& s : states) sag.loaded = std::max(sag.loaded, s.drop() / kLength);
+    sag.last = states.back().drop() / kLength;
+    return sag;
+  };
+  const Sag coarse = with_segments(kSegments), fine = with_segments(2 * kSegments);
+  return {(4 * fine.loaded - coarse.loaded) / 3, (4 * fine.last - coarse.last) / 3};
+}
+
+// The same reference serves many settings.
+class Curves {
+ public:
+  const Sag& of(const Scene& scene, const Setting& setting) {
+    const auto [at, is_new] = known_.try_emplace({setting.law, setting.load});
+    if (is_new) at->second = sag_of_curve(scene);
+    return at->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, double>, Sag> known_;
+};
+
+Sag sag_of_cloth(const Scene& scene, Found& found) {
+  const Overhang strip = overhang(scene, kLength);
+  const auto simulation = make_simulation(strip.scene, strip.cloth);
+  const auto start = std::chrono::steady_clock::now();
+  const auto drop = [&] { return strip.free_end(simulation->positions()).y() / kLength; };
+  Sag sag;
+  simulation->advance(static_cast<int>(std::lround(scene.ramp / scene.step)));
+  sag.loaded = sag.last = drop();
+  if (scene.unload > 0) {
+    simulation->advance(static_cast<int>(std::lround(scene.unload / scene.step)));
+    sag.last = drop();
+  }
+  note_cost(*simulation, scene, start, found);
+  found.triangles = strip.cloth.mesh.faces();
+  return sag;
+}
+
+Setting base_of(const Effort& effort) {
+  Setting base;
+  base.device = effort.device;
+  base.triangles = effort.quick ? kAlong64 / 4 : kAlong64;
+  base.step = 0.05;
+  base.tolerance = 1e-6;
+  base.load = kGamma;
+  return base;
+}
+
+void vary_meshes_and_sizes(const Setting& base, bool quick, std::vector<Setting>& list) {
+  for (const std::string& mesh : strip_meshes()) {
+    if (mesh != base.mesh) list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
+    if (quick && mesh != "unionjack" && mesh != "random") continue;
+    for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64 / 4, kAlong64, 4 * kAlong64}) {
+      if (triangles == base.triangles || (quick && triangles > base.triangles)) continue;
+      if (triangles > kAlong64 && mesh != "unionjack") continue;
+      list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
+    }
+  }
+}
+
+void vary_elements(const Setting& base, bool quick, std::vector<Setting>& list) {
+  for (const std::string& mesh : strip_meshes())
+    for (int triangles : {kAlong64 / 16, kAlong64 / 4, kAlong64}) {
+      if (quick && triangles != kAlong64 / 16) continue;
+      list.push_back(varied(
+          base, "element", [&](Setting& s) { s.element = "hinge", s.mesh = mesh, s.triangles = triangles; }));
+    }
+}
+
+}  // namespace
+
+Problem sag_problem(const Effort& effort) {
+  Problem problem{"sag",
+                  "Heavy strip (Gamma = 10): drop of the free end",
+                  "drop over length",
+                  "|drop over that of the elastica - 1|",
+                  "the heavy elastica with the same law, extrapolated from 60 and 120 segments",
+                  {},
+                  {}};
+  const Setting base = base_of(effort);
+  std::vector<Setting>& list = problem.settings;
+  list.push_back(base);
+  vary_meshes_and_sizes(base, effort.quick, list);
+  vary_elements(base, effort.quick, list);
+  for (const std::string& mesh : strip_meshes())
+    for (double gamma : {0.1, 1.0, 100.0, 1000.0}) {
+      if (effort.quick && (gamma == 0.1 || gamma == 1000 || mesh != base.mesh)) continue;
+      list.push_back(varied(base, "heaviness", [&](Setting& s) { s.mesh = mesh, s.load = gamma; }));
+    }
+  for (const char* law : {"prandtl", "bilinear", "dahl", "wong", "pabst", "obrien"}) {
+    if (effort.quick && std::string(law) != "prandtl") continue;
+    list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
+  }
+  for (double step : {1.0, 0.2, 0.0125})
+    if (!effort.quick) list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
+  for (double tolerance : {1e-2, 1e-4, 1e-8})
+    if (!effort.quick)
+      list.push_back(varied(base, "tolerance", [&](Setting& s) { s.tolerance = tolerance; }));
+  list.push_back(varied(base, "precision", [&](Setting& s) { s.precision = "float", s.tolerance = 1e-4; }));
+  problem.load = "Gamma";
+  problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
+    Found found;
+    const Scene scene = strip_of(setting, false);
+    found.reference = curves->of(scene, setting).loaded;
+    found.value = sag_of_cloth(scene, found).loaded;
+    found.error = std::abs(found.value / found.reference - 1);
+    return found;
+  };
+  return problem;
+}
+
+Problem droop_problem(const Effort& effort) {
+  Problem problem{"droop",
+                  "What remains of the sag with bending friction, weight taken away",
+                  "remaining drop over length",
+                  "|remaining drop - that of the elastica| over its drop when loaded",
+                  "the heavy elastica with the same law and history, extrapolated from 60 and 120 segments",
+                  {},
+                  {}};
+  Setting base = base_of(effort);
+  base.law = "prandtl";
+  base.triangles = kAlong64 / 4;
+  std::vector<Setting>& list = problem.settings;
+  list.push_back(base);
+  for (const std::string& mesh : strip_meshes())
+    if (mesh != base.mesh && !effort.quick)
+      list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
+  for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64})
+    if (!effort.quick || triangles < base.triangles)
+      list.push_back(varied(base, "size", [&](Setting& s) { s.triangles = triangles; }));
+  list.push_back(varied(base, "element", [&](Setting& s) { s.element = "hinge"; }));
+  for (const char* law : {"bilinear", "dahl", "obrien", "wong"})
+    if (!effort.quick) list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
+  for (double step : {0.2, 0.0125})
+    if (!effort.quick) list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
+  problem.load = "Gamma";
+  problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
+    Found found;
+    const Scene scene = strip_of(setting, true);
+    const Sag& curve = curves->of(scene, setting);
+    found.reference = curve.last;
+    found.value = sag_of_cloth(scene, found).last;
+    found.error = std::abs(found.value - curve.last) / curve.loaded;
+    return found;
+  };
+  return problem;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,67 @@
+// A strip held out straight, let go, swings through its first quarter second: a motion that is smooth in
+// time.
+#include "experiments/accuracy/motion.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kLength = 0.06, kWidth = 0.02, kClamp = 0.01;  // [m]
+constexpr double kSampling = 1.0 / 60;                          // [s]
+
+Scene swing_scene(const Setting& setting) {
+  Scene scene = with(setting, {});
+  scene.cloth.shape = "strip";
+  scene.cloth.length = kLength;
+  scene.cloth.width = kWidth;
+  scene.seconds = 0.25;
+  scene.solver_tolerance = 1e-8;
+  scene.newton_residual = 1e-9;
+  // The waves that the release excites die within the shortest of the steps compared.
+  scene.fabric.damping = 2e-3;
+  Pin clamp;
+  clamp.low = {-1, -1, -1};
+  clamp.high = {kClamp, 1, 1};
+  scene.pin = {clamp};
+  return scene;
+}
+
+double tip_height(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (cloth.mesh.rest[i].x() > kLength * (1 - 1e-9)) sum += x[i].z(), ++count;
+  return sum / count;
+}
+
+}  // namespace
+
+Problem swing_problem(const Effort& effort) {
+  Problem problem{"swing",
+                  "A strip let go: smooth motion",
+                  "height of the free end [m]",
+                  "position error (root mean square) over the length",
+                  "bdf2 with 1/15360 s on the same mesh",
+                  {},
+                  {}};
+  MotionQuestion question{swing_scene, kLength, kSampling, {}, tip_height};
+  question.reference.integrator = "bdf2";
+  question.reference.step = 1.0 / (effort.quick ? 7680 : 15360);
+  problem.solve = solve_motion(question);
+  problem.reference_per_mesh = true;
+  Setting base;
+  base.device = effort.device;
+  base.integrator = "bdf2";
+  base.triangles = 96;
+  base.step = 1.0 / 240;
+  const auto add = [&](const char* integrator, int rate) {
+    problem.settings.push_back(
+        varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step = 1.0 / rate; }));
+  };
+  for (const char* integrator : {"bdf2", "implicit"})
+    for (int rate = 60; rate <= (effort.quick ? 960 : 3840); rate *= 2) add(integrator, rate);
+  // Of explicit bending these are the longest that are stable.
+  for (int rate = 30720; rate <= (effort.quick ? 61440 : 245760); rate *= 2) add("semi-implicit", rate);
+  return problem;
+}
+
+}  // namespace hysteron::experiments

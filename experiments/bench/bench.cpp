@@ -1,0 +1,197 @@
+// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include "experiments/bench/law_cost.h"
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run.h"
+#include "sim/scene/cloth.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct Case {
+  const char* element;
+  const char* law;
+  const char* memory = "stops";  // of prandtl
+};
+constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", "wong"},
+                           {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "prandtl", "stack"},
+                           {"hinge", "wong"}};
+
+struct BenchOptions {
+  bool laws = false;
+  double elements = 1e6;
+};
+// clang-format off
+const KeyRow<BenchOptions> kRows[] = {
+    {"laws", at<&BenchOptions::laws>, "", any(), "", "the laws alone: error on random histories, time and memory per element"},
+    {"elements", at<&BenchOptions::elements>, "", between(1, 1e8), "", "of --laws"},
+};
+// clang-format on
+
+void take(const Case& c, Scene& scene) {
+  scene.element = c.element;
+  scene.law = c.law;
+  scene.param.clear();
+  if (scene.law == "prandtl") scene.param["memory"] = c.memory;
+}
+constexpr double kQuickElements = 10001;
+constexpr int kBatches = 7;  // the median of their times is reported
+
+Setup defaults() {
+  Setup setup;
+  Scene& scene = setup.scene = default_scene();
+  scene.integrator = "semi-implicit";
+  scene.step = 1e-3;
+  scene.cloth.length = 0.5;
+  scene.mesh = "aligned";
+  scene.triangles = 4608;
+  Pin corner;
+  corner.select = "nearest";
+  scene.pin.assign(2, corner);
+  scene.pin[0].point = {0, 0.5, 0};
+  scene.pin[1].point = {0.5, 0.5, 0};
+  return setup;
+}
+
+// Bytes that the stages of a step must move, each array that a loop reads or writes counted once per pass:
+// angles, law and forces per substep, the membrane per Newton step, matrix and vectors per iteration of the
+// solve.
+double bytes_per_step(const Simulation& simulation) {
+  double bending = 0, history = 0, membrane = 0, solve = 0, state = 0;
+  for (const ScenePart& part : simulation.parts()) {
+    const double bytes = static_cast<double>(part.bytes);
+    if (part.name == "bending") bending = bytes;
+    if (part.name == "bending history") history = bytes;
+    if (part.name == "membrane") membrane = bytes;
+    if (part.name == "implicit solve") solve = bytes;
+    if (part.name == "state") state = bytes;
+  }
+  return simulation.limits().substeps * (bending + 2 * history + state) + 2 * membrane +
+         simulation.solver_iterations() * solve;
+}
+
+// One row of the table.
+Json measure(Simulation& simulation, const Scene& scene, int triangles, int steps) {
+  simulation.advance(steps);  // warm caches, and away from the flat start
+  std::vector<double> ms;
+  const auto before = simulation.stage_seconds();
+  for (int batch = 0; batch < kBatches; ++batch) {
+    const auto start = std::chrono::steady_clock::now();
+    simulation.advance(steps);
+    simulation.wait();
+    ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+                 steps);
+  }
+  std::sort(ms.begin(), ms.end());
+  const double median = ms[kBatches / 2];
+  Json row;
+  row["scene"] = "hanging-square";
+  row["triangles"] = triangles;
+  row["device"] = simulation.device();
+  row["precision"] = scene.precision;
+  row["element"] = scene.element;
+  row["law"] = scene.law;
+  if (scene.law == "prandtl") row["memory"] = scene.param.at("memory");
+  row["integrator"] = scene.integrator;
+  row["substeps"] = simulation.limits().substeps;
+  row["solver_iterations"] = simulation.solver_iterations();
+  row["ms_per_step"] = median;
+  row["ms_per_step_fastest"] = ms.front();
+  const auto after = simulation.stage_seconds();
+  for (std::size_t s = 0; s < after.size(); ++s)
+    row["ms_" + after[s].first] = 1e3 * (after[s].second - before[s].second) / (kBatches * steps);
+  const double bytes = bytes_per_step(simulation);
+  row["bytes_device"] = simulation.device_bytes();
+  row["bytes_per_triangle"] = static_cast<double>(simulation.device_bytes()) / triangles;
+  row["bytes_per_step"] = bytes;
+  row["fraction_of_copy_bandwidth"] = bytes / (1e-3 * median) / simulation.copy_bandwidth();
+  char hash[20];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation.state_hash()));
+  row["state_hash"] = hash;
+  return row;
+}
+
+void print(const Json& row) {
+  std::printf("%8d %-7s %-6s %-8s %3d %7.1f %10.3f %9.1f   %s\n", row["triangles"].get<int>(),
+              row["precision"].get<std::string>().c_str(), row["element"].get<std::string>().c_str(),
+              row["law"].get<std::string>().c_str(), row["substeps"].get<int>(),
+              row["solver_iterations"].get<double>(), row["ms_per_step"].get<double>(),
+              row["bytes_per_triangle"].get<double>(), row["device"].get<std::string>().c_str());
+  std::fflush(stdout);
+}
+
+// All laws of an element take the substeps of the stiffest, so that the rows differ by the law alone.
+int common_substeps(Scene scene, const Cloth& cloth) {
+  int most = scene.substeps;
+  for (const Case& c : kCases) {
+    take(c, scene);
+    scene.substeps = 0;
+    most = std::max(most, make_simulation(scene, cloth)->limits().substeps);
+  }
+  return most;
+}
+
+int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
+  Options options = setup.options;
+  options.json = false;  // of its rows, not of the manifest
+  Run run(line, options, to_json(setup.scene));
+  const Json rows = law_cost_table(setup.scene, elements);
+  write_law_costs(run, rows, !options.no_images);
+  run.finish();
+  if (setup.options.json) {
+    std::cout << rows.dump(2) << std::endl;
+    return 0;
+  }
+  std::printf("%-18s element  largest  rms [%% of M0]  ns/element  bytes/element\n", "law");
+  for (const Json& row : rows) {
+    std::printf("%-18s %-7s %8.2f %8.2f %12.3f %10.0f\n", row["law"].get<std::string>().c_str(),
+                row["element"].get<std::string>().c_str(), row["largest_error_percent_of_M0"].get<double>(),
+                row["rms_error_percent_of_M0"].get<double>(), row["ns_per_element"].get<double>(),
+                row["history_bytes_per_element"].get<double>());
+  }
+  return 0;
+}
+
+std::vector<KeyDescription> own_keys() {
+  BenchOptions own;
+  return descriptions(bind(kRows, own));
+}
+
+int run_bench(const CommandLine& line) {
+  BenchOptions own;
+  const Setup setup = set_up(line, defaults(), bind(kRows, own),
+                             [&](Setup&) { own.elements = std::min(own.elements, kQuickElements); });
+  if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
+  Json rows = Json::array();
+  const Cloth cloth = make_cloth(setup.scene);
+  Scene scene = setup.scene;
+  scene.substeps = common_substeps(setup.scene, cloth);
+  if (!setup.options.json)
+    std::printf("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
+  for (const Case& c : kCases) {
+    take(c, scene);
+    const auto simulation = make_simulation(scene, cloth);
+    rows.push_back(measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? 4 : 40));
+    if (!setup.options.json) print(rows.back());
+  }
+  if (setup.options.json) std::cout << rows.dump(2) << std::endl;
+  return 0;
+}
+
+}  // namespace
+
+Experiment bench() {
+  return {.name = "bench",
+          .question = "time and memory of a step: a hanging square, three laws",
+          .run = run_bench,
+          .simulates = true,
+          .own_keys = own_keys,
+          .defaults = defaults};
+}
+
+}  // namespace hysteron::experiments

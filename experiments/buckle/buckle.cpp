@@ -1,0 +1,188 @@
+// A strip clamped at one end buckles under its own weight: upright on its clamp, or sideways from level on
+// its edge.  How heavy it must be, beside the theory of beams; and pictures of a strip as it buckles.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/specimens/buckling.h"
+#include "experiments/workbench/session/session.h"
+#include "sim/base/csv.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct BuckleChoice {
+  std::string kind = "upright";
+  double width = 0;
+};
+using B = BuckleChoice;
+// clang-format off
+const KeyRow<B> kRows[] = {
+    {"buckle.kind", at<&B::kind>, "", any(), "upright | edge", "upright: stands on its clamp; edge: clamped level, width vertical; law = linear unless named"},
+    {"buckle.width", at<&B::width>, "", between(0, 0.25), "", "over the length, of the strip whose threshold is measured; 0: 1/10 upright, 1/80 on edge. cloth.width is that of the pictured one"},
+};
+// clang-format on
+
+constexpr double kVisibleTilt = 0.02;  // [rad]
+constexpr double kPictured = 1.3;      // largest weight, of the reference
+
+Setup defaults() {
+  Setup setup;
+  Scene& scene = setup.scene = default_scene();
+  scene.law = "linear";
+  scene.integrator = "quasi-static";
+  scene.cloth.shape = "strip";
+  scene.cloth.length = 0.1;
+  scene.cloth.width = 0.01;
+  scene.mesh = "unionjack";
+  scene.triangles = 640;
+  scene.step = 0.05;
+  scene.device = "cpu";
+  setup.options.fps = 20;
+  setup.options.camera_direction = {0.8, -1.0, 0.6};
+  setup.options.camera_fov = 24;
+  return setup;
+}
+
+// Bounds of a strip from its clamp at the origin that may bend down to the side.
+render::Box bounds_of(Buckling kind, double length, double width) {
+  const float l = static_cast<float>(length), b = static_cast<float>(width);
+  if (kind == Buckling::upright) return {{-0.85f * l, 0, 0}, {0.1f * l, b, l}};
+  return {{0, -0.5f * l, -0.35f * l}, {l, 0.05f * l, b}};
+}
+
+// With its width in place of the pictured one's.
+Scene measured_scene(Scene scene, const BuckleChoice& choice, Buckling kind) {
+  const double usual = kind == Buckling::upright ? 0.1 : 1.0 / 80;
+  scene.cloth.width = scene.cloth.length * (choice.width > 0 ? choice.width : usual);
+  return scene;
+}
+
+Southwell measure(const Scene& scene, Buckling kind, double length, Session& session) {
+  const auto stage = session.run().stage("solve");
+  const BucklingStrip strip = measured_strip(scene, kind, length);
+  const auto simulation = make_simulation(strip.scene, strip.cloth);
+  Southwell found = approach_threshold(strip, *simulation);
+  char text[100];
+  std::snprintf(text, sizeof text, "critical Gamma %.4f from %zu states, %d triangles", found.critical_gamma,
+                found.gamma.size(), strip.cloth.mesh.faces());
+  session.run().progress(text);
+  return found;
+}
+
+void picture(Session& session, const BucklingStrip& strip, double reference) {
+  const Scene& scene = session.scene();
+  double last = 0;
+  Question question;
+  question.bounds = bounds_of(strip.kind, strip.length, scene.cloth.width);
+  question.columns = {"gamma [1]", "deflection [1]"};
+  const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s
+  question.measure = [&](const Moment& m) -> std::vector<double> {
+    last = strip.deflection(m.x) / strip.length;
+    return {gamma(m.time), last};
+  };
+  question.progress = [&](const Moment& m) {
+    char text[100];
+    std::snprintf(text, sizeof text, "Gamma %.3f  the end has moved by %.4f of the length", gamma(m.time),
+                  last);
+    return std::string(text);
+  };
+  session.simulate(question);
+}
+
+// Gamma to the power in which the last of the plot is a straight line, and Gamma over the deflection.
+Table table_of(const Southwell& found, int power) {
+  Table table{{{"gamma [1]", found.gamma},
+               {"deflection [1]", found.deflection},
+               {power == 1 ? "load [1]" : "load squared [1]", {}},
+               {"load over deflection [1]", {}}},
+              {}};
+  for (std::size_t k = 0; k < found.gamma.size(); ++k) {
+    table.columns[2].values.push_back(std::pow(found.gamma[k], power));
+    table.columns[3].values.push_back(found.gamma[k] / found.deflection[k]);
+  }
+  return table;
+}
+
+// The curve through the last three states down to the threshold: load over deflection = (1 - x/critical)/(a +
+// b x), x the load to its power.
+render::Series fitted(const Southwell& found, int power) {
+  constexpr int kPoints = 40;
+  const double critical = std::pow(found.critical_gamma, power);
+  const std::size_t n = found.gamma.size();
+  const auto x = [&](std::size_t k) { return std::pow(found.gamma[k], power); };
+  const auto rest = [&](std::size_t k) {
+    return (1 - x(k) / critical) * found.deflection[k] / found.gamma[k];
+  };
+  const double slope = (rest(n - 1) - rest(n - 2)) / (x(n - 1) - x(n - 2));
+  render::Series series{"extrapolated", {}, {}, render::Series::Style::dashed};
+  for (int k = 0; k <= kPoints; ++k) {
+    const double at = x(n - 3) + (critical - x(n - 3)) * k / kPoints;
+    series.x.push_back(at);
+    series.y.push_back((1 - at / critical) / (rest(n - 1) + slope * (at - x(n - 1))));
+  }
+  return series;
+}
+
+void plot(Session& session, const Table& table, const Southwell& found, double reference, int power) {
+  const std::vector<double>&x = table.columns[2].values, &y = table.columns[3].values;
+  render::Plot southwell{"Southwell plot, law " + session.scene().law,
+                         {power == 1 ? "Gamma" : "square of Gamma"},
+                         {"Gamma/(deflection over length)"}};
+  southwell.x.high = 1.15 * std::pow(std::max(found.critical_gamma, reference), power);
+  southwell.y.high = 1.1 * *std::max_element(y.begin(), y.end());
+  southwell.series = {{"equilibria", x, y, render::Series::Style::points}, fitted(found, power)};
+  southwell.marks = {{"theory", std::pow(reference, power), 0, -1, 1}};
+  session.plot("plot_southwell", southwell);
+  render::Plot bending{
+      "Buckling of the pictured strip, tilted by 0.02", {"Gamma"}, {"deflection over length"}};
+  bending.series = {
+      render::series_from_csv(session.run().path("metrics.csv"), "gamma", "deflection", "free end")};
+  session.plot("plot_deflection", bending);
+}
+
+void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 320); }
+
+std::vector<KeyDescription> own_keys() {
+  B choice;
+  return descriptions(bind(kRows, choice));
+}
+
+int run_buckle(const CommandLine& line) {
+  B choice;
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  const Buckling kind = buckling_of(choice.kind);
+  const double length = setup.scene.cloth.length;  // that bends
+  const Scene measured = measured_scene(setup.scene, choice, kind);
+  const double reference = reference_gamma(kind, measured);
+  const BucklingStrip pictured = buckling_strip(setup.scene, kind, length, kVisibleTilt, kPictured);
+  setup.scene = pictured.scene;
+  Session session(line, setup, pictured.cloth);
+  if (session.only_explain()) return 0;
+
+  const Southwell found = measure(measured, kind, length, session);
+  const Table table = table_of(found, power_of_load(kind));
+  write_csv(session.run().path("southwell.csv"), table);
+  picture(session, pictured, reference);
+  Run& run = session.run();
+  run.metric("critical_gamma", found.critical_gamma);
+  run.metric("reference_gamma", reference);
+  run.metric("error_percent", 100 * (found.critical_gamma / reference - 1));
+  run.metric("clamp_effect_percent", 100 * share_of_width(kind, measured, length));
+  if (session.pictures()) plot(session, table, found, reference, power_of_load(kind));
+  session.finish("Buckling, " + choice.kind + ": law " + setup.scene.law);
+  return 0;
+}
+
+}  // namespace
+
+Experiment buckle() {
+  return {.name = "buckle",
+          .question = "strip that buckles under its own weight, upright or on its edge",
+          .run = run_buckle,
+          .simulates = true,
+          .own_keys = own_keys,
+          .defaults = defaults};
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,40 @@
+// Every subcommand, in the order of --help.  Each has a folder of its name with a function that describes it;
+// to add one: a folder, and a line here.
+#include "experiments/workbench/app/experiment.h"
+
+// clang-format off
+#define HYSTERON_EXPERIMENTS(entry) \
+  entry(drape) \
+  entry(crease) \
+  entry(fold) \
+  entry(crumple) \
+  entry(swing) \
+  entry(compare) \
+  entry(kes) \
+  entry(cantilever) \
+  entry(buckle) \
+  entry(accuracy) \
+  entry(validate) \
+  entry(stability) \
+  entry(bench) \
+  entry(law) \
+  entry(fit) \
+  entry(render_files) \
+  entry(diff) \
+  entry(report) \
+  entry(figures) \
+  entry(list)
+// clang-format on
+
+namespace hysteron::experiments {
+
+#define HYSTERON_DECLARE(name) Experiment name();
+HYSTERON_EXPERIMENTS(HYSTERON_DECLARE)
+
+#define HYSTERON_LIST(name) name(),
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> all = {HYSTERON_EXPERIMENTS(HYSTERON_LIST)};
+  return all;
+}
+
+}  // namespace hysteron::experiments

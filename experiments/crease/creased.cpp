@@ -1,0 +1,199 @@
+#include "experiments/crease/creased.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/base/error.h"
+#include "sim/bending/laws/recovery.h"
+#include "sim/contact/penalty.h"
+#include "sim/scene/motion.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kGrip = 0.2;     // of the specimen's length, at either end
+constexpr double kFine = 0.075;   // of its length on either side of the crease
+constexpr double kFinest = 0.8;   // elements there, in thicknesses, for up to kCoarse triangles
+constexpr int kCoarse = 500;      // more triangles are smaller in both directions
+constexpr double kGrowth = 1.25;  // of columns from there on
+constexpr double kWidest = 0.05;  // column, of the length, likewise
+constexpr double kLoop = 0.1;     // radius of the hand's turn, of the length
+constexpr double kFold = 0.4, kLower = 0.2, kSettle = 0.1, kPress = 0.3;  // durations [s]
+constexpr double kLetGo = 3;     // height at which the hand lets go, in thicknesses
+constexpr double kPlate = 2e-3;  // half the plate's thickness [m]
+constexpr double kRise = 0.04;   // of the plate [m]
+
+// Column lines from the crease outwards to half the length, mirrored.
+std::vector<double> columns(double length, double thickness, double fine, int triangles) {
+  const double finer = std::min(1.0, std::sqrt(static_cast<double>(kCoarse) / triangles));
+  std::vector<double> half{0};
+  double step = finer * kFinest * thickness;
+  while (half.back() < length / 2) {
+    if (half.back() >= fine) step = std::min(step * (1 + finer * (kGrowth - 1)), finer * kWidest * length);
+    half.push_back(half.back() + step);
+  }
+  for (double& x : half) x *= length / 2 / half.back();
+  std::vector<double> lines;
+  for (std::size_t i = half.size() - 1; i > 0; --i) lines.push_back(length / 2 - half[i]);
+  for (double x : half) lines.push_back(length / 2 + x);
+  return lines;
+}
+
+}  // namespace
+
+ClothMesh crease_specimen(const Scene& scene, double fine) {
+  const double length = scene.cloth.length, width = scene.cloth.width;
+  const std::vector<double> line = columns(length, scene.fabric.thickness, fine, scene.triangles);
+  const int nx = static_cast<int>(line.size()) - 1;
+  const int ny = 2 * std::max(1, static_cast<int>(std::lround(scene.triangles / (4.0 * nx))));
+  ClothMesh mesh = make_grid(length, width, nx, ny, MeshFamily::unionjack, scene.seed);
+  for (Eigen::Vector3d& x : mesh.rest) x.x() = line[std::lround(x.x() / length * nx)];
+  ClothMesh graded;
+  graded.rest = std::move(mesh.rest);
+  graded.face = std::move(mesh.face);
+  build_topology(graded, "crease specimen");
+  return graded;
+}
+
+Pin crease_clamp(const Scene& scene) {
+  Pin pin;
+  pin.low = {-1, -1, -1};
+  pin.high = {kGrip * scene.cloth.length, 1, 1};
+  return pin;
+}
+
+namespace {
+
+Keyframe key(double time, double height, double angle = 0) {
+  Keyframe result;
+  result.time = time;
+  result.position = {0, 0, height};
+  result.angle = angle;
+  return result;
+}
+
+// The far limb's end goes over by half a turn, then down; it is let go before the plate presses.
+Pin hand(const Scene& scene, double ground, double lowered) {
+  const double length = scene.cloth.length, radius = kLoop * length;
+  Pin pin;
+  pin.low = {(1 - kGrip) * length, -1, -1};
+  pin.high = {2 * length, 1, 1};
+  pin.until = lowered;
+  pin.motion.axis = {0, -1, 0};
+  pin.motion.center = {length / 2, 0, ground + radius};
+  const double down = kLetGo * scene.fabric.thickness - 2 * radius;
+  pin.motion.keys = {key(0, 0, 0), key(kFold, 0, 180), key(lowered, down, 180)};
+  return pin;
+}
+
+// Above the folded specimen and beyond its crease; `lowest` is where its underside stops.
+Obstacle plate_of(const Scene& scene, const CreaseTimes& times, double lowest) {
+  const double length = scene.cloth.length;
+  const double ready = (2 + kLetGo) * scene.fabric.thickness;
+  Obstacle plate;
+  plate.kind = "box";
+  plate.size = {0.375 * length, 0.75 * scene.cloth.width, kPlate};
+  plate.rim = kPlate / 4;
+  plate.center = {0.3 * length, scene.cloth.width / 2, ready + kPlate + kRise};
+  plate.motion.keys = {key(kFold, 0),
+                       key(times.folded, -kRise),
+                       key(times.folded + kSettle, -kRise),
+                       key(times.pressed, lowest - ready - kRise),
+                       key(times.released, lowest - ready - kRise),
+                       key(times.lifted, 0)};
+  return plate;
+}
+
+}  // namespace
+
+Crease creased(const Scene& given, const CreaseChoice& choice, double plate) {
+  Crease crease{given, {}, {}};
+  Scene& scene = crease.scene;
+  CreaseTimes& times = crease.times;
+  times.folded = kFold + kLower;
+  times.pressed = times.folded + kSettle + kPress;
+  times.released = times.pressed + choice.hold;
+  times.lifted = times.released + choice.lifting();
+  times.end = times.lifted + choice.recovery;
+  scene.seconds = times.end;
+  scene.cloth.shape = "strip";
+  const double ground = scene.fabric.thickness;  // the specimen lies on the plane's shell
+  scene.cloth.position = {0, 0, ground};
+  Obstacle plane;
+  plane.visible = false;
+  scene.pin = {crease_clamp(scene), hand(scene, ground, times.folded)};
+  scene.obstacle = {plane, plate_of(scene, times, plate)};
+  ClothMesh mesh = crease_specimen(scene, kFine * scene.cloth.length);
+  scene.triangles = mesh.faces();
+  crease.cloth = place_cloth(scene, std::move(mesh));
+  return crease;
+}
+
+double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) const {
+  if (scene.obstacle.size() < 2) return 0;
+  const Obstacle& plate = scene.obstacle[1];
+  const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
+  double force = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool under = (x[i] - plate.center).cwiseAbs().x() < plate.size.x();
+    const double depth = scene.fabric.thickness - (underside - x[i].z());
+    if (under && depth > 0) force += contact_stiffness_per_area(scene) * cloth.mesh.vertex_area[i] * depth;
+  }
+  return force;
+}
+
+double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
+  const double length = scene.cloth.length, reach = grip * length;
+  const ClothMesh& mesh = cloth.mesh;
+  const auto along = [&](std::size_t i) {
+    return mesh.pattern.empty() ? mesh.rest[i].x() : mesh.pattern[i].x();
+  };
+  const auto middle = [&](double from, double to) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (along(i) >= from && along(i) <= to) sum += x[i], ++count;
+    return Eigen::Vector3d(sum / count);
+  };
+  const Eigen::Vector3d far =
+      middle(length - reach / 4, length) - middle(length - reach, length - 0.75 * reach);
+  const Eigen::Vector3d near = middle(0, reach / 4) - middle(0.75 * reach, reach);
+  return std::acos(std::clamp(far.normalized().dot(near.normalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+double Crease::opening_of_law(const std::vector<double>& largest) const {
+  constexpr int kRows = 40;
+  const LawRequest law{scene.law, scene.fabric.virgin_curve(), scene.param};
+  double bent = 0;
+  for (int f = 0; f < cloth.mesh.faces(); ++f) {
+    std::vector<LawRow> rows;
+    const double size = std::abs(largest[f]);
+    for (int k = 1; k <= kRows; ++k) rows.push_back({size * k / kRows, times.released / kRows});
+    if (size > 0) bent += std::copysign(cloth.mesh.face_area[f], largest[f]) * residual_after(law, rows);
+  }
+  return 180 - rest_turn - bent / scene.cloth.width * 180 / std::numbers::pi;
+}
+
+double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
+  const double thickness = scene.fabric.thickness, lowest = 2.05 * thickness;
+  const Crease crease = creased(scene, choice, lowest);
+  const auto simulation = make_simulation(crease.scene, crease.cloth);
+  const Obstacle& plate = crease.scene.obstacle[1];
+  double before = 0, above = 0;  // force at the end of the step before, and where the underside was then
+  while (simulation->time() < crease.times.pressed) {
+    simulation->advance(1);
+    const double time = simulation->time();
+    const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
+    const double force =
+        time > crease.times.folded + kSettle ? crease.plate_force(simulation->positions(), time) : 0;
+    if (force >= choice.force)
+      return above + (underside - above) * (choice.force - before) / (force - before);
+    before = force, above = underside;
+  }
+  throw Error::run("crease: the plate reaches the plane before it bears " + std::to_string(choice.force) +
+                   " N: take a smaller force");
+}
+
+}  // namespace hysteron::experiments

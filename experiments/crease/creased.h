@@ -1,0 +1,67 @@
+// The crease recovery specimen of ISO 2313 and AATCC 66: folded by a hand, loaded by a plate, let go; wrapped
+// around a rod instead; or pleated and pulled flat.
+#pragma once
+
+#include "experiments/workbench/app/experiment.h"
+#include "sim/scene/cloth.h"
+
+namespace hysteron::experiments {
+
+struct CreaseChoice {
+  std::string fold = "plate";    // plate | rod | pleat
+  std::string release = "slow";  // slow: from equilibrium to equilibrium | quick: let go in motion
+  double force = 10;             // of the plate [N] (ISO 2313)
+  double radius = 0.01;          // of the rod [m]
+  double pleat = 60;             // angle between the limbs of the pleated specimen at rest [degree]
+  double hold = 0.2;             // under the whole load [s]
+  double lift = 1;               // time in which the plate of a slow release rises [s]
+  double recovery = 1;           // time to recover [s]
+
+  // Of the plate: that of a quick release is gone in a tenth of a second.
+  double lifting() const { return release == "slow" ? lift : 0.1; }
+};
+
+// When things happen [s].
+struct CreaseTimes {
+  double folded, pressed, released, lifted, end;
+};
+
+struct Crease {
+  Scene scene;
+  Cloth cloth;
+  CreaseTimes times;
+  double rest_turn = 0;  // of a pleat [degree]
+  double grip = 0.2;     // share of the length at either end of which the limbs' directions are taken
+
+  // Force of the plate on the cloth at these positions [N]; 0 without a plate.
+  double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
+  // Angle between the limbs: 0 folded flat, 180 straight [degree].
+  double opening(const std::vector<Eigen::Vector3d>& x) const;
+  // What the law alone makes of it: the opening if each triangle had only been bent along the strip to its
+  // `largest` curvature, of either sign [1/m], and let go [degree].
+  double opening_of_law(const std::vector<double>& largest) const;
+};
+
+// A specimen of scene.cloth.length by scene.cloth.width whose elements are at most a thickness long across
+// the crease, which is in its middle.  Its near limb is clamped on a plane; a hand takes the end of the far
+// limb over by half a turn, then a plate presses both down to `plate` above the plane [m] at its underside,
+// stays, and goes.  No gravity, as the standards turn its moment away.
+Crease creased(const Scene& scene, const CreaseChoice& choice, double plate);
+
+// A strip whose near limb is clamped; a hand wraps the rest by half a turn around a rod, holds it there, and
+// lets go as the rod is taken away.  Its limbs are `scene.cloth.length` long in all, beside what goes around
+// the rod.
+Crease wrapped(const Scene& scene, const CreaseChoice& choice);
+// A strip that is at rest with a sharp pleat in its middle: a hand opens it until it is straight, holds it
+// there, and lets go.
+Crease pleated(const Scene& scene, const CreaseChoice& choice);
+
+// The specimen's mesh; columns across the crease are at most a thickness wide.  Shared by the three.
+ClothMesh crease_specimen(const Scene& scene, double fine);
+// Its near limb, held for good.
+Pin crease_clamp(const Scene& scene);
+
+// Height of the plate's underside at which it first bears the force: found by pressing until it does [m].
+double loaded_plate(const Scene& scene, const CreaseChoice& choice);
+
+}  // namespace hysteron::experiments

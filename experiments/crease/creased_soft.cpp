@@ -1,0 +1,139 @@
+// Folds without a plate: around a rod, and a pleat pulled straight.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/crease/creased.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kTurn = 0.6, kSettle = 0.1;  // durations [s]
+constexpr int kKeys = 36;                     // of the hand's way around the rod
+constexpr double kGrip = 0.2;                 // of the specimen's length, at either end
+constexpr double kAbove = 2e-3;               // of the strip over z = 0 [m]
+constexpr double kSlack = 2e-4;               // of the way around the rod that is left loose
+constexpr double kPleatRadius = 1.5;          // of the pleat's line, in thicknesses
+
+// The hand turns about the rod's axis and comes nearer to it as the rod takes up cloth.
+Motion around_rod(double radius, const Eigen::Vector3d& axis_at) {
+  Motion motion;
+  motion.axis = {0, -1, 0};
+  motion.center = axis_at;
+  for (int k = 0; k <= kKeys; ++k) {
+    const double angle = std::numbers::pi * k / kKeys, taken = radius * angle * (1 + kSlack);
+    Keyframe key;
+    key.time = kTurn * k / kKeys;
+    key.angle = angle / kDegree;
+    key.position = -taken * Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
+    motion.keys.push_back(key);
+  }
+  return motion;
+}
+
+// The turn that lays a limb straight on from where its pleat's line begins: `turn` [rad] about the one point
+// for which all material of the line ends in its place.
+Motion unfolding(double begin, double radius, double turn) {
+  const Eigen::Rotation2Dd back(-turn);
+  const Eigen::Vector2d folded{begin + radius * std::sin(turn), radius * (1 - std::cos(turn))};
+  const Eigen::Vector2d straight{begin + radius * turn, 0};
+  const Eigen::Matrix2d less = Eigen::Matrix2d::Identity() - back.toRotationMatrix();
+  const Eigen::Vector2d center = less.colPivHouseholderQr().solve(straight - back * folded);
+  Motion motion;
+  motion.axis = {0, 1, 0};
+  motion.center = {center.x(), 0, kAbove + center.y()};
+  Keyframe rest, open;
+  open.time = kTurn;
+  open.angle = turn / kDegree;
+  motion.keys = {rest, open};
+  return motion;
+}
+
+CreaseTimes times_of(const CreaseChoice& choice) {
+  CreaseTimes times{};
+  times.folded = kTurn;
+  times.pressed = times.folded + kSettle;
+  times.released = times.pressed + choice.hold;
+  times.lifted = times.released;  // no plate
+  times.end = times.lifted + choice.recovery;
+  return times;
+}
+
+Crease begun(const Scene& given, const CreaseChoice& choice) {
+  Crease crease{given, {}, times_of(choice)};
+  crease.scene.seconds = crease.times.end;
+  crease.scene.cloth.shape = "strip";
+  crease.scene.cloth.position = {0, 0, kAbove};
+  return crease;
+}
+
+Crease finished(Crease crease, ClothMesh mesh) {
+  crease.scene.triangles = mesh.faces();
+  crease.cloth = place_cloth(crease.scene, std::move(mesh));
+  return crease;
+}
+
+}  // namespace
+
+Crease wrapped(const Scene& given, const CreaseChoice& choice) {
+  Crease crease = begun(given, choice);
+  Scene& scene = crease.scene;
+  const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
+  scene.cloth.length = limbs + taken;
+  crease.grip = kGrip * limbs / scene.cloth.length;
+  const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
+  const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
+  Obstacle rod;
+  rod.kind = "cylinder";
+  rod.axis = {0, 1, 0};
+  rod.center = axis_at;
+  rod.radius = choice.radius;
+  rod.height = 2 * scene.cloth.width;
+  rod.until = crease.times.released;
+  scene.obstacle = {rod};
+  Pin clamp = crease_clamp(scene), hand;
+  clamp.high.x() = kGrip * limbs;
+  hand.low = {scene.cloth.length - kGrip * limbs, -1, -1};
+  hand.high = {2 * scene.cloth.length, 1, 1};
+  hand.until = crease.times.released;
+  hand.motion = around_rod(shell, axis_at);
+  scene.pin = {clamp, hand};
+  return finished(std::move(crease), crease_specimen(scene, taken / 2));
+}
+
+Crease pleated(const Scene& given, const CreaseChoice& choice) {
+  Crease crease = begun(given, choice);
+  Scene& scene = crease.scene;
+  const double length = scene.cloth.length, turn = 180 - choice.pleat;
+  const double radius = kPleatRadius * scene.fabric.thickness, arc = radius * turn * kDegree;
+  const double begin = (length - arc) / 2;  // of the pleat's line
+  crease.rest_turn = turn;
+  ClothMesh flat = crease_specimen(scene, std::max(arc, 2 * scene.fabric.thickness));
+  ClothMesh mesh;
+  mesh.face = flat.face;
+  for (const Eigen::Vector3d& x : flat.rest) {
+    mesh.pattern.push_back({x.x(), x.y()});
+    const double along = x.x() - begin, angle = std::clamp(along / radius, 0.0, turn * kDegree);
+    const double straight = along - radius * angle;  // before the pleat's line (< 0) or beyond it
+    mesh.rest.push_back({begin + radius * std::sin(angle) + straight * std::cos(angle), x.y(),
+                         radius * (1 - std::cos(angle)) + straight * std::sin(angle)});
+  }
+  build_topology(mesh, "pleated specimen");
+  Pin clamp = crease_clamp(scene), hand;
+  hand.low = hand.high = mesh.rest.back();
+  for (std::size_t i = 0; i < mesh.rest.size(); ++i)
+    if (mesh.pattern[i].x() >= (1 - kGrip) * length) {
+      hand.low = hand.low.cwiseMin(mesh.rest[i]);
+      hand.high = hand.high.cwiseMax(mesh.rest[i]);
+    }
+  hand.until = crease.times.released;
+  hand.motion = unfolding(begin, radius, turn * kDegree);
+  clamp.high.z() = 1e-9;
+  scene.pin = {clamp, hand};
+  scene.obstacle.clear();
+  return finished(std::move(crease), std::move(mesh));
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,202 @@
+// Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
+// Figure 4.1); with `--law all`, or several laws apart by commas, each of them, on one page.  The scene's
+// file says how: crumple-sphere, crumple-tube, crumple-fist, or one's own.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/pictures/wrinkles.h"
+#include "experiments/workbench/session/session.h"
+#include "sim/base/root_mean_square.h"
+#include "sim/bending/vertex_curvature.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct CrumpleChoice {
+  double ridge = 20;
+};
+using C = CrumpleChoice;
+// clang-format off
+const KeyRow<C> kRows[] = {
+    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as a ridge"},
+};
+// clang-format on
+
+constexpr int kQuickTriangles = 1500;
+constexpr double kQuickFps = 10;
+constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
+constexpr double kLines = 0.5;      // test lines for ridges, in mean edges
+constexpr float kHeadroom = 0.12f;  // of the picture above the cloth, for the caption
+
+Setup defaults() {
+  Setup setup;
+  setup.scene = default_scene();
+  setup.options.scene = "crumple-sphere";
+  setup.options.fps = 25;
+  setup.options.camera_direction = {0.25, -1.0, 0.15};
+  setup.options.camera_fov = 24;
+  return setup;
+}
+
+struct Wrinkles {
+  double ridges = 0;     // length [m]
+  double curvature = 0;  // of the shape, root mean square [1/m]
+  double residual = 0;   // what would be left without load, likewise [1/m]
+};
+
+Wrinkles wrinkles_of(Session& session, const C& choice) {
+  const ClothMesh& mesh = session.cloth().mesh;
+  Simulation& simulation = session.simulation();
+  const int d = simulation.dimension();
+  const std::vector<double> size = curvature_size(simulation.residual_curvature(), d);
+  double edges = 0;
+  for (const Edge& e : mesh.edge) edges += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
+  const double spacing = kLines * edges / static_cast<double>(mesh.edge.size());
+  return {ridge_length(mesh, unrolled(mesh, session.scene().cloth),
+                       vertex_average(session.cloth().mesh, size, d), choice.ridge, spacing),
+          root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
+}
+
+render::Box box_of_start(const Cloth& cloth) {
+  render::Box box;
+  box.low = box.high = cloth.start[0].cast<float>();
+  for (const Eigen::Vector3d& x : cloth.start) {
+    box.low = box.low.cwiseMin(x.cast<float>());
+    box.high = box.high.cwiseMax(x.cast<float>());
+  }
+  return box;
+}
+
+Question question_of(Session& session, const C& choice, Wrinkles& last) {
+  Question question;
+  question.bounds = box_of_start(session.cloth());
+  const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
+  question.bounds.high.z() += kHeadroom * size.z();
+  question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
+  question.measure = [&](const Moment&) -> std::vector<double> {
+    last = wrinkles_of(session, choice);
+    return {last.ridges, last.curvature, last.residual};
+  };
+  question.progress = [&](const Moment& m) {
+    char text[120];
+    std::snprintf(text, sizeof text, "t = %.3f s  %s  residual curvature %.1f 1/m  ridges %.2f m", m.time,
+                  session.scene().phase_at(m.time).c_str(), last.residual, last.ridges);
+    return std::string(text);
+  };
+  return question;
+}
+
+// Share of the area by curvature, of what the cloth has now or would keep.
+render::Series histogram(const Session& session, const std::vector<double>& curvature, int dimension,
+                         const std::string& label) {
+  const ClothMesh& mesh = session.cloth().mesh;
+  std::vector<double> area = mesh.face_area;
+  if (dimension == 1) {
+    area.clear();
+    for (int e = 0; e < mesh.interior_edges; ++e)
+      area.push_back(mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]);
+  }
+  const double bin = 2 * session.scene().fabric.k0 / kBins;
+  render::Series series{label, {}, {}};
+  const std::vector<double> share = area_shares(curvature_size(curvature, dimension), area, bin, kBins);
+  for (int k = 0; k < kBins; ++k) {
+    series.x.push_back((k + 0.5) * bin);
+    series.y.push_back(share[k] > 0 ? 100 * share[k] : NAN);
+  }
+  return series;
+}
+
+// One for each series of an outcome, still without it.
+std::vector<std::pair<std::string, render::Plot>> plots_of(const std::string& title) {
+  return {{"plot_residual",
+           {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}}},
+          {"plot_curvature", {title, {"time [s]"}, {"curvature, root mean square [1/m]"}}}};
+}
+
+std::string caption_of(const Wrinkles& w) {
+  char text[160];
+  std::snprintf(text, sizeof text, "curvature %.1f 1/m, residual %.1f 1/m", w.curvature, w.residual);
+  return text;
+}
+
+void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
+  Pictures& pictures = *session.pictures();
+  const Scene& scene = session.scene();
+  const std::string caption = scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles);
+  for (const char* look : {"curvature", "residual"})
+    render::write_png(session.run().path(std::string(look) + ".png"),
+                      pictures.picture(look, pictures.camera(), caption), render::PngEffort::best);
+  pictures.set_light("raking");
+  outcome.picture = pictures.picture("cloth", pictures.camera(), caption);
+  render::write_png(session.run().path("raking.png"), *outcome.picture, render::PngEffort::best);
+  auto plots = plots_of(scene.fabric.name);
+  for (std::size_t p = 0; p < plots.size(); ++p) {
+    plots[p].second.series = {outcome.series[p]};
+    session.plot(plots[p].first, plots[p].second);
+  }
+}
+
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
+  setup.options.fps = std::min(setup.options.fps, kQuickFps);
+}
+
+LawOutcome crumple_once(const CommandLine& line) {
+  C choice;
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  Session session(line, setup);
+  LawOutcome outcome;
+  if (session.only_explain()) return outcome;
+  Wrinkles wrinkles;
+  session.simulate(question_of(session, choice, wrinkles));
+  Simulation& simulation = session.simulation();
+  const std::string& law = setup.scene.law;
+  outcome.caption = caption_of(wrinkles);
+  outcome.numbers = {{"residual_curvature_rms_per_m", wrinkles.residual},
+                     {"ridge_length_m", wrinkles.ridges},
+                     {"curvature_rms_per_m", wrinkles.curvature},
+                     {"intersections", static_cast<double>(session.intersections())}};
+  session.run().metric("ridge_length_m", wrinkles.ridges);
+  session.run().metric("curvature_rms_per_m", wrinkles.curvature);
+  outcome.series = {histogram(session, simulation.residual_curvature(), simulation.dimension(), law),
+                    render::series_from_csv(session.run().path("metrics.csv"), "time", "curvature_rms", law)};
+  if (session.pictures()) draw(session, wrinkles, outcome);
+  session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + law);
+  return outcome;
+}
+
+int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
+  C choice;
+  const CommandLine first = without_lists(line);
+  const Setup setup = set_up(first, defaults(), bind(kRows, choice));
+  LawPage page{page_title("Crumpled", line, setup), laws, {}, crumple_once};
+  page.plots = plots_of(page.title);
+  return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
+}
+
+std::vector<KeyDescription> own_keys() {
+  C choice;
+  return descriptions(bind(kRows, choice));
+}
+
+int run_crumple(const CommandLine& line) {
+  const std::vector<LawVariant> laws = variants_of(line);
+  if (laws.size() > 1) return crumple_laws(line, laws);
+  crumple_once(line);
+  return 0;
+}
+
+}  // namespace
+
+Experiment crumple() {
+  return {.name = "crumple",
+          .question = "crushed, opened, spread and hung: wrinkles that stay",
+          .run = run_crumple,
+          .simulates = true,
+          .own_keys = own_keys,
+          .defaults = defaults};
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,200 @@
+// `hysteron diff`: two pictures, or the pictures of two folders, measured against each other and limits.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "experiments/diff/diff.h"
+#include "experiments/workbench/app/experiment.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kBeyondLimit = 4;  // exit code
+
+using F = DiffFlags;
+using M = Measures;
+// clang-format off
+const KeyRow<DiffFlags> kRows[] = {
+    {"out", at<&F::out>, "", any(), "", "heat map, a PNG file; of folders: a folder for heat maps, diff.html, diff.csv"},
+    {"max-mean", at<&F::limits, &M::mean_abs>, "8-bit steps", at_least(0), "", "most of mean_abs"},
+    {"max-rmse", at<&F::limits, &M::rmse>, "8-bit steps", at_least(0), "", "most of rmse"},
+    {"min-psnr", at<&F::limits, &M::psnr_db>, "dB", any(), "", "least of psnr_db"},
+    {"min-ssim", at<&F::limits, &M::ssim>, "", between(-1, 1), "", "least of ssim"},
+    {"max-flip", at<&F::limits, &M::flip>, "", between(0, 1), "", "most of flip"},
+    {"max-pixels-over-8", at<&F::limits, &M::pixels_over_8_percent>, "percent", between(0, 100), "", "most of pixels_over_8_percent"},
+    {"pixels-per-degree", at<&F::pixels_per_degree>, "1/degree", between(1, 1000), "", "of the eye that FLIP assumes; default 67: 3840 pixels on 0.7 m, seen from 0.7 m"},
+    {"map", at<&F::map>, "", any(), "steps | flip", "what heat maps show: the largest channel's difference, or FLIP"},
+    {"json", at<&F::json>, "", any(), "", "one JSON object on stdout"},
+};
+// clang-format on
+
+Json json_of(const Measures& measures) {
+  Json json;
+  for (const Measure& m : all_measures()) json[m.name] = measures.*m.value;  // null where infinite
+  return json;
+}
+
+std::string text_of(double value) { return std::isinf(value) ? "inf" : number_field(value); }
+
+// One line on stderr for a pair beyond its limits.
+void complain(const fs::path& a, const fs::path& b, const std::vector<std::string>& broken) {
+  if (!broken.empty())
+    std::cerr << "hysteron diff: " << a.string() << " against " << b.string() << ": " << join(broken, "; ")
+              << std::endl;
+}
+
+void make_folder_of(const fs::path& file) {
+  std::error_code failure;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
+  if (failure)
+    throw Error::machine("cannot create the folder of " + file.string() + ": " + failure.message());
+}
+
+// Inputs are not written onto.
+void require_other(const fs::path& out, const fs::path& input) {
+  std::error_code missing;
+  if (fs::equivalent(out, input, missing))
+    throw Error::request("--out " + out.string() + " is " + input.string() +
+                         ", which is compared: give another name");
+}
+
+int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
+  if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
+    throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures");
+  for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
+  const Comparison comparison = compare_files(a, b, flags);
+  const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits);
+  if (!flags.out.empty()) {
+    make_folder_of(flags.out);
+    render::write_png(flags.out, comparison.heat);
+  }
+  if (flags.json) {
+    Json json = {{"a", a.string()}, {"b", b.string()}};
+    json.update(json_of(comparison.measures));
+    json["broken"] = broken;
+    std::cout << json.dump(2) << std::endl;
+  } else {
+    for (const Measure& m : all_measures())
+      std::cout << m.name << " " << text_of(comparison.measures.*m.value) << "\n";
+  }
+  complain(a, b, broken);
+  return broken.empty() ? 0 : kBeyondLimit;
+}
+
+// What is written must not be found as a picture the next time.
+void require_outside(const fs::path& out, const fs::path& folder) {
+  const fs::path inner = fs::weakly_canonical(out), outer = fs::weakly_canonical(folder);
+  const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
+  if (end == outer.end())
+    throw Error::request("--out " + out.string() + " must not be in " + folder.string() +
+                         ", whose pictures are compared");
+}
+
+void print_row(const std::string& name, std::size_t width, const std::vector<std::string>& cells) {
+  std::cout << name << std::string(width - name.size(), ' ');
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t column = std::max<std::size_t>(10, std::string(all_measures()[i].name).size());
+    std::cout << "  " << std::string(column - std::min(column, cells[i].size()), ' ') << cells[i];
+  }
+  std::cout << std::endl;
+}
+
+std::vector<std::string> cells(const Measures& measures) {
+  std::vector<std::string> texts;
+  for (const Measure& m : all_measures()) texts.push_back(text_of(measures.*m.value));
+  return texts;
+}
+
+FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags,
+                           const std::vector<std::string>& names, std::size_t width) {
+  FolderDiff diff{a, b, {}, {}};
+  for (const std::string& name : names) {
+    const Comparison comparison = compare_files(a / name, b / name, flags);
+    const Measures& found = comparison.measures;
+    diff.rows.push_back({name, found, broken_limits(found, flags.limits)});
+    diff.worst = diff.rows.size() == 1 ? found : worst_of(diff.worst, found);
+    if (!flags.out.empty()) {
+      const fs::path heat = fs::path(flags.out) / kHeatFolder / name;
+      make_folder_of(heat);
+      render::write_png(heat, comparison.heat);
+    }
+    if (!flags.json) print_row(name, width, cells(found));
+    complain(a / name, b / name, diff.rows.back().broken);
+  }
+  return diff;
+}
+
+Json json_of(const FolderDiff& diff) {
+  Json pictures = Json::array();
+  for (const FolderDiff::Row& row : diff.rows) {
+    Json picture = {{"name", row.name}};
+    picture.update(json_of(row.measures));
+    picture["broken"] = row.broken;
+    pictures.push_back(picture);
+  }
+  return {
+      {"a", diff.a.string()}, {"b", diff.b.string()}, {"pictures", pictures}, {"worst", json_of(diff.worst)}};
+}
+
+int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, const std::string& command) {
+  if (!flags.out.empty()) {
+    require_outside(flags.out, a);
+    require_outside(flags.out, b);
+    for (const fs::path& folder : {a, b}) require_other(fs::path(flags.out) / kHeatFolder, folder);
+  }
+  const std::vector<std::string> names = paired_pictures(a, b);
+  std::size_t width = std::string("picture").size();
+  for (const std::string& name : names) width = std::max(width, name.size());
+  if (!flags.json) {
+    std::vector<std::string> head;
+    for (const Measure& m : all_measures()) head.push_back(m.name);
+    print_row("picture", width, head);
+  }
+  const FolderDiff diff = compare_folders(a, b, flags, names, width);
+  if (flags.json) {
+    std::cout << json_of(diff).dump(2) << std::endl;
+  } else {
+    print_row("worst", width, cells(diff.worst));
+  }
+  if (!flags.out.empty()) write_folder_diff(diff, flags, command);
+  return broken_limits(diff.worst, flags.limits).empty() ? 0 : kBeyondLimit;
+}
+
+std::vector<KeyDescription> own_keys() {
+  DiffFlags flags;
+  return descriptions(bind(kRows, flags));
+}
+
+int run_diff(const CommandLine& line) {
+  DiffFlags flags;
+  set_keys(line, bind(kRows, flags));
+  if (line.names.size() != 2)
+    throw Error::request("needs two pictures or two folders: hysteron diff A.png B.png; " +
+                         std::to_string(line.names.size()) + " given");
+  const fs::path a = line.names[0], b = line.names[1];
+  for (const fs::path& path : {a, b}) {
+    if (!fs::exists(path)) throw Error::request("there is no file or folder " + path.string());
+  }
+  if (fs::is_directory(a) != fs::is_directory(b))
+    throw Error::request((fs::is_directory(a) ? a : b).string() + " is a folder and " +
+                         (fs::is_directory(a) ? b : a).string() +
+                         " is not: give two pictures or two folders");
+  return fs::is_directory(a) ? diff_folders(a, b, flags, line.command) : diff_pictures(a, b, flags);
+}
+
+}  // namespace
+
+Experiment diff() {
+  return {.name = "diff",
+          .question = "how far two pictures, or two folders of them, differ",
+          .run = run_diff,
+          .own_keys = own_keys,
+          .names = "A.png B.png"};
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,252 @@
+// Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius,
+// hangs over its rim; the drape coefficient is the share of the free ring that its shadow still covers.
+#include <cstdio>
+
+#include "experiments/drape/outline.h"
+#include "experiments/workbench/session/session.h"
+#include "render/caption.h"
+#include "sim/base/error.h"
+#include "sim/contact/penalty.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct DrapeChoice {
+  std::string release = "lowered";  // lowered: a plate under the ring sinks; dropped: it is gone at once;
+                                    // relifted: lowered, lifted flat again, lowered a second time
+  double disc = 0.09;               // pedestal's radius [m]
+  double lowering = 0.6;            // time in which the plate sinks [s]
+  double still = 2e-3;              // settled when no vertex moves faster [m/s]
+  double plate = 0.12;              // how far the plate sinks [m]
+
+  int strokes() const { return release == "dropped" ? 0 : release == "lowered" ? 1 : 3; }  // of the plate
+  double released() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
+};
+
+using D = DrapeChoice;
+// clang-format off
+const KeyRow<DrapeChoice> kRows[] = {
+    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted", "how the hanging ring is let go: a plate below it sinks; at once; or the plate sinks, lifts it flat again and sinks a second time"},
+    {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
+    {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
+    {"drape.still", at<&D::still>, "m/s", positive(), "", "the motion ends when no vertex moves faster between two pictures; then the equilibrium nearby is sought"},
+};
+// clang-format on
+
+constexpr double kPedestalHeight = 0.14;  // [m]
+constexpr int kDirections = 3600;         // rays of the outline
+constexpr double kProminence = 2e-3;      // a fold stands out by more than this in the outline [m]
+constexpr int kShadowPixels = 1500;
+
+Setup defaults() {
+  Setup setup;
+  Scene& scene = setup.scene = default_scene();
+  // bdf2 is on the front of `hysteron accuracy` wherever friction and limp cloth leave long steps stable.
+  scene.integrator = "bdf2";
+  scene.step = 1.0 / 120;
+  scene.cloth.shape = "disc";
+  scene.cloth.radius = 0.15;
+  scene.triangles = 6000;
+  scene.seconds = 3.4;  // after the plate
+  // What drapes is at rest: air would only decide how it gets there, and linear drag is that of one speed.
+  scene.air_drag = 0;
+  // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
+  scene.newton_residual = 1e-3;
+  scene.newton_velocity = 1e-5;
+  setup.options.camera_direction = {0.35, -1.0, 0.62};
+  setup.options.camera_fov = 24;
+  return setup;
+}
+
+// Otherwise nothing hangs over it, and no ring is there to be covered.
+void check_disc(const Scene& scene, const DrapeChoice& choice) {
+  if (choice.disc < scene.cloth.radius) return;
+  throw Error::request("drape.disc = " + number_text(choice.disc) +
+                       " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m");
+}
+
+// Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
+void add_apparatus(Scene& scene, const DrapeChoice& choice) {
+  // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
+  // apparatus, and the plate throws nothing up when it goes down.
+  constexpr double kOwnWeights = 4;
+  const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
+  const double shell = std::max(scene.fabric.thickness / 2,
+                                scene.fabric.thickness - pressure / contact_stiffness_per_area(scene));
+  scene.cloth.position = {0, 0, shell};
+  Obstacle pedestal;
+  pedestal.kind = "cylinder";
+  pedestal.radius = choice.disc;
+  pedestal.height = kPedestalHeight;
+  pedestal.center = {0, 0, -kPedestalHeight / 2};
+  Obstacle clamp = pedestal;
+  clamp.height = 0.01;
+  clamp.center = {0, 0, 2 * shell + clamp.height / 2};
+  clamp.visible = false;
+  scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});
+  if (choice.release == "dropped") return;
+  Obstacle plate = clamp;
+  plate.radius = scene.cloth.radius + 0.01;
+  plate.center = {0, 0, -plate.height / 2};
+  plate.friction = 0;
+  for (int k = 0; k <= choice.strokes(); ++k) {
+    Keyframe key;
+    key.time = k * choice.lowering;
+    key.position.z() = k % 2 ? -choice.plate : 0;
+    plate.motion.keys.push_back(key);
+  }
+  plate.until = choice.released();
+  scene.obstacle.push_back(plate);
+}
+
+// The cloth's shadow from above with the rim of the pedestal and of the flat specimen, and its dark area.
+double shadow_coefficient(Session& session, const DrapeChoice& choice) {
+  double metres = 0;
+  const double radius = session.scene().cloth.radius;
+  render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
+  const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
+  char text[160];
+  std::snprintf(text, sizeof text, "%s, law %s\nshadow from above: drape coefficient %.1f %%",
+                session.scene().fabric.name.c_str(), session.scene().law.c_str(), found);
+  render::draw_caption(shadow, text, render::Corner::top_left);
+  render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
+  render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);
+  return found;
+}
+
+render::Series circle(double radius, const std::string& label) {
+  render::Series series{label, {}, {}, render::Series::Style::dashed};
+  for (int k = 0; k <= 360; ++k) {
+    series.x.push_back(100 * radius * std::cos(k * 3.14159265358979323846 / 180));
+    series.y.push_back(100 * radius * std::sin(k * 3.14159265358979323846 / 180));
+  }
+  return series;
+}
+
+void plot_outline(Session& session, const DrapeChoice& choice, const Outline& outline) {
+  render::Series cloth{"cloth", {}, {}};
+  const std::size_t n = outline.radius.size();
+  for (std::size_t k = 0; k <= n; ++k) {
+    const double angle = 2 * 3.14159265358979323846 * static_cast<double>(k) / static_cast<double>(n);
+    cloth.x.push_back(100 * outline.radius[k % n] * std::cos(angle));
+    cloth.y.push_back(100 * outline.radius[k % n] * std::sin(angle));
+  }
+  render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
+  plot.series = {cloth, circle(choice.disc, "pedestal"),
+                 circle(session.scene().cloth.radius, "flat specimen")};
+  plot.equal_scales = true;
+  session.plot("plot_outline", plot);
+}
+
+void plot_series(Session& session) {
+  const auto csv = session.run().path("metrics.csv");
+  render::Plot drape{
+      "Drape coefficient, " + session.scene().fabric.name, {"time [s]"}, {"drape coefficient [%]"}};
+  drape.series = {render::series_from_csv(csv, "time", "drape_coefficient", "simulated")};
+  const auto published = session.scene().fabric.published.find("drape-coefficient");
+  if (published != session.scene().fabric.published.end()) {
+    const double value = published->second.value;
+    drape.series.push_back({"measured, published",
+                            {0, drape.series[0].x.back()},
+                            {value, value},
+                            render::Series::Style::dashed});
+  }
+  session.plot("plot_drape", drape);
+  render::Plot energy{"Where the energy went", {"time [s]"}, {"energy [J]"}};
+  for (const char* term :
+       {"kinetic", "bending", "bending_friction", "contact_friction", "air", "viscous", "integrator_inertia"})
+    energy.series.push_back(render::series_from_csv(csv, "time", term, term));
+  session.plot("plot_energy", energy);
+}
+
+void draw_maps(Session& session) {
+  Pictures& pictures = *session.pictures();
+  const std::string what = session.scene().fabric.name + ", law " + session.scene().law;
+  for (const char* look : {"curvature", "friction"})
+    render::write_png(session.run().path(std::string(look) + ".png"),
+                      pictures.picture(look, pictures.camera(), what), render::PngEffort::best);
+}
+
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, 1000);
+  setup.scene.seconds = std::min(setup.scene.seconds, 0.4);
+  setup.options.fps = std::min(setup.options.fps, 10.0);
+}
+
+std::vector<KeyDescription> own_keys() {
+  DrapeChoice choice;
+  return descriptions(bind(kRows, choice));
+}
+
+int run_drape(const CommandLine& line) {
+  DrapeChoice choice;
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
+  check_disc(setup.scene, choice);
+  add_apparatus(setup.scene, choice);
+  Session session(line, setup);
+  if (session.only_explain()) return 0;
+  session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
+
+  const float r = static_cast<float>(setup.scene.cloth.radius);
+  Question question;
+  question.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
+  question.floor = -static_cast<float>(kPedestalHeight);
+  question.columns = {"drape_coefficient [%]", "node_count"};
+  double covered = 0, change = 0;  // the coefficient, and by how much the last record changed it [%]
+  question.measure = [&](const Moment& m) -> std::vector<double> {
+    const Outline outline = outline_from_above(session.cloth().mesh, m.x, kDirections);
+    const double percent = drape_coefficient(outline.area(), choice.disc, setup.scene.cloth.radius);
+    change = percent - covered;
+    covered = percent;
+    return {percent, static_cast<double>(outline.nodes(kProminence))};
+  };
+  question.settled = [&](const Moment& m) {
+    return m.time > choice.released() + choice.lowering && m.fastest < choice.still;
+  };
+  question.to_rest = true;
+  question.progress = [&](const Moment& m) {
+    char text[120];
+    std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time,
+                  covered, m.fastest);
+    return std::string(text);
+  };
+  const bool settled = session.simulate(question);
+
+  const Outline outline =
+      outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections);
+  Run& run = session.run();
+  run.metric("drape_coefficient_percent",
+             drape_coefficient(outline.area(), choice.disc, setup.scene.cloth.radius));
+  run.metric("node_count", outline.nodes(kProminence));
+  run.metric("settled", settled);
+  run.metric("settling_limit_m_per_s", choice.still);
+  // What bringing the cloth to rest has moved: what its last motion could still have changed.
+  if (setup.scene.is_implicit()) run.metric("rest_shift_percent", change);
+  for (const auto& [name, number] : setup.scene.fabric.published) {
+    if (name == "drape-coefficient") run.metric("published_drape_coefficient_percent", number.value);
+    if (name == "node-count") run.metric("published_node_count", number.value);
+  }
+  if (session.pictures()) {
+    run.metric("shadow_drape_coefficient_percent", shadow_coefficient(session, choice));
+    draw_maps(session);
+    plot_outline(session, choice, outline);
+    plot_series(session);
+  }
+  session.finish("Drape: " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  return 0;
+}
+
+}  // namespace
+
+Experiment drape() {
+  return {.name = "drape",
+          .question = "Cusick's drape test: a disc of cloth over a pedestal",
+          .run = run_drape,
+          .simulates = true,
+          .own_keys = own_keys,
+          .defaults = defaults};
+}
+
+}  // namespace hysteron::experiments

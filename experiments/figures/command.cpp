@@ -1,0 +1,79 @@
+// `hysteron figures`: the chapter's figures as pictures, curves and captions in one folder.
+#include <iostream>
+
+#include "experiments/figures/figures.h"
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/figure_captions.h"
+#include "sim/base/atomic_file.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// The curves and named points of a figure, one point per row.
+void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
+  AtomicFile file(path.string());
+  file.stream().precision(12);
+  file.stream() << "curve,curvature [1/m],moment [mN]\n";
+  for (const render::Series& series : plot.series) {
+    if (series.label.empty()) continue;
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      file.stream() << "\"" << series.label << "\"," << series.x[i] << "," << series.y[i] << "\n";
+  }
+  for (const render::Mark& mark : plot.marks) {
+    if (mark.dot) file.stream() << "\"point " << mark.text << "\"," << mark.x << "," << mark.y << "\n";
+  }
+  file.commit();
+}
+
+std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
+  std::vector<FigureCaption> captions;
+  for (const Figure& figure : figures)
+    captions.push_back({figure.name + ".png", figure.plot.title, figure.caption});
+  return captions;
+}
+
+std::vector<KeyDescription> own_keys() {
+  Options options;
+  std::vector<KeyDescription> keys = descriptions(bind_output_options(options));
+  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
+  return keys;
+}
+
+int run_figures(const CommandLine& line) {
+  Options options;
+  options.out = "out/figures";
+  set_keys(line, bind_output_options(options));
+  const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
+  Scene scene;
+  scene.fabric = fabric_of(name, line.flags);
+  const std::vector<Figure> all = chapter_figures(scene.fabric);
+  Run run(line, options, {{"fabric", to_json(scene)["fabric"]}});
+  for (const Figure& figure : all) {
+    write_curves(run.path(figure.name + ".csv"), figure.plot);
+    if (options.no_images) continue;
+    for (const char* ending : {".png", ".svg"}) run.path(figure.name + ending);
+    render::write_plot(run.folder() / figure.name, figure.plot);
+  }
+  write_captions(run.path("README.md"), "The chapter's figures, from the program's own laws",
+                 "Wong, \"Modelling Bending Behaviour Using Hysteresis\" (Wong, Leach, Zambetta, Computer "
+                 "Graphics Forum 2013). Letters as in the chapter. Written by `" +
+                     line.command + "`; curves and points are in the CSV files.",
+                 captions_of(all));
+  run.finish();
+  if (!options.json) {
+    for (const Figure& figure : all) std::cout << figure.name << ": " << figure.plot.title << "\n";
+  }
+  return 0;
+}
+
+}  // namespace
+
+Experiment figures() {
+  return {.name = "figures",
+          .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
+          .run = run_figures,
+          .own_keys = own_keys};
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,238 @@
+// `hysteron fit`: a fabric from measurements, with standard errors and with what they leave open.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+#include "experiments/fit/curve.h"
+#include "experiments/fit/profile.h"
+#include "experiments/fit/published.h"
+#include "experiments/fit/report.h"
+#include "experiments/fit/stops.h"
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct FitFlags {
+  std::string loop, profile, virgin_file;
+  VirginNumbers virgin;
+  KesNumbers kes;
+  std::string law = "prandtl";
+  Parameters param;
+  int stops = 0;
+  bool offset = false;
+  double ripple = 0.05;
+  Assumptions assume;
+  std::string name = "fitted";
+  double density = kNone, thickness = kNone;
+  Options options;
+};
+
+constexpr double kSameResidual = 1e-4;    // relative: what numerical differences leave
+constexpr double kRounding = 1e-9;        // residuals below this share of the largest moment are none
+constexpr double kLikelihoodFall = 3.84;  // twice the logarithm of the likelihood, 95 % (Wilks 1938)
+
+using F = FitFlags;
+using M = Measured;
+// clang-format off
+const KeyRow<FitFlags> kRows[] = {
+    {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
+    {"law", at<&F::law>, "", any(), "", "of the loop: a name, names apart by commas, or all, to compare"},
+    {"param", at<&F::param>, "", any(), "", "parameters of that law"},
+    {"stops", at<&F::stops>, "", between(1, kMostStops), "", "instead of a law: this many friction elements with free thresholds"},
+    {"offset", at<&F::offset>, "", any(), "", "seek the zero of the measured moments, too"},
+    {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
+    {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
+    {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
+    {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
+    {"virgin.b1-stderr", at<&F::virgin, &VirginNumbers::b1, &M::standard_error>, "N m", at_least(0), "", "standard error"},
+    {"virgin.c1-stderr", at<&F::virgin, &VirginNumbers::c1, &M::standard_error>, "N m^2", at_least(0), "", "standard error"},
+    {"virgin.file", at<&F::virgin_file>, "", any(), "", "specimens of a fabric: CSV with `b1 [N m]`, `c1 [N m2]`"},
+    {"kes.b", at<&F::kes, &KesNumbers::b, &M::value>, "N m", any(), "", "B of KES-FB2 (1 gf cm^2/cm = 9.80665e-5 N m)"},
+    {"kes.2hb", at<&F::kes, &KesNumbers::two_hb, &M::value>, "N", any(), "", "2HB of KES-FB2 (1 gf cm/cm = 9.80665e-3 N)"},
+    {"kes.k0", at<&F::kes, &KesNumbers::k0, &M::value>, "1/m", positive(), "", "where friction saturates, if known"},
+    {"kes.b-stderr", at<&F::kes, &KesNumbers::b, &M::standard_error>, "N m", at_least(0), "", "standard error"},
+    {"kes.2hb-stderr", at<&F::kes, &KesNumbers::two_hb, &M::standard_error>, "N", at_least(0), "", "standard error"},
+    {"kes.k0-stderr", at<&F::kes, &KesNumbers::k0, &M::standard_error>, "1/m", at_least(0), "", "standard error"},
+    {"assume.ratio", at<&F::assume, &Assumptions::ratio>, "", between(0.01, 0.99), "", "b2/b1 where the data leave b2 and k0 open"},
+    {"assume.k0", at<&F::assume, &Assumptions::k0>, "1/m", positive(), "", "k0 where the data leave only that open"},
+    {"name", at<&F::name>, "", any(), "", "of the fabric"},
+    {"fabric.density", at<&F::density>, "kg/m^2", positive(), "", "for fabric.toml, and the weight of a profile"},
+    {"fabric.thickness", at<&F::thickness>, "m", positive(), "", "for fabric.toml"},
+};
+// clang-format on
+
+Keys bind_flags(FitFlags& flags) {
+  Keys keys = bind(kRows, flags);
+  for (BoundKey& key : bind_output_options(flags.options)) {
+    if (key.description.path == "quick" || key.description.path == "no-images") continue;
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+std::vector<std::string> laws_of(const std::string& text) {
+  std::vector<std::string> laws;
+  if (text == "all") {
+    for (const LawEntry& law : law_catalogue()) laws.push_back(law.name);
+    return laws;
+  }
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (!word.empty() && !std::count(laws.begin(), laws.end(), word)) laws.push_back(word);
+  }
+  if (laws.empty()) throw Error::request("law = \"\" must name a law (--law)");
+  return laws;
+}
+
+// What a fit is from, one of the ways in.
+struct Answer {
+  std::vector<Identification> fits;  // the best first
+  std::vector<Stop> stops;
+  std::string from;
+};
+
+// The best first; laws that the data do not tell apart stay in the order in which they were asked for.
+void rank(std::vector<Identification>& fits) {
+  const auto digits = [](const Identification& fit) {
+    return std::lround(std::log(fit.residual_rms() / fit.largest_moment() + kRounding) / kSameResidual);
+  };
+  std::stable_sort(fits.begin(), fits.end(),
+                   [&](const auto& a, const auto& b) { return digits(a) < digits(b); });
+  const Identification& best = fits[0];
+  const auto rows = static_cast<double>(best.moment.size());
+  std::vector<std::string> alike;
+  for (std::size_t i = 1; i < fits.size(); ++i) {
+    const double ratio =
+        fits[i].residual_rms() / std::max(best.residual_rms(), kRounding * best.largest_moment());
+    if (2 * rows * std::log(ratio) <= kLikelihoodFall) alike.push_back(fits[i].law);
+  }
+  if (!alike.empty()) {
+    fits[0].statements.push_back("these data do not tell " + best.law + " from " + join(alike, ", ") +
+                                 " (95 %)");
+  }
+}
+
+Answer from_loop(const FitFlags& flags) {
+  const MomentSeries series = read_series(flags.loop, flags.ripple);
+  Answer answer{{}, {}, series.name};
+  if (flags.stops > 0) {
+    StopsIdentification found = identify_stops(series, flags.stops, flags.assume);
+    answer.fits = {std::move(found.fabric)};
+    answer.stops = std::move(found.stops);
+    return answer;
+  }
+  for (const std::string& law : laws_of(flags.law)) {
+    CurveQuestion question;
+    question.law.name = law;
+    for (const auto& [name, value] : flags.param) question.law.parameters[name] = value;
+    question.offset = flags.offset;
+    question.assumptions = flags.assume;
+    answer.fits.push_back(identify_curve(series, question));
+  }
+  rank(answer.fits);
+  return answer;
+}
+
+Answer from_virgin(const FitFlags& flags) {
+  if (!flags.virgin_file.empty()) {
+    if (flags.virgin.b1.given() || flags.virgin.c1.given())
+      throw Error::request("takes virgin.file or virgin.b1 with virgin.c1, not both");
+    return {
+        {identify_virgin(read_virgin(flags.virgin_file), flags.assume)}, {}, file_name(flags.virgin_file)};
+  }
+  if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
+    throw Error::request("a virgin curve needs both --virgin.b1 and --virgin.c1");
+  return {{identify_virgin(flags.virgin, flags.assume)}, {}, "b1 and c1 of its virgin curve"};
+}
+
+Answer from_kes(const FitFlags& flags) {
+  if (!flags.kes.b.given() || !flags.kes.two_hb.given())
+    throw Error::request("KES-FB2 needs both --kes.b and --kes.2hb");
+  return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
+}
+
+Answer from_profile(const FitFlags& flags) {
+  if (std::isnan(flags.density))
+    throw Error::request("a profile needs --fabric.density: the moments are those of the strip's weight");
+  return {{identify_profile(read_profile(flags.profile), flags.density, flags.assume)},
+          {},
+          file_name(flags.profile)};
+}
+
+void refuse_without_loop(const FitFlags& flags) {
+  if (!flags.loop.empty()) return;
+  if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
+    throw Error::request("--law, --param, --stops and --offset go with --loop: only a loop tells laws apart");
+}
+
+Answer identify(const FitFlags& flags) {
+  struct Way {
+    bool asked;
+    Answer (*go)(const FitFlags&);
+  };
+  const bool virgin = flags.virgin.b1.given() || flags.virgin.c1.given() || !flags.virgin_file.empty();
+  const bool kes = flags.kes.b.given() || flags.kes.two_hb.given();
+  const Way ways[] = {{!flags.loop.empty(), from_loop},
+                      {virgin, from_virgin},
+                      {kes, from_kes},
+                      {!flags.profile.empty(), from_profile}};
+  const auto asked =
+      std::count_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; });
+  if (asked != 1) {
+    throw Error::request(
+        "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
+        "--profile FILE.csv" +
+        std::string(asked > 1 ? ", not several" : ""));
+  }
+  refuse_without_loop(flags);
+  return std::find_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; })->go(flags);
+}
+
+std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
+
+std::vector<KeyDescription> own_keys() {
+  FitFlags flags;
+  return descriptions(bind_flags(flags));
+}
+
+int run_fit(const CommandLine& line) {
+  FitFlags flags;
+  flags.options.out = "out/" + line.experiment;
+  const Keys keys = bind_flags(flags);
+  for (const Flag& flag : line.flags) {
+    const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
+    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+  }
+  const Answer answer = identify(flags);
+
+  Run run(line, flags.options, to_json(keys));
+  const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
+  report_fits(run, answer.fits, notes);
+  if (!answer.stops.empty()) report_stops(run, answer.stops);
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
+  if (!flags.options.json) {
+    std::cout << summary(answer.fits);
+    for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
+    std::cout << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Experiment fit() {
+  return {.name = "fit",
+          .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
+          .run = run_fit,
+          .own_keys = own_keys};
+}
+
+}  // namespace hysteron::experiments

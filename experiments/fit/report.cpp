@@ -1,0 +1,125 @@
+#include "experiments/fit/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/base/csv.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct Row {
+  const char* metric;
+  const char* name;
+  const char* unit;
+  const Estimate* estimate;
+};
+
+std::vector<Row> rows_of(const Identification& found) {
+  return {{"b1_N_m", "b1", "N m", &found.b1},
+          {"b2_N_m", "b2", "N m", &found.b2},
+          {"k0_per_m", "k0", "1/m", &found.k0}};
+}
+
+// Not a number stands for "none", which JSON calls null.
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+void add_metrics(Run& run, const Identification& found, const std::string& prefix) {
+  for (const Row& row : rows_of(found)) {
+    run.metric(prefix + row.metric, row.estimate->value);
+    run.metric(prefix + row.metric + "_stderr", number_or_null(row.estimate->standard_error));
+  }
+  run.metric(prefix + "undetermined", found.undetermined());
+  run.metric(prefix + "2HB_N", 2 * found.curve().friction_moment());
+  run.metric(prefix + "residual_rms_N", found.residual_rms());
+  run.metric(prefix + "residual_rms_percent", 100 * found.residual_rms() / found.largest_moment());
+  run.metric(prefix + "iterations", found.iterations);
+  for (const auto& [name, value] : found.further) run.metric(prefix + name, number_or_null(value));
+}
+
+void write_rows(Run& run, const std::vector<Identification>& fits) {
+  Table table;
+  table.columns = {{"curvature [1/m]", fits[0].curvature}, {"moment [N]", fits[0].moment}};
+  for (const Identification& fit : fits) {
+    const std::string law = fits.size() > 1 ? "_" + fit.law : "";
+    Column residual{"residual" + law + " [N]", fit.moment};
+    for (std::size_t i = 0; i < fit.model.size(); ++i) residual.values[i] -= fit.model[i];
+    table.columns.push_back({"model" + law + " [N]", fit.model});
+    table.columns.push_back(residual);
+  }
+  write_csv(run.path("fit.csv"), table);
+}
+
+std::string percent_text(const Identification& fit) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * fit.residual_rms() / fit.largest_moment());
+  return text;
+}
+
+std::string with_error(const Row& row) {
+  char text[96];
+  const Estimate& e = *row.estimate;
+  if (std::isfinite(e.standard_error)) {
+    std::snprintf(text, sizeof text, "  %s = %.4g +- %.2g %s", row.name, e.value, e.standard_error, row.unit);
+  } else {
+    std::snprintf(text, sizeof text, "  %s = %.4g %s", row.name, e.value, row.unit);
+  }
+  return std::string(text) + (e.determined ? "" : "  (" + e.confidence + "; the data do not determine it)") +
+         "\n";
+}
+
+std::string summary_of(const Identification& found) {
+  std::string text = found.law + ": residual " + percent_text(found) + " of the largest moment (rms), " +
+                     std::to_string(found.moment.size()) + " rows, " + std::to_string(found.iterations) +
+                     " iterations\n";
+  for (const Row& row : rows_of(found)) text += with_error(row);
+  const std::vector<std::string> open = found.undetermined();
+  text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
+  for (const std::string& statement : found.statements) text += "  - " + statement + "\n";
+  return text;
+}
+
+}  // namespace
+
+void report_fits(Run& run, const std::vector<Identification>& fits, const FabricNotes& notes) {
+  write_fabric(run.path("fabric.toml"), fits[0], notes);
+  write_rows(run, fits);
+  const bool several = fits.size() > 1;
+  if (several) run.metric("best_law", fits[0].law);
+  for (const Identification& fit : fits) add_metrics(run, fit, several ? fit.law + "." : "");
+  Json statements = Json::object();
+  for (const Identification& fit : fits) statements[fit.law] = fit.statements;
+  run.note("statements", several ? statements : Json(fits[0].statements));
+  draw_fits(run, fits, notes.name + ": " + notes.from);
+}
+
+void report_stops(Run& run, const std::vector<Stop>& stops) {
+  Table table;
+  table.columns = {{"threshold [1/m]", {}}, {"stiffness [N m]", {}}};
+  for (std::size_t j = 0; j < stops.size(); ++j) {
+    const std::string name = "stop" + std::to_string(j + 1);
+    table.columns[0].values.push_back(stops[j].threshold);
+    table.columns[1].values.push_back(stops[j].stiffness);
+    run.metric(name + "_threshold_per_m", stops[j].threshold);
+    run.metric(name + "_threshold_per_m_stderr", number_or_null(stops[j].threshold_error));
+    run.metric(name + "_stiffness_N_m", stops[j].stiffness);
+    run.metric(name + "_stiffness_N_m_stderr", number_or_null(stops[j].stiffness_error));
+  }
+  write_csv(run.path("stops.csv"), table);
+}
+
+std::string summary(const std::vector<Identification>& fits) {
+  std::string text;
+  for (const Identification& fit : fits) {
+    if (fits.size() == 1) break;
+    const std::vector<std::string> open = fit.undetermined();
+    text += fit.law + ": rms " + percent_text(fit) + "; b1 " + rounded(fit.b1.value) + ", b2 " +
+            rounded(fit.b2.value) + " N m, k0 " + rounded(fit.k0.value) + "/m" +
+            (open.empty() ? "" : "; undetermined: " + join(open, ", ")) + "\n";
+  }
+  return text + summary_of(fits[0]);
+}
+
+}  // namespace hysteron::experiments

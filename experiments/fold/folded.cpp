@@ -1,0 +1,168 @@
+#include "experiments/fold/folded.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/specimens/clamped_mesh.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_parameters.h"
+#include "sim/scene/motion.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kGrip = 0.1;     // of the specimen's length, in either clamp
+constexpr double kSlack = 0.02;   // at the return, of the length between the clamps
+constexpr double kHang = 1;       // after the last return, from one clamp [s]
+constexpr double kJaw = 2e-3;     // half the height of a clamp [m]
+constexpr double kNoContact = 3;  // between cloth and the clamps that are seen, in thicknesses
+
+Pin clamp(double low, double high) {
+  Pin pin;
+  pin.low = {low, -1, -1};
+  pin.high = {high, 1, 1};
+  return pin;
+}
+
+Keyframe shifted(double time, double distance) {
+  Keyframe key;
+  key.time = time;
+  key.position.x() = -distance;
+  return key;
+}
+
+Motion motion_of(const FoldChoice& choice, double free_length) {
+  Motion motion;
+  motion.keys = {shifted(0, 0)};
+  for (int n = 0; n < choice.cycles; ++n) {
+    motion.keys.push_back(shifted((n + 0.5) * choice.period, choice.stroke * free_length));
+    motion.keys.push_back(shifted((n + 1) * choice.period, kSlack * free_length));
+  }
+  return motion;
+}
+
+// For the eye: beyond the cloth's end, which is the middle of a clamp's held cells.
+Obstacle jaw(const Scene& scene, double end, double outwards) {
+  const double half = kGrip * scene.cloth.length / 2;
+  Obstacle body;
+  body.kind = "box";
+  body.size = {half, 0.6 * scene.cloth.width, kJaw};
+  body.rim = kJaw / 4;
+  body.center = {end + outwards * (half + kNoContact * scene.fabric.thickness), scene.cloth.width / 2, 0};
+  return body;
+}
+
+// A name for what is seen around either end of the stroke.
+std::vector<Phase> phases(const FoldChoice& choice) {
+  const double quarter = choice.period / 4;
+  std::vector<Phase> all = {{"straight", quarter}};
+  for (int n = 1; n <= choice.cycles; ++n) {
+    const std::string cycle = "cycle " + std::to_string(n);
+    all.push_back({cycle + ", folded", 2 * quarter});
+    all.push_back({cycle + ", returned", (n < choice.cycles ? 2 : 1.01) * quarter});
+  }
+  all.push_back({"let go", kHang});
+  return all;
+}
+
+int decade_of(int cycle) {
+  int decade = 1;
+  while (cycle / decade >= 10) decade *= 10;
+  return decade;
+}
+
+}  // namespace
+
+void give_fatigue(Scene& scene, const FoldChoice& choice) {
+  const std::vector<std::string> known = law_parameter_names(scene.law);
+  const char* const name = "fatigue.dc";
+  if (choice.fatigue > 0 && std::find(known.begin(), known.end(), name) != known.end())
+    scene.param.try_emplace(name, number_text(choice.fatigue));
+}
+
+bool is_chosen(int cycle, int last) {
+  const int decade = decade_of(cycle);
+  return cycle == last || cycle == decade || cycle == 2 * decade || cycle == 5 * decade;
+}
+
+bool is_pictured(int cycle, int last) { return cycle == last || cycle == decade_of(cycle); }
+
+Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
+  if (given.element != "shape")
+    throw Error::request("fold: element = " + given.element +
+                         " must be shape: recovery is read from the curvature tensors of faces");
+  Fold fold{given, {}};
+  Scene& scene = fold.scene;
+  fold.free_length = (1 - 2 * kGrip) * scene.cloth.length;
+  fold.half = std::max(1, static_cast<int>(std::lround(choice.period / 2 * fps)));
+  const double apart = choice.period / 2 / fold.half;
+  scene.step = apart / std::max(1.0, std::round(apart / scene.step));
+  fold.fps = 1 / apart;
+  fold.cycles = choice.cycles;
+  fold.released = choice.cycles * choice.period;
+  scene.seconds = fold.released + std::round(kHang / apart) * apart;
+  scene.phase = phases(choice);
+
+  ClampedMesh clamped =
+      clamped_mesh(scene.mesh, fold.free_length, scene.cloth.width, scene.triangles, 2, scene.seed);
+  scene.cloth.shape = "strip";
+  scene.triangles = clamped.mesh.faces();
+  scene.pin = {clamp(-1, clamped.near()), clamp(clamped.far(), 1)};
+  scene.pin[1].motion = motion_of(choice, fold.free_length);
+  scene.pin[1].until = fold.released + scene.step / 2;
+  scene.obstacle = {jaw(scene, 0, -1), jaw(scene, clamped.length, 1)};
+  scene.obstacle[1].motion = scene.pin[1].motion;
+  fold.cloth = place_cloth(scene, std::move(clamped.mesh));
+  return fold;
+}
+
+double Fold::distance(double time) const {
+  return free_length + placement(scene.pin[1].motion, time).translation.x();
+}
+
+FoldGauge::FoldGauge(const Fold& fold) : width_(fold.scene.cloth.width) {
+  const ClothMesh& mesh = fold.cloth.mesh;
+  double length = 0;
+  for (const Eigen::Vector3d& x : mesh.rest) length = std::max(length, x.x());
+  spacing_ = length - fold.free_length;  // half a column is in either clamp
+  middle_ = length / 2;
+  columns_ = static_cast<int>(std::lround(length / spacing_));
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto& corner = mesh.face[f];
+    const auto [warp, weft] = mesh.face_axes(f);
+    const double c = warp.x(), s = weft.x();
+    component_.emplace_back(c * c, s * s, std::sqrt(2.0) * c * s);
+    area_.push_back(mesh.face_area[f]);
+    x_.push_back((mesh.rest[corner[0]] + mesh.rest[corner[1]] + mesh.rest[corner[2]]).x() / 3);
+    column_.push_back(std::clamp(static_cast<int>(x_.back() / spacing_), 0, columns_ - 1));
+  }
+}
+
+double FoldGauge::along(int face, const std::vector<double>& curvature) const {
+  return area_[face] * component_[face].dot(Eigen::Map<const Eigen::Vector3d>(&curvature[3 * face]));
+}
+
+double FoldGauge::crown(const std::vector<double>& curvature) const {
+  constexpr double kReach = 0.75;  // of a column: the middle one, or the two beside the middle
+  double sum = 0, area = 0;
+  for (std::size_t f = 0; f < area_.size(); ++f) {
+    if (std::abs(x_[f] - middle_) > kReach * spacing_) continue;
+    sum += along(static_cast<int>(f), curvature);
+    area += area_[f];
+  }
+  return sum / area;
+}
+
+double FoldGauge::largest_turn(const std::vector<double>& curvature) const {
+  std::vector<double> turn(columns_, 0);
+  for (std::size_t f = 0; f < area_.size(); ++f)
+    turn[column_[f]] += along(static_cast<int>(f), curvature) / width_;
+  double here = 0, largest = 0;  // of the parts that end here, of all parts
+  for (double t : turn) {
+    here = std::max(0.0, here + t);
+    largest = std::max(largest, here);
+  }
+  return largest;
+}
+
+}  // namespace hysteron::experiments

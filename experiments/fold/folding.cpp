@@ -1,0 +1,103 @@
+#include "experiments/fold/folding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kMillimetre = 1e-3;
+
+// Depth of the lowest point below the clamps [m].
+double lowest(const std::vector<Eigen::Vector3d>& x) {
+  double depth = 0;
+  for (const Eigen::Vector3d& p : x) depth = std::max(depth, -p.z());
+  return depth;
+}
+
+}  // namespace
+
+Folding::Folding(const Fold& fold, Session& session)
+    : fold_(fold),
+      session_(session),
+      gauge_(fold),
+      material_(law_in_cloth(fold.scene)),
+      cycles_(session.run().path("cycles.csv"),
+              {"cycle", "recovery_angle [degree]", "set_curvature [1/m]", "largest_curvature [1/m]",
+               "sag [mm]", "bending_friction [J]", "crown_dissipated [J/m^2]"}),
+      materials_(session.run().path("material.csv"),
+                 {"cycle", "M0 [N]", "2HB [N]", "permanent_set [1/m]", "crown_dissipated_in_all [J/m^2]"}) {}
+
+std::vector<std::string> Folding::columns() {
+  return {"clamp_distance [m]", "crown_curvature [1/m]", "crown_moment [N]"};
+}
+
+std::vector<double> Folding::measure(const Moment& moment) {
+  curvature_ = gauge_.crown(session_.simulation().curvature());
+  largest_ = std::max(largest_, curvature_);
+  if (moment.time > 0) crown_ = material_.to({curvature_, moment.time - time_});
+  time_ = moment.time;
+  reading_.lowest = lowest(moment.x) / kMillimetre;
+  add_to_loops();
+  const int period = 2 * fold_.half, cycle = count_ / period;
+  if (cycle > 0 && cycle <= fold_.cycles && count_ % period == 0) end_cycle(cycle);
+  ++count_;
+  return {fold_.distance(moment.time), curvature_, crown_.moment};
+}
+
+// A return ends one cycle and begins the next.
+void Folding::add_to_loops() {
+  const int period = 2 * fold_.half;
+  const auto add = [&](int cycle, bool begins) {
+    if (cycle < 1 || cycle > fold_.cycles || !is_pictured(cycle, fold_.cycles)) return;
+    if (begins) loops_.push_back({"cycle " + std::to_string(cycle), {}, {}});
+    loops_.back().x.push_back(curvature_);
+    loops_.back().y.push_back(1e3 * crown_.moment);
+  };
+  const bool returned = count_ % period == 0;
+  if (returned) add(count_ / period, false);
+  add(count_ / period + 1, returned);
+}
+
+void Folding::end_cycle(int cycle) {
+  const std::vector<double> residual = session_.simulation().residual_curvature();
+  const double lost = session_.simulation().ledger().bending_friction;
+  reading_.recovery_angle = 180 - gauge_.largest_turn(residual) * 180 / std::numbers::pi;
+  reading_.set = gauge_.crown(residual);
+  reading_.sag = reading_.lowest;
+  cycles_.row({static_cast<double>(cycle), reading_.recovery_angle, reading_.set, largest_, reading_.sag,
+               lost - lost_, crown_.dissipated - crown_lost_});
+  if (is_chosen(cycle, fold_.cycles)) {
+    reading_.material = test_material(material_, curvature_);
+    materials_.row({static_cast<double>(cycle), reading_.material.friction, reading_.material.loop_width,
+                    reading_.material.permanent_set, crown_.dissipated});
+  }
+  cycle_.push_back(cycle);
+  recovery_.push_back(reading_.recovery_angle);
+  lost_ = lost;
+  crown_lost_ = crown_.dissipated;
+  largest_ = curvature_;
+}
+
+bool Folding::pictured() const {
+  const int moment = count_ - 1;  // `measure` has counted it
+  if (session_.simulation().time() >= fold_.scene.seconds - fold_.scene.step / 2) return true;
+  if (moment == 0 || moment % fold_.half != 0 || moment > 2 * fold_.half * fold_.cycles) return false;
+  return is_pictured((moment - 1) / (2 * fold_.half) + 1, fold_.cycles);
+}
+
+std::string Folding::progress(const Moment& moment) const {
+  char text[160];
+  std::snprintf(text, sizeof text, "t = %.3f s  cycles %zu  crown %.0f 1/m  recovery %.1f degree",
+                moment.time, cycle_.size(), curvature_, reading_.recovery_angle);
+  return text;
+}
+
+void Folding::finish() {
+  cycles_.finish();
+  materials_.finish();
+}
+
+}  // namespace hysteron::experiments

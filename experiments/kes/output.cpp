@@ -1,0 +1,170 @@
+#include "experiments/kes/output.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "sim/base/atomic_file.h"
+#include "sim/base/csv.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kShownSteps = 100;  // rows of a table from zero to the amplitude
+
+std::string prefix(const KesResult& result) { return result.name.empty() ? "" : result.name + "."; }
+
+double amplitude_of(const KesResult& result) { return result.test.walk.rows.back().curvature; }
+
+// Of the names of a result's own files.
+std::string ending(const std::string& name) { return name.empty() ? "" : "_" + name; }
+
+std::string moment_column(const KesResult& result) {
+  return (result.name.empty() ? result.law : result.name) + " moment [N]";
+}
+
+std::string formatted(const char* format, double value) {
+  if (std::isnan(value)) return "-";
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// Every so many rows, and all where a leg ends.
+std::vector<std::size_t> shown_rows(const KesWalk& walk, int steps) {
+  const std::size_t stride = std::max(1, steps / kShownSteps);
+  std::vector<std::size_t> rows;
+  for (std::size_t leg = 0; leg + 1 < walk.start.size(); ++leg) {
+    const std::size_t end = walk.start[leg + 1];
+    for (std::size_t i = walk.start[leg] + (leg > 0); i < end; i += stride) rows.push_back(i);
+    if (rows.back() + 1 != end && walk.rows[end - 1].curvature == walk.rows[end].curvature)
+      rows.push_back(end - 1);
+    rows.push_back(end);
+  }
+  return rows;
+}
+
+void write_loops(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& protocol) {
+  const KesWalk& walk = fabrics.front().reference.walk;
+  const std::vector<std::size_t> rows = shown_rows(walk, protocol.steps);
+  Table table{{{"curvature [1/m]", {}}, {"time [s]", {}}}, {}};
+  std::vector<double> time;
+  for (const LawRow& row : walk.rows) time.push_back((time.empty() ? 0 : time.back()) + row.seconds);
+  for (std::size_t i : rows) {
+    table.columns[0].values.push_back(walk.rows[i].curvature);
+    table.columns[1].values.push_back(time[i]);
+  }
+  for (const KesFabric& fabric : fabrics) {
+    for (const KesResult& result : fabric.results) {
+      table.columns.push_back({moment_column(result), {}});
+      for (std::size_t i : rows) table.columns.back().values.push_back(result.test.moment[i]);
+    }
+  }
+  write_csv(run.path("loops.csv"), table);
+}
+
+void write_minor_loops(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& protocol) {
+  const std::vector<MinorLoop>& shape = fabrics.front().reference.minor_loops;
+  const std::size_t stride = std::max(1, protocol.steps / kShownSteps);
+  Table table{{{"family", {}}, {"reversal [1/m]", {}}, {"curvature [1/m]", {}}}, {}};
+  for (const KesFabric& fabric : fabrics)
+    for (const KesResult& result : fabric.results) table.columns.push_back({moment_column(result), {}});
+  for (std::size_t loop = 0; loop < shape.size(); ++loop) {
+    for (std::size_t i = 0; i < shape[loop].curvature.size(); i += stride) {
+      table.columns[0].values.push_back(static_cast<int>(shape[loop].family));
+      table.columns[1].values.push_back(shape[loop].reversal);
+      table.columns[2].values.push_back(shape[loop].curvature[i]);
+      std::size_t column = 3;
+      for (const KesFabric& fabric : fabrics)
+        for (const KesResult& result : fabric.results)
+          table.columns[column++].values.push_back(result.test.minor_loops[loop].moment[i]);
+    }
+  }
+  write_csv(run.path("minor_loops.csv"), table);
+}
+
+void write_readings(Run& run, const std::vector<KesFabric>& fabrics) {
+  AtomicFile file(run.path("table.csv").string());
+  file.stream() << "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
+                   "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma\n";
+  for (const KesFabric& fabric : fabrics) {
+    for (const KesResult& result : fabric.results) {
+      const KesReading& r = result.test.reading;
+      file.stream() << fabric.fabric.name << "," << result.law;
+      for (double value : {r.rigidity, r.loop_width, r.residual, r.residual_by_formula, r.loop_area})
+        file.stream() << "," << (std::isnan(value) ? "" : formatted("%.9g", value));
+      for (int count : result.test.recovery_cases) file.stream() << "," << count;
+      file.stream() << "\n";
+    }
+  }
+  file.commit();
+}
+
+// B and 2HB in SI as the fabric's source prints them; NaN where it does not.
+double published(const Fabric& fabric, const std::string& name, const std::string& unit, double si) {
+  const auto found = fabric.published.find(name);
+  return found != fabric.published.end() && found->second.unit == unit ? found->second.value * si : NAN;
+}
+
+Json number_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
+
+void print_row(const std::string& name, const std::vector<std::string>& cells) {
+  std::printf("%-19s", name.c_str());
+  for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
+  std::printf("\n");
+}
+
+}  // namespace
+
+void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
+  for (const KesFabric& fabric : fabrics) {
+    for (const KesResult& result : fabric.results) {
+      const KesReading& r = result.test.reading;
+      const std::string p = prefix(result);
+      run.metric(p + "B_N_m", r.rigidity);
+      run.metric(p + "2HB_N", r.loop_width);
+      run.metric(p + "residual_curvature_per_m", number_or_null(r.residual));
+      run.metric(p + "residual_by_formula_per_m", number_or_null(r.residual_by_formula));
+      run.metric(p + "loop_area_J_per_m2", r.loop_area);
+      run.metric(p + "loop_area_change_percent", number_or_null(100 * r.area_change));
+      run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
+      run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
+      run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);
+      write_strip_metrics(run, p, amplitude_of(result), result.strips);
+    }
+  }
+}
+
+void write_tables(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& protocol) {
+  write_loops(run, fabrics, protocol);
+  if (protocol.minor_loops) write_minor_loops(run, fabrics, protocol);
+  write_readings(run, fabrics);
+  for (const KesFabric& fabric : fabrics)
+    for (const KesResult& result : fabric.results) write_strip_table(run, ending(result.name), result.strips);
+}
+
+void print_table(const std::vector<KesFabric>& fabrics) {
+  for (const KesFabric& fabric : fabrics) {
+    print_row(fabric.fabric.name,
+              {"B [N m]", "2HB [N]", "residual [1/m]", "by formula", "area [J/m2]", "reversals *"});
+    const double b = published(fabric.fabric, "B", "gf cm^2/cm", kGramForceSquareCentimetrePerCentimetre);
+    const double width = published(fabric.fabric, "2HB", "gf cm/cm", kGramForceCentimetrePerCentimetre);
+    if (!std::isnan(b) && !std::isnan(width))
+      print_row("published", {formatted("%.4g", b), formatted("%.4g", width)});
+    for (const KesResult& result : fabric.results) {
+      const KesReading& r = result.test.reading;
+      std::string cases;
+      for (int count : result.test.recovery_cases)
+        cases += (cases.empty() ? "" : "/") + std::to_string(count);
+      print_row(result.law, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
+                             formatted("%.4g", r.residual), formatted("%.4g", r.residual_by_formula),
+                             formatted("%.4g", r.loop_area), cases});
+      print_strips(amplitude_of(result), result.strips);
+    }
+    std::printf("\n");
+  }
+  std::printf("* of all loops, by the moment at the reversal: |M| <= Ma / <= 2 Ma / > 2 Ma\n");
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,119 @@
+#include "experiments/kes/strip_output.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/base/csv.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kNothing = 1e-4;  // of what the largest moment could make of a reading: the law reads zero
+
+double largest(const std::vector<double>& values) {
+  double result = 0;
+  for (double value : values) result = std::max(result, std::abs(value));
+  return result;
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+std::string formatted(const char* format, double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+void print_row(const std::string& name, const std::vector<std::string>& cells) {
+  std::printf("%-19s", name.c_str());
+  for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
+  std::printf("\n");
+}
+
+// Mean curvature between the clamps over that of the gauge, at the amplitude, minus 1 [percent].
+double bend_between(const StripResult& strip) {
+  if (strip.test.free_curvature.empty()) return NAN;
+  const std::size_t row = strip.walk.start[1];
+  return 100 * (strip.test.free_curvature[row] / strip.walk.rows[row].curvature - 1);
+}
+
+void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, const StripDifference& d) {
+  const StripTest& test = strip.test;
+  run.metric(p + "strip_B_N_m", test.reading.rigidity);
+  run.metric(p + "strip_2HB_N", test.reading.loop_width);
+  run.metric(p + "strip_residual_curvature_per_m", number_or_null(test.reading.residual));
+  run.metric(p + "strip_loop_area_J_per_m2", test.reading.loop_area);
+  run.metric(p + "strip_B_difference_percent", number_or_null(d.rigidity));
+  run.metric(p + "strip_2HB_difference_percent", number_or_null(d.loop_width));
+  run.metric(p + "strip_residual_difference_percent", number_or_null(d.residual));
+  run.metric(p + "strip_loop_area_difference_percent", number_or_null(d.loop_area));
+  run.metric(p + "strip_largest_moment_difference_percent", 100 * largest_difference(test));
+  run.metric(p + "strip_free_curvature_difference_percent", number_or_null(bend_between(strip)));
+  run.metric(p + "strip_largest_clamp_force_N_per_m", test.largest_force);
+  run.metric(p + "strip_triangles_count", strip.triangles);
+  run.metric(p + "strip_spacing_m", strip.spacing);
+  run.metric(p + "strip_equilibria_count", strip.walk.rows.size() - 1);
+  run.metric(p + "strip_newton_iterations_per_step", test.newton_iterations);
+  run.metric(p + "strip_retried_steps_count", test.retried_steps);
+  run.metric(p + "strip_solve_s", test.seconds);
+}
+
+}  // namespace
+
+StripDifference difference(const StripTest& strip, double amplitude) {
+  const double moment = largest(strip.law_moment);
+  const auto percent = [](double a, double b, double scale) {
+    return std::abs(b) > kNothing * scale ? 100 * (a / b - 1) : NAN;
+  };
+  const KesReading &own = strip.reading, &law = strip.law_reading;
+  return {percent(own.rigidity, law.rigidity, moment / amplitude),
+          percent(own.loop_width, law.loop_width, 2 * moment), percent(own.residual, law.residual, amplitude),
+          percent(own.loop_area, law.loop_area, 4 * moment * amplitude)};
+}
+
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
+                         const std::vector<StripResult>& strips) {
+  for (const StripResult& strip : strips) {
+    const std::string p = prefix + strip.prefix;
+    if (!strip.renderer.empty()) run.note("renderer", strip.renderer);
+    if (strip.failure.empty())
+      write_metrics_of(run, p, strip, difference(strip.test, amplitude));
+    else
+      run.metric(p + "strip_failure", strip.failure);
+  }
+}
+
+void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips) {
+  Table table;
+  for (const StripResult& strip : strips) {
+    if (!strip.failure.empty()) continue;
+    if (table.columns.empty()) {
+      table.columns = {{"curvature [1/m]", {}}, {"law moment [N]", strip.test.law_moment}};
+      for (const LawRow& row : strip.walk.rows) table.columns[0].values.push_back(row.curvature);
+    }
+    table.columns.push_back({strip.mesh + " moment [N]", strip.test.moment});
+    if (!strip.test.free_curvature.empty())
+      table.columns.push_back({strip.mesh + " free curvature [1/m]", strip.test.free_curvature});
+  }
+  if (!table.columns.empty()) write_csv(run.path("strip" + ending + ".csv"), table);
+}
+
+void print_strips(double amplitude, const std::vector<StripResult>& strips) {
+  for (const StripResult& strip : strips) {
+    if (!strip.failure.empty()) {
+      std::printf("  %s: %s\n", strip.mesh.c_str(), strip.failure.c_str());
+      continue;
+    }
+    const KesReading& r = strip.test.reading;
+    print_row("  strip " + strip.mesh, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
+                                        formatted("%.4g", r.residual), "", formatted("%.4g", r.loop_area)});
+    const StripDifference d = difference(strip.test, amplitude);
+    print_row("    against the law",
+              {formatted("%+.2f %%", d.rigidity), formatted("%+.2f %%", d.loop_width),
+               formatted("%+.2f %%", d.residual), "", formatted("%+.2f %%", d.loop_area)});
+  }
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,55 @@
+// What the KES test of strips has found, beside what the law alone gives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/kes/strip.h"
+#include "experiments/workbench/app/run.h"
+#include "render/image.h"
+
+namespace hysteron::experiments {
+
+// Of the strip at one curvature.
+struct StripPicture {
+  render::Image image;
+  std::string letter;                // in the loop's plot
+  double curvature = 0, moment = 0;  // [1/m], [N]
+};
+
+struct StripResult {
+  std::string mesh, element;
+  std::string prefix;  // of its metrics: "" | mesh. where there are several
+  int triangles = 0;
+  double spacing = 0;  // of columns [m]
+  KesWalk walk;
+  StripTest test;
+  std::string failure;  // why there is no test: where no equilibrium was found; else empty
+  std::vector<StripPicture> pictures;
+  std::string renderer;  // of the pictures
+};
+
+// What was tested, for a title.
+struct StripTitle {
+  std::string fabric, law;
+};
+
+// A reading of a strip over that of the law alone through the same curvatures, minus 1 [percent].  NaN where
+// the law reads nothing (the width of an elastic law's loop).
+struct StripDifference {
+  double rigidity, loop_width, residual, loop_area;
+};
+StripDifference difference(const StripTest& strip, double amplitude);
+
+// PREFIX strip_B_N_m, strip_2HB_N ... and their differences; `amplitude` as in the protocol.
+void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
+                         const std::vector<StripResult>& strips);
+// strip ENDING.csv: the law and every mesh, an equilibrium per row.
+void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips);
+// A line per mesh, in the columns of the law's table, and its differences.
+void print_strips(double amplitude, const std::vector<StripResult>& strips);
+// plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strips.
+void write_strip_figures(Run& run, const std::string& ending, const StripTitle& title,
+                         const std::vector<StripResult>& strips);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,75 @@
+// `hysteron law`: flags of the law alone.
+#include <filesystem>
+
+#include "experiments/law/law.h"
+#include "experiments/workbench/app/experiment.h"
+#include "sim/base/error.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct LawFlags {
+  std::string law = "prandtl";
+  std::string fabric = "cotton-broad";
+  double b1 = 0, b2 = 0, k0 = 0;
+  Parameters param;
+  std::string in, out;
+};
+
+using L = LawFlags;
+// clang-format off
+const KeyRow<LawFlags> kRows[] = {
+    {"fabric", at<&L::fabric>, "", any(), "", "whose b1, b2, k0 are taken where not given"},
+    {"law", at<&L::law>, "", any(), "", "see `hysteron list laws`"},
+    {"b1", at<&L::b1>, "N m", at_least(0), "", "initial bending rigidity, >= b2"},
+    {"b2", at<&L::b2>, "N m", at_least(0), "", "bending rigidity of the straight branch"},
+    {"k0", at<&L::k0>, "1/m", at_least(0), "", "curvature at which friction saturates"},
+    {"param", at<&L::param>, "", any(), "", "parameters of the law"},
+    {"in", at<&L::in>, "", any(), "", "CSV with column `curvature [1/m]`"},
+    {"out", at<&L::out>, "", any(), "", "CSV with moments and energies"},
+};
+// clang-format on
+
+void take_fabric(LawFlags& flags, const std::string& origin) {
+  const Fabric fabric = read_fabric(flags.fabric, origin).fabric;
+  flags.b1 = fabric.b1;
+  flags.b2 = fabric.b2;
+  flags.k0 = fabric.k0;
+}
+
+std::vector<KeyDescription> own_keys() {
+  LawFlags flags;
+  return descriptions(bind(kRows, flags));
+}
+
+int run_law(const CommandLine& line) {
+  LawFlags flags;
+  const Keys keys = bind(kRows, flags);
+  const auto apply = [&](const Flag& flag) {
+    const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
+    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+  };
+  for (const Flag& flag : line.flags) {
+    if (flag.path == "fabric") apply(flag);
+  }
+  take_fabric(flags, "--fabric");
+  for (const Flag& flag : line.flags) apply(flag);
+  if (flags.in.empty() || flags.out.empty()) throw Error::request("needs --in K.csv and --out M.csv");
+
+  std::error_code missing;
+  if (std::filesystem::equivalent(flags.in, flags.out, missing))
+    throw Error::request("--out " + flags.out + " is the input: give another file");
+  return run_law_command({flags.law, {flags.b1, flags.b2, flags.k0}, flags.param, flags.in, flags.out});
+}
+
+}  // namespace
+
+Experiment law() {
+  return {.name = "law",
+          .question = "one law alone: curvatures in, moments out (CSV)",
+          .run = run_law,
+          .own_keys = own_keys};
+}
+
+}  // namespace hysteron::experiments

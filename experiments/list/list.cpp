@@ -1,0 +1,115 @@
+// `hysteron list`: what there is, on stdout.
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "experiments/workbench/app/experiment.h"
+#include "render/offscreen.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_run.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron::experiments {
+namespace {
+
+std::string short_number(double x, int digits = 4) {
+  std::ostringstream text;
+  text << std::setprecision(digits) << x;
+  return text.str();
+}
+
+void print_row(const std::vector<std::string>& cells, const std::vector<int>& widths) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool last = i + 1 == cells.size();
+    std::cout << std::left << std::setw(last ? 0 : widths[i]) << cells[i] << (last ? "\n" : " ");
+  }
+}
+
+// "Matsudaira, Masuda, Wada, Yokura 2015, J. Textile Eng. ..." is "Matsudaira et al. 2015".
+std::string short_citation(const std::string& source) {
+  const std::size_t comma = source.find(','), year = source.find_first_of("0123456789");
+  if (comma == source.npos || year == source.npos || year + 4 > source.size()) return source.substr(0, 24);
+  const std::string authors = comma < year ? source.substr(0, comma) + " et al. " : source.substr(0, year);
+  return authors + source.substr(year, 4);
+}
+
+// Who measured the bending: the source of the first published number, else that of b2.
+std::string bending_source(const Fabric& fabric) {
+  for (const char* key : {"B", "ke-0-small", "b1-warp"}) {
+    const auto found = fabric.published.find(key);
+    if (found != fabric.published.end()) return short_citation(found->second.provenance.source);
+  }
+  return short_citation(fabric.provenance.at("b2").source);
+}
+
+void list_fabrics_table() {
+  const std::vector<int> widths = {20, 11, 10, 11, 9, 17};
+  print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "bending from"},
+            widths);
+  for (const FabricFile& file : list_fabrics()) {
+    const Fabric& f = file.fabric;
+    const double hb = f.virgin_curve().friction_moment();
+    const bool friction = hb > 0;
+    print_row({f.name, short_number(f.b2), friction ? short_number(2 * hb) : "-",
+               friction ? short_number(hb / f.b2, 3) : "-", friction ? short_number(f.k0) : "-",
+               short_number(f.density), bending_source(f)},
+              widths);
+  }
+  std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
+}
+
+void list_laws() {
+  for (const LawEntry& law : law_catalogue()) {
+    std::string parameters;
+    for (const std::string& name : law_parameter_names(law.name))
+      parameters += (parameters.empty() ? "" : " ") + name;
+    print_row({law.name, law.description + (parameters.empty() ? "" : " [" + parameters + "]")}, {15});
+  }
+}
+
+void list_scenes() {
+  for (const std::string& name : list_assets("scenes")) print_row({name}, {});
+}
+
+void list_devices() {
+  print_row({"cpu", cpu_description()}, {10});
+  std::string reason;
+  const int gpus = gpu_count(reason);
+  for (int i = 0; i < gpus; ++i) print_row({"cuda", gpu_description(i)}, {10});
+  if (gpus == 0) print_row({"cuda", "none: " + reason}, {10});
+  for (const render::Candidate& candidate : render::Offscreen::candidates(render::Renderer::automatic)) {
+    print_row({"renderer", candidate.name()}, {10});
+  }
+}
+
+int run_list(const CommandLine& line) {
+  const std::vector<std::pair<std::string, void (*)()>> parts = {{"fabrics", list_fabrics_table},
+                                                                 {"laws", list_laws},
+                                                                 {"scenes", list_scenes},
+                                                                 {"devices", list_devices}};
+  for (const std::string& name : line.names) {
+    const auto is_named = [&](const auto& part) { return part.first == name; };
+    if (std::none_of(parts.begin(), parts.end(), is_named)) {
+      throw Error::request("\"" + name + "\" must be fabrics | laws | scenes | devices");
+    }
+  }
+  for (const auto& [name, print] : parts) {
+    if (line.names.empty()) std::cout << (print == list_fabrics_table ? "" : "\n") << name << ":\n";
+    if (line.names.empty() || std::count(line.names.begin(), line.names.end(), name)) print();
+  }
+  return 0;
+}
+
+}  // namespace
+
+Experiment list() {
+  return {.name = "list",
+          .question = "what there is: fabrics, laws, scenes, devices",
+          .run = run_list,
+          .names = "fabrics|laws|scenes|devices"};
+}
+
+}  // namespace hysteron::experiments

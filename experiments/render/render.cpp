@@ -1,0 +1,339 @@
+// `hysteron render`: sequences of OBJ or PLY files, of this program or another, in the look, light and camera
+// of its own runs; several of them side by side.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/mesh_pictures.h"
+#include "experiments/workbench/pictures/mesh_sequence.h"
+#include "render/contact_sheet.h"
+#include "render/png_writer.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct RenderFlags {
+  std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, apart by commas
+  std::string title, ground = "none", body, curvature = "geometry";
+  double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
+  Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};
+  Options options;
+};
+
+using F = RenderFlags;
+// clang-format off
+const KeyRow<F> kRows[] = {
+    {"fps", at<&F::fps>, "", any(), "", "frames a second of the files, for all sequences or apart by commas for each; without it pictures carry the frame's number"},
+    {"render.unit", at<&F::unit>, "", any(), "", "of the files: metre | centimetre | millimetre, for all or for each"},
+    {"render.up", at<&F::up>, "", any(), "", "the files' axis against gravity: z | y, for all or for each"},
+    {"render.range", at<&F::range>, "1/m", positive(), "", "of curvature, at the ends of the colour bar; 100 as in runs of the shipped fabrics"},
+    {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
+    {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names"},
+    {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
+    {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
+    {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
+    {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
+};
+// clang-format on
+
+constexpr int kCells = 12, kMoments = 5;      // pictures on the sheet of one sequence; of each of several
+constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width, the whole at most [pixels]
+
+Keys keys_of(F& flags) {
+  static const std::vector<std::string> kNames = {
+      "size", "renderer", "look", "light", "camera.direction", "camera.fov", "out", "quiet", "json"};
+  Keys keys = bind(kRows, flags);
+  for (BoundKey& key : bind_options(flags.options)) {
+    KeyDescription& what = key.description;
+    if (!std::count(kNames.begin(), kNames.end(), what.path)) continue;
+    if (what.path == "look") what.choices = {"cloth", "curvature", "wireframe", "silhouette"};
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+Error refusal(const std::string& key, const std::string& value, const std::string& must) {
+  return Error::request(key + " = " + value + " must be " + must + " (--" + key + ")");
+}
+
+std::optional<float> ground_of(const F& flags) {
+  if (flags.ground == "none") return {};
+  float height = 0;
+  const char* const end = flags.ground.data() + flags.ground.size();
+  const auto [rest, code] = std::from_chars(flags.ground.data(), end, height);
+  if (code != std::errc() || rest != end || !std::isfinite(height))
+    throw refusal("render.ground", flags.ground, "a height [m] or none");
+  return height;
+}
+
+// A sequence with how its files are to be taken, and which of its frames the sheet shows.
+struct Column {
+  MeshSequence sequence;
+  FileAxes axes;
+  double fps = 0;  // [1/s], 0: unknown
+  std::vector<int> shown;
+
+  const std::string& name() const { return sequence.name; }
+  const std::vector<std::filesystem::path>& files() const { return sequence.files; }
+  // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
+  std::string moment(std::size_t frame) const {
+    char text[40] = "";
+    if (fps > 0)
+      std::snprintf(text, sizeof text, "t = %.2f s", static_cast<double>(frame) / fps);
+    else if (files().size() > 1)
+      std::snprintf(text, sizeof text, "frame %zu", frame);
+    return text;
+  }
+};
+
+std::string after(const std::string& separator, const std::string& text) {
+  return text.empty() ? "" : separator + text;
+}
+
+// The i-th of `count` values in a list of one for all or one for each; "" for an empty list.
+std::string value_of(const std::string& key, const std::string& list, std::size_t i, std::size_t count) {
+  const std::vector<std::string> values = split(list);
+  if (values.empty()) return "";
+  if (values.size() == 1) return values[0];
+  if (values.size() == count) return values[i];
+  throw refusal(key, list, "one value, or as many as sequences: " + std::to_string(count));
+}
+
+double metre_of(const std::string& unit) {
+  if (unit == "metre") return 1;
+  if (unit == "centimetre") return 1e-2;
+  if (unit == "millimetre") return 1e-3;
+  throw refusal("render.unit", unit, "metre | centimetre | millimetre");
+}
+
+bool is_y_up(const std::string& up) {
+  if (up != "y" && up != "z") throw refusal("render.up", up, "z | y");
+  return up == "y";
+}
+
+double rate_of(const std::string& fps) {
+  if (fps.empty()) return 0;
+  double rate = 0;
+  const char* const end = fps.data() + fps.size();
+  const auto [rest, code] = std::from_chars(fps.data(), end, rate);
+  if (code != std::errc() || rest != end || !(rate > 0 && rate <= 10000))
+    throw refusal("fps", fps, "a number in (0, 10000] [1/s]");
+  return rate;
+}
+
+// Sequences beside each other show the same moments as long as all of them last: the same times, or the same
+// numbers where a rate is unknown.
+void choose_moments(std::vector<Column>& columns) {
+  const bool timed = std::all_of(columns.begin(), columns.end(), [](const Column& c) { return c.fps > 0; });
+  const Column* shortest = &columns.front();
+  const auto length = [&](const Column& c) {
+    return static_cast<double>(c.files().size() - 1) / (timed ? c.fps : 1);
+  };
+  for (const Column& column : columns)
+    if (length(column) < length(*shortest)) shortest = &column;
+  const double rate = timed ? shortest->fps : 1;
+  const std::vector<int> frames =
+      render::spread(static_cast<int>(shortest->files().size()), columns.size() > 1 ? kMoments : kCells);
+  for (Column& column : columns)
+    for (const int k : frames)
+      column.shown.push_back(static_cast<int>(std::lround(k * (timed ? column.fps : 1) / rate)));
+}
+
+std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& words) {
+  std::vector<Column> columns;
+  const std::vector<MeshSequence> sequences = mesh_sequences(words);
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    const auto value = [&](const char* key, const std::string& list) {
+      return value_of(key, list, i, sequences.size());
+    };
+    columns.push_back({sequences[i],
+                       {metre_of(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
+                       rate_of(value("fps", flags.fps)),
+                       {}});
+  }
+  choose_moments(columns);
+  return columns;
+}
+
+Surface body_of(const F& flags, const FileAxes& axes) {
+  if (!std::filesystem::exists(flags.body)) throw Error::request("no such file or folder: " + flags.body);
+  return read_frame(flags.body, axes);
+}
+
+void check_curvature(const F& flags, const Surface& frame, const std::string& what) {
+  if (flags.options.look != "curvature") return;
+  if (flags.curvature == "file") {
+    if (!frame.curvature.empty()) return;
+    throw Error::request(what + ": no property curvature of its vertices (--render.curvature file)");
+  }
+  ClothMesh mesh;
+  mesh.rest = frame.vertex;
+  mesh.face = frame.face;
+  build_topology(mesh, what);
+}
+
+// Reads every file once before anything is written: what is wrong with one of them is known at the start.
+render::Box checked_box(const F& flags, const std::vector<Column>& columns) {
+  std::optional<render::Box> box;
+  const auto add = [&](const Surface& surface) {
+    const render::Box here = render::box_of(flat_points(surface.vertex));
+    box = box ? box->merged(here) : here;
+  };
+  for (const Column& column : columns)
+    for (const auto& file : column.files()) {
+      const Surface frame = read_frame(file, column.axes);
+      check_curvature(flags, frame, "mesh " + file.string());
+      add(frame);
+    }
+  if (!flags.body.empty()) add(body_of(flags, columns.front().axes));
+  return *box;
+}
+
+render::Box framed(const F& flags, const render::Box& whole) {
+  if (flags.low == flags.high) return whole;
+  if ((flags.low.array() < flags.high.array()).all())
+    return {flags.low.cast<float>(), flags.high.cast<float>()};
+  throw Error::request(
+      "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
+}
+
+std::string joined_names(const std::vector<Column>& columns) {
+  std::vector<std::string> names;
+  names.reserve(columns.size());
+  for (const Column& column : columns) names.push_back(column.name());
+  return join(names, " | ");
+}
+
+void note_sequences(const std::vector<Column>& columns, Run& run) {
+  Json notes = Json::array();
+  for (const Column& column : columns) {
+    Json files = Json::array();
+    for (const auto& file : column.files()) files.push_back(file.string());
+    notes.push_back({{"name", column.name()}, {"files", files}});
+  }
+  run.note("sequences", notes);
+}
+
+class FramesAndSheet {
+ public:
+  FramesAndSheet(const F& flags, const std::vector<Column>& columns, const render::Box& bounds, Run& run)
+      : flags_(flags),
+        columns_(columns),
+        run_(run),
+        pictures_(flags.options, {bounds, ground_of(flags), flags.range, flags.curvature == "file"}) {}
+
+  void draw() {
+    if (!flags_.body.empty()) pictures_.add_body(body_of(flags_, columns_.front().axes));
+    for (const Column& column : columns_) draw_sequence(column);
+    writer_.finish();
+    write_sheet();
+    run_.note("renderer", pictures_.renderer());
+    run_.note("positions", "host (files)");
+    run_.add_seconds("encode", writer_.encode_seconds());
+  }
+
+ private:
+  bool alone() const { return columns_.size() == 1; }
+  std::string label(const Column& column) const {
+    return alone() && !flags_.title.empty() ? flags_.title : column.name();
+  }
+
+  void draw_sequence(const Column& column) {
+    pictures_.begin_sequence();
+    Surface frame;
+    for (std::size_t k = 0; k < column.files().size(); ++k) {
+      frame = read(column, k);
+      draw_frame(column, frame, k);
+    }
+    run_.metric(column.name() + ".frames_count", column.files().size());
+    run_.metric(column.name() + ".triangles_count", frame.face.size());
+    if (const auto rms = pictures_.curvature_rms()) run_.metric(column.name() + ".curvature_rms_per_m", *rms);
+  }
+
+  Surface read(const Column& column, std::size_t k) {
+    const auto stage = run_.stage("io");
+    return read_frame(column.files()[k], column.axes);
+  }
+
+  void draw_frame(const Column& column, const Surface& frame, std::size_t k) {
+    const std::string when = column.moment(k), file = column.files()[k].string();
+    run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
+    render::Image image = picture(frame, label(column) + after("\n", when), "mesh " + file);
+    for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
+      cells_.push_back({thumbnail(image), alone() ? when : column.name() + after(", ", when)});
+    char name[32];
+    std::snprintf(name, sizeof name, "/%04zu.png", k);
+    writer_.write(run_.path((alone() ? "frames" : column.name()) + name), std::move(image));
+  }
+
+  render::Image picture(const Surface& frame, const std::string& caption, const std::string& what) {
+    const auto stage = run_.stage("render");
+    return pictures_.picture(frame, caption, what);
+  }
+
+  // The cells stand sequence by sequence; on a sheet of several each has a column.
+  void write_sheet() {
+    render::SheetLayout layout{.title = flags_.title.empty() ? joined_names(columns_) : flags_.title};
+    std::vector<render::SheetEntry> by_row;
+    const std::size_t rows = columns_.front().shown.size();
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t column = 0; column < columns_.size(); ++column)
+        by_row.push_back(std::move(cells_[column * rows + row]));
+    layout.columns =
+        static_cast<int>(alone() ? std::min<std::size_t>(rows, rows > 4 ? 3 : 2) : columns_.size());
+    layout.width = std::min(kWidest, kColumn * layout.columns);
+    render::write_png(run_.path("sheet.png"), render::contact_sheet(by_row, layout), render::PngEffort::best);
+  }
+
+  const F& flags_;
+  const std::vector<Column>& columns_;
+  Run& run_;
+  MeshPictures pictures_;
+  std::vector<render::SheetEntry> cells_;
+  render::PngWriter writer_;
+};
+
+std::vector<KeyDescription> own_keys() {
+  F flags;
+  return descriptions(keys_of(flags));
+}
+
+int run_render(const CommandLine& line) {
+  F flags;
+  flags.options.out = "out/render";
+  const Keys keys = keys_of(flags);
+  set_keys(line, keys);
+  check_options(flags.options);
+  ground_of(flags);
+  const std::vector<Column> columns = columns_of(flags, line.names);
+  const render::Box bounds = framed(flags, checked_box(flags, columns));
+  Run run(line, flags.options, to_json(keys));
+  note_sequences(columns, run);
+  FramesAndSheet(flags, columns, bounds, run).draw();
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
+  return 0;
+}
+
+}  // namespace
+
+Experiment render_files() {
+  return {.name = "render",
+          .question = "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera",
+          .run = run_render,
+          .own_keys = own_keys,
+          .names = "FILES"};
+}
+
+}  // namespace hysteron::experiments

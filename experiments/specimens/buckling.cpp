@@ -1,0 +1,168 @@
+#include "experiments/specimens/buckling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "experiments/specimens/clamped_mesh.h"
+#include "experiments/specimens/overhang.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_run.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kUpright = 7.837347, kEdge = 12.853763;
+
+// Twist stretches cloth, bending does not: on edge Newton's method needs the smaller tilt.
+double tilt_of(Buckling kind) { return kind == Buckling::upright ? 1e-3 : 1e-5; }  // [rad]
+constexpr double kMost = 2.5;      // of the reference's weight
+constexpr double kStep = 0.1;      // likewise
+constexpr double kNear = 0.8;      // of the threshold, for the last state
+constexpr double kAgreed = 0.01;   // of the threshold, between the last two estimates
+constexpr double kPrecise = 1e-5;  // of a deflection of tilt times length, for the last correction
+constexpr double kSag = 2e-3;      // bending rigidity out of the plane over that in it, on edge
+
+// Slope of the law at rest over b2.
+double stiffness_at_rest(const Scene& scene) {
+  constexpr double kSmall = 1e-6;  // [1/m]
+  const LawRun run = run_law({scene.law, scene.fabric.virgin_curve(), scene.param}, {{0}, {kSmall}});
+  return run.moment[1] / (kSmall * scene.fabric.b2);
+}
+
+// GJ over the rigidity along warp and the width: that along weft has the same.
+double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabric.weft_bending; }
+
+// A strip cut between warp and weft twists as it bends.
+void check_axis(const Scene& scene) {
+  const double angle = scene.cloth.warp_angle;
+  if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
+  char text[16];
+  std::snprintf(text, sizeof text, "%g", angle);
+  throw Error::request(std::string("buckle.kind = edge has no reference for a strip that twists as it bends: "
+                                   "cloth.warp-angle = ") +
+                       text +
+                       " degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1");
+}
+
+double gamma_of(const Scene& scene, double length) {
+  return scene.fabric.density * scene.gravity.norm() * std::pow(length, 3) / scene.fabric.b2;
+}
+
+// Second divided difference of y over the last three x.
+double second_difference(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t n = x.size();
+  const double before = (y[n - 2] - y[n - 3]) / (x[n - 2] - x[n - 3]);
+  const double after = (y[n - 1] - y[n - 2]) / (x[n - 1] - x[n - 2]);
+  return (after - before) / (x[n - 1] - x[n - 3]);
+}
+
+// Threshold by the last three states: with x = Gamma^power, deflection/Gamma = (a + b x)/(1 - x/critical).
+double threshold_of(const Southwell& plot, int power) {
+  std::vector<double> x, compliance, product;
+  for (std::size_t k = 0; k < plot.gamma.size(); ++k) {
+    x.push_back(std::pow(plot.gamma[k], power));
+    compliance.push_back(plot.deflection[k] / plot.gamma[k]);
+    product.push_back(x[k] * compliance[k]);
+  }
+  return std::pow(second_difference(x, product) / second_difference(x, compliance), 1.0 / power);
+}
+
+}  // namespace
+
+Buckling buckling_of(const std::string& name) {
+  if (name == "upright") return Buckling::upright;
+  if (name == "edge") return Buckling::edge;
+  throw Error::request("buckle.kind = " + name + " is unknown; choose upright or edge");
+}
+
+int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
+
+double reference_gamma(Buckling kind, const Scene& scene) {
+  const double slope = stiffness_at_rest(scene), along = rigidity_along(scene);
+  if (kind == Buckling::upright) return kUpright * slope * along;
+  check_axis(scene);
+  return kEdge * slope * std::sqrt(along * torsion(scene.fabric));
+}
+
+double share_of_width(Buckling kind, const Scene& scene, double length) {
+  if (kind == Buckling::upright) return 0;
+  const double stays_flat =
+      scene.cloth.width * std::sqrt(rigidity_along(scene) / (12 * torsion(scene.fabric)));
+  return std::pow(1 - stays_flat / length, -3) - 1;
+}
+
+double BucklingStrip::deflection(const std::vector<Eigen::Vector3d>& x) const {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (cloth.mesh.rest[i].x() > scene.cloth.length * (1 - 1e-9)) {
+      sum += (x[i] - cloth.start[i]).dot(side);
+      ++count;
+    }
+  return sum / count;
+}
+
+BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most) {
+  ClampedMesh clamped = clamped_mesh(scene.mesh, length, scene.cloth.width, scene.triangles, 1, scene.seed);
+  const double g = scene.gravity.norm();
+  scene.cloth.shape = "strip";
+  scene.cloth.length = clamped.length;
+  scene.triangles = clamped.mesh.faces();
+  scene.cloth.rotation = kind == Buckling::upright ? Eigen::Vector3d(0, -90, 0) : Eigen::Vector3d(90, 0, 0);
+  const Eigen::Vector3d side =
+      kind == Buckling::upright ? -Eigen::Vector3d::UnitX() : -Eigen::Vector3d::UnitY();
+  scene.gravity = g * (std::sin(tilt) * side - std::cos(tilt) * Eigen::Vector3d::UnitZ());
+  scene.fabric.density = most * reference_gamma(kind, scene) * scene.fabric.b2 / (g * std::pow(length, 3));
+  scene.integrator = "quasi-static";
+  scene.ramp = scene.seconds = most;
+  scene.unload = 0;
+  if (!(scene.fabric.density > 0 && std::isfinite(scene.fabric.density)))
+    throw Error::request("buckle: a strip of law " + scene.law +
+                         " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
+                         " N m has no threshold: its weight there would be " +
+                         std::to_string(scene.fabric.density) + " kg/m^2");
+  Pin clamp;
+  clamp.low = {-1, -1, -1};
+  clamp.high = {clamped.near(), 1, 1};
+  scene.pin = {clamp};
+  Cloth cloth = place_cloth(scene, std::move(clamped.mesh));
+  return {kind, std::move(scene), std::move(cloth), length, side};
+}
+
+BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
+  const double tilt = tilt_of(kind);
+  scene.step = kStep;
+  scene.newton_residual = 1e-11;  // of all forces, most of them in the plane: the correction decides
+  scene.newton_velocity = kPrecise * tilt * length;
+  if (kind == Buckling::edge) {
+    Fabric& f = scene.fabric;
+    const double stiff = 12 * f.b2 * rigidity_along(scene) * stiffness_at_rest(scene) /
+                         (kSag * std::pow(scene.cloth.width, 2));
+    f.warp = std::max(f.warp, stiff);
+    f.weft = std::max(f.weft, stiff);
+    f.shear = std::max(f.shear, 0.3 * stiff);
+  }
+  return buckling_strip(std::move(scene), kind, length, tilt, kMost);
+}
+
+Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation) {
+  const Scene& scene = strip.scene;
+  const double full = gamma_of(scene, strip.length);
+  Southwell plot;
+  while (simulation.time() < scene.ramp - scene.step / 2) {
+    simulation.advance(1);
+    plot.gamma.push_back(full * simulation.time() / scene.ramp);
+    plot.deflection.push_back(strip.deflection(simulation.positions()) / strip.length);
+    if (plot.gamma.size() < 3) continue;
+    const double before = plot.critical_gamma;
+    plot.critical_gamma = threshold_of(plot, power_of_load(strip.kind));
+    const bool near = plot.gamma.back() > kNear * plot.critical_gamma;
+    if (near && std::abs(plot.critical_gamma - before) < kAgreed * plot.critical_gamma) return plot;
+  }
+  throw Error::run("buckle: no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
+                   ", where the free end has moved by " + std::to_string(plot.deflection.back()) +
+                   " of the length");
+}
+
+}  // namespace hysteron::experiments

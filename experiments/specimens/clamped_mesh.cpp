@@ -1,0 +1,76 @@
+#include "experiments/specimens/clamped_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/mesh/builders.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kOnTheLine = 1e-9;  // [m] of an end's vertices
+
+// What is added to the free cloth's mesh.
+struct Growth {
+  std::vector<Eigen::Vector2d> points;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+// Joins a column of cells, ending at x = `outer`, to the vertices of `mesh` at x = `inner` (both of `mesh`).
+void add_column(const ClothMesh& mesh, double inner, double outer, double shift, Growth& growth) {
+  std::vector<int> line;
+  for (int i = 0; i < mesh.vertices(); ++i)
+    if (std::abs(mesh.rest[i].x() - inner) < kOnTheLine) line.push_back(i);
+  std::sort(line.begin(), line.end(), [&](int a, int b) { return mesh.rest[a].y() < mesh.rest[b].y(); });
+  const int first = static_cast<int>(growth.points.size());
+  for (int i : line) growth.points.emplace_back(outer + shift, mesh.rest[i].y());
+  for (std::size_t j = 0; j + 1 < line.size(); ++j) {
+    const int next = first + static_cast<int>(j), a = line[j], b = line[j + 1];
+    if (outer > inner)
+      growth.triangles.insert(growth.triangles.end(), {{a, next, next + 1}, {a, next + 1, b}});
+    else
+      growth.triangles.insert(growth.triangles.end(), {{next, a, b}, {next, b, next + 1}});
+  }
+}
+
+}  // namespace
+
+ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
+                         int clamps, unsigned seed) {
+  check_length("strip", "length", free_length);
+  check_length("strip", "width", width);
+  check_triangles("strip", triangles);
+  const MeshFamily kind = mesh_family(family);
+  const double height = row_height(kind), cell = 2 * free_length * width / triangles;
+  // Half a column of every clamp bends.
+  const int columns =
+      std::max(2, static_cast<int>(std::lround(free_length / std::sqrt(cell / height) - clamps / 2.0)));
+  const double d = free_length / (columns + clamps / 2.0);
+  const int rows = std::max(1, static_cast<int>(std::lround(width / (d * height))));
+  const double between = columns * d;
+  const ClothMesh mesh = make_grid(between, width, columns, rows, kind, seed);
+  Growth growth;
+  for (const Eigen::Vector3d& p : mesh.rest) growth.points.emplace_back(p.x() + d, p.y());
+  growth.triangles = mesh.face;
+  add_column(mesh, 0, -d, d, growth);
+  if (clamps > 1) add_column(mesh, between, between + d, d, growth);
+  return {flat_mesh(growth.points, std::move(growth.triangles), "strip"), d, between + clamps * d};
+}
+
+Cloth clamp_at(Scene& scene, double line) {
+  const ClothShape& shape = scene.cloth;
+  if (!(shape.length > line))
+    throw Error::request("cloth.length = " + std::to_string(shape.length) + " m must be more than the " +
+                         std::to_string(line) + " m that are clamped");
+  const double width = shape.shape == "square" ? shape.length : shape.width;
+  ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);
+  for (Eigen::Vector3d& x : clamped.mesh.rest) x.x() += line - clamped.spacing / 2;
+  Pin clamp;
+  clamp.low = {-1, -1, -1};
+  clamp.high = {line + clamped.spacing / 2, 1, 1};
+  scene.pin = {clamp};
+  return place_cloth(scene, std::move(clamped.mesh));
+}
+
+}  // namespace hysteron::experiments

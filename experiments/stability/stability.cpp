@@ -1,0 +1,154 @@
+#include "experiments/stability/stability.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Times that energy and stretch are measured in a run: at most steps, because what blows up may be damped
+// away within a few more.
+constexpr int kLooks = 400;
+
+double mass_of(const Scene& scene, const ClothMesh& mesh) {
+  double area = 0;
+  for (double a : mesh.vertex_area) area += a;
+  return scene.fabric.density * area;
+}
+
+double diagonal(const ClothMesh& mesh) {
+  Eigen::Vector3d low = mesh.rest.front(), high = low;
+  for (const auto& x : mesh.rest) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  return (high - low).norm();
+}
+
+long planned_steps(const Simulation& simulation, const Scene& scene, const CellEffort& effort) {
+  const bool solved = scene.integrator == "implicit" || scene.integrator == "bdf2";
+  const double work = solved ? kWorkOfSolvedStep : simulation.limits().substeps;
+  return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
+}
+
+// The measures of one run as it goes on.
+class Watch {
+ public:
+  Watch(const Scene& scene, const Cloth& cloth, Finding& finding)
+      : weight_(mass_of(scene, cloth.mesh) * scene.gravity.norm() * diagonal(cloth.mesh)),
+        finding_(finding) {}
+
+  // False if the run has diverged.
+  bool look(Simulation& simulation) {
+    const Ledger l = simulation.ledger();
+    const double stretch = simulation.largest_stretch();
+    const double now = l.kinetic + l.gravitational + l.membrane + l.bending + l.contact;
+    work_ = std::max(work_, std::abs(l.handle_work) + std::abs(l.obstacle_work));
+    const double scale = l.initial + work_ + weight_;
+    const double excess = now - l.initial - l.handle_work - l.obstacle_work;
+    const double growth = scale > 0 ? 1 + excess / scale : 1;
+    finding_.remainder = scale > 0 ? l.remainder / scale : 0;
+    if (!std::isfinite(growth) || !std::isfinite(stretch)) return broken(growth, "is not finite");
+    finding_.energy_growth = std::max(finding_.energy_growth, growth);
+    finding_.largest_stretch = std::max(finding_.largest_stretch, stretch);
+    return growth <= kLargestGrowth || broken(growth, "is more than was put in");
+  }
+
+ private:
+  bool broken(double growth, const char* what) {
+    finding_.outcome = Outcome::diverged;
+    finding_.energy_growth = growth;
+    finding_.message = std::string("the energy ") + what;
+    return false;
+  }
+
+  double weight_, work_ = 0;  // m g L, and the most work done so far [J]
+  Finding& finding_;
+};
+
+void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, Finding& finding) {
+  const auto simulation = make_simulation(scene, cloth);
+  finding.substeps = simulation->limits().substeps;
+  const long steps = planned_steps(*simulation, scene, effort);
+  Watch watch(scene, cloth, finding);
+  finding.outcome = Outcome::ended;
+  for (int look = 1; look <= kLooks && finding.outcome == Outcome::ended; ++look) {
+    const long until = steps * look / kLooks;
+    if (until == finding.steps) continue;
+    finding.steps = until;  // also where advance() breaks off on the way
+    simulation->advance(static_cast<int>(until - simulation->steps()));
+    finding.seconds_simulated = simulation->time();
+    watch.look(*simulation);
+  }
+  finding.retried_steps = simulation->retried_steps();
+  if (finding.outcome == Outcome::ended && finding.retried_steps > 0) finding.outcome = Outcome::retried;
+}
+
+}  // namespace
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::ended:
+      return "ended";
+    case Outcome::retried:
+      return "retried";
+    case Outcome::refused:
+      return "refused";
+    default:
+      return "diverged";
+  }
+}
+
+Finding find_out(const Attempt& attempt, const CellEffort& effort) {
+  Finding finding;
+  const auto start = std::chrono::steady_clock::now();
+  Scene scene = attempt.scene;
+  scene.seconds = finding.seconds_asked = std::min(effort.seconds, attempt.most_seconds);
+  try {
+    check_scene(scene);
+    simulate(scene, attempt.mesh ? place_cloth(scene, attempt.mesh()) : make_cloth(scene), effort, finding);
+  } catch (const Error& error) {
+    if (error.exit_code() == 1) throw;
+    finding.outcome = error.exit_code() == 2 ? Outcome::refused : Outcome::diverged;
+    finding.message = error.what();
+  }
+  finding.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return finding;
+}
+
+std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
+  std::vector<Cell> cells;
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    for (std::size_t v = 0; v < sweeps[s].variants.size(); ++v) {
+      for (const std::string& integrator : choice.integrators) {
+        for (std::size_t row = 0; row < sweeps[s].y.ticks.size(); ++row) {
+          for (std::size_t column = 0; column < sweeps[s].x.ticks.size(); ++column) {
+            Cell cell{static_cast<int>(s),   static_cast<int>(v), static_cast<int>(column),
+                      static_cast<int>(row), integrator,          sweeps[s].at(v, column, row)};
+            cell.attempt.scene.integrator = integrator;
+            cell.attempt.scene.device = choice.device;
+            cell.attempt.scene.threads = 1;
+            cells.push_back(std::move(cell));
+          }
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
+             const std::function<void(std::size_t)>& done) {
+  std::size_t finished = 0;
+  std::mutex reporting;
+  in_parallel(cells.size(), threads, [&](std::size_t i) {
+    cells[i].finding = find_out(cells[i].attempt, effort);
+    const std::lock_guard lock(reporting);
+    done(++finished);
+  });
+}
+
+}  // namespace hysteron::experiments

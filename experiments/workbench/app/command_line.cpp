@@ -1,0 +1,173 @@
+// The only file that includes CLI11: it costs seconds to compile.
+#include "experiments/workbench/app/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+#include "experiments/workbench/app/run.h"
+#include "sim/base/error.h"
+#include "sim/scene/keys.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// One subcommand with its options, by the key that each sets.
+struct Command {
+  const Experiment* experiment;
+  CLI::App* app;
+  std::vector<std::pair<std::string, CLI::Option*>> flags;
+  std::vector<std::string> names;
+};
+
+// Defaults are read, with the fabric's file, only to be shown: `for_help`.
+std::vector<KeyDescription> keys_of(const Experiment& experiment, bool for_help) {
+  std::vector<KeyDescription> keys;
+  if (experiment.own_keys) keys = experiment.own_keys();
+  if (!experiment.simulates) return keys;
+  const bool shown = for_help && experiment.defaults;
+  Setup setup = shown ? experiment.defaults() : Setup();
+  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
+  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
+  for (KeyDescription& key : general) {
+    if (!shown) key.usual.clear();
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+// "radius of the pedestal [m], > 0, default 0.09"
+std::string help_of(const KeyDescription& key) {
+  std::string text = key.doc;
+  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
+  if (!key.unit.empty()) text += " [" + key.unit + "]";
+  if (key.range.text() != "finite") text += ", " + key.range.text();
+  if (!key.usual.empty()) text += ", default " + key.usual;
+  return text;
+}
+
+CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
+  if (key.type == "flag") return app.add_flag("--" + key.path)->description(help_of(key));
+  const std::string names = key.path == "fabric.name" ? "--fabric,--fabric.name" : "--" + key.path;
+  CLI::Option* option = app.add_option(names)->description(help_of(key));
+  option->expected(1)->type_name(key.type);
+  if (key.type == "name=value") return option->take_all()->allow_extra_args(false);
+  return option->take_last();
+}
+
+void add_command(CLI::App& program, const Experiment& experiment, bool for_help, Command& command) {
+  command.experiment = &experiment;
+  command.app = program.add_subcommand(experiment.name, experiment.question);
+  command.app->allow_extras();
+  if (!experiment.run) return;
+  for (const KeyDescription& key : keys_of(experiment, for_help)) {
+    command.flags.emplace_back(key.path == "fabric.name" ? "fabric" : key.path, add_flag(*command.app, key));
+  }
+  if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);
+}
+
+// A word that the shell reads back as it is.
+std::string quoted(const std::string& word) {
+  const std::string_view safe = "-_./=,:+@%";
+  const auto plain = [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || safe.find(c) != safe.npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string text = "'";
+  for (char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string shell_command(int count, const char* const* words) {
+  std::string text = std::filesystem::path(words[0]).filename().string();
+  for (int i = 1; i < count; ++i) text += " " + quoted(words[i]);
+  return text;
+}
+
+// CLI11 leaves what it does not know; say which flag that is, and what was meant.
+void refuse_unknown(const Command& command) {
+  const std::vector<std::string> unknown = command.app->remaining();
+  if (unknown.empty()) return;
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  const std::string prefix = std::string(command.experiment->name) + ": ";
+  if (word == "--resume" && command.experiment->simulates)
+    throw Error::request(prefix + "--resume is not built yet for single runs; compare has it");
+  if (!word.starts_with('-')) throw Error::request(prefix + "unexpected argument \"" + word + "\"");
+  std::vector<std::string> known;
+  for (const auto& flag : command.flags) known.push_back("--" + flag.first);
+  const std::string nearest = nearest_name(word, known);
+  throw Error::request(prefix + "unknown option " + word +
+                       (nearest.empty()
+                            ? std::string("; see hysteron ") + command.experiment->name + " --help"
+                            : "; did you mean " + nearest + "?"));
+}
+
+// A word before the subcommand, or instead of one.
+void refuse_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
+  if (word.starts_with('-')) throw Error::request("unknown option " + word + " before the subcommand");
+  std::vector<std::string> known;
+  for (const Experiment& experiment : experiments) known.push_back(experiment.name);
+  const std::string nearest = nearest_name(word, known);
+  throw Error::request("unknown subcommand " + word +
+                       (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+CommandLine taken_apart(const Command& command, std::string shell_command) {
+  CommandLine line{command.experiment->name, std::move(shell_command), {}, command.names};
+  if (!command.experiment->run) return line;
+  refuse_unknown(command);
+  for (const auto& [path, option] : command.flags) {
+    for (const std::string& text : option->reduced_results()) {
+      if (path == "out" && text.empty())
+        throw Error::request(line.experiment + ": --out is empty: name where to write");
+      line.flags.push_back({path, text});
+    }
+  }
+  return line;
+}
+
+}  // namespace
+
+const Experiment& experiment_named(const std::string& name) {
+  const auto& all = experiments();
+  return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; });
+}
+
+std::optional<CommandLine> parse_command_line(int count, const char* const* words,
+                                              const std::vector<Experiment>& known) {
+  CLI::App program("Bending hysteresis of cloth: simulate, measure, picture", "hysteron");
+  program.set_version_flag("--version", program_version());
+  program.allow_extras();
+  program.require_subcommand(0, 1);
+  std::vector<Command> commands(known.size());
+  const bool for_help = std::any_of(
+      words, words + count, [](const std::string_view word) { return word == "--help" || word == "-h"; });
+  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], for_help, commands[i]);
+  const auto chosen = [&]() -> const Command* {
+    for (const Command& command : commands) {
+      if (command.app->parsed()) return &command;
+    }
+    return nullptr;
+  };
+  try {
+    program.parse(count, words);
+  } catch (const CLI::Success& asked) {
+    program.exit(asked);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw Error::request((chosen() ? chosen()->experiment->name + std::string(": ") : "") +
+                         one_line(error.what()));
+  }
+  if (!program.remaining().empty()) refuse_stray_word(program.remaining().front(), known);
+  if (!chosen()) throw Error::request("needs a subcommand; see hysteron --help");
+  return taken_apart(*chosen(), shell_command(count, words));
+}
+
+}  // namespace hysteron::experiments

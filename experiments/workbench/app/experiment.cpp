@@ -1,0 +1,74 @@
+#include "experiments/workbench/app/experiment.h"
+
+#include <algorithm>
+
+#include "experiments/workbench/app/headlines.h"
+
+namespace hysteron::experiments {
+
+std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {
+  std::string text = otherwise;
+  for (const Flag& flag : flags)
+    if (flag.path == path) text = flag.text;
+  return text;
+}
+
+Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
+             const std::function<void(Setup&)>& quick) {
+  Keys extra = bind_options(setup.options);
+  extra.insert(extra.end(), own.begin(), own.end());
+  setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
+  if (!setup.options.scene.empty()) apply_scene_file(setup.scene, setup.options.scene, extra);
+  apply_flags(setup.scene, line.flags, extra);
+  if (setup.options.quick && quick) {
+    quick(setup);  // which may ask what the flags say
+    apply_flags(setup.scene, line.flags, extra);
+  }
+  check_scene(setup.scene);
+  check_options(setup.options);
+  if (setup.options.errors) check_errors(line.experiment);
+  if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
+  return setup;
+}
+
+std::vector<KeyDescription> descriptions(const Keys& keys) {
+  std::vector<KeyDescription> result;
+  for (const BoundKey& key : keys) result.push_back(key.description);
+  return result;
+}
+
+void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {
+  const auto apply = [&] {
+    for (const Flag& flag : line.flags) {
+      if (flag.path == "fabric" || flag.path.starts_with("fabric.")) continue;
+      const std::string origin = "--" + flag.path;
+      const BoundKey& key = find_key(keys, flag.path, origin);
+      assign(key, parse_text(key.description, flag.text), origin);
+    }
+  };
+  apply();
+  if (!quick || !*std::get<bool*>(find_key(keys, "quick", "--quick").field)) return;
+  quick();
+  apply();
+}
+
+std::vector<KeyDescription> fabric_keys() {
+  static const std::vector<std::string> kNames = {"fabric.name", "fabric.b1", "fabric.b2", "fabric.k0"};
+  std::vector<KeyDescription> keys = scene_keys();
+  std::erase_if(
+      keys, [](const KeyDescription& key) { return !std::count(kNames.begin(), kNames.end(), key.path); });
+  return keys;
+}
+
+Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags) {
+  std::vector<Flag> own = {{"fabric", name_or_file}};
+  for (const Flag& flag : flags) {
+    if (flag.path.starts_with("fabric.")) own.push_back(flag);
+  }
+  Scene scene;
+  apply_flags(scene, own);
+  check_scene(scene);
+  return scene.fabric;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,65 @@
+// A subcommand of `hysteron`, and what its flags make of scene and options.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/options.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron::experiments {
+
+// What the user typed after `hysteron`, taken apart but not yet interpreted.
+struct CommandLine {
+  std::string experiment;   // "drape"
+  std::string command;      // the whole line, quoted for a shell, for the manifest
+  std::vector<Flag> flags;  // {"fabric.b2", "1e-5"}, in the order of the keys; bare flags have text "true"
+  std::vector<std::string> names;  // arguments that are no flags: files, folders
+};
+
+// What the last flag of that path says; `otherwise` without one.
+std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise);
+
+struct Setup;
+
+struct Experiment {
+  const char* name;
+  const char* question;                      // one line for --help
+  int (*run)(const CommandLine&) = nullptr;  // returns the exit code; null: announced, not built yet
+  bool simulates = false;                    // takes the keys of scenes and Options
+  std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
+  Setup (*defaults)() =
+      nullptr;             // of an experiment that simulates, for --help; null: they depend on the flags
+  const char* names = "";  // what CommandLine::names are ("DIR"); "": not allowed
+};
+
+// All subcommands, in the order of --help (experiments/catalogue.cpp).
+const std::vector<Experiment>& experiments();
+// The one with this name.  Throws Error::request.
+const Experiment& experiment_named(const std::string& name);
+
+// A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
+// experiment's own keys, bound to its own struct; `quick` is what --quick makes of scene, options and those
+// keys.  Throws Error::request, Error::machine.
+struct Setup {
+  Scene scene;
+  Options options;
+};
+Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
+             const std::function<void(Setup&)>& quick = {});
+
+// Descriptions of bound keys, for Experiment::own_keys.
+std::vector<KeyDescription> descriptions(const Keys& keys);
+
+// For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
+// the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws
+// Error::request.
+void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
+// --fabric, --fabric.b1, --fabric.b2, --fabric.k0.
+std::vector<KeyDescription> fabric_keys();
+// The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a
+// scene's. Throws Error::request, Error::machine.
+Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags);
+
+}  // namespace hysteron::experiments

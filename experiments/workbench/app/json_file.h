@@ -1,0 +1,16 @@
+// JSON files, which anyone may have cut off or edited.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/workbench/app/run.h"
+
+namespace hysteron::experiments {
+
+// Throws Error::machine if the file cannot be read; Error::request, naming it as no `kind`, if it is no JSON
+// or nests deeper than anything this program writes.
+Json read_json(const std::filesystem::path& file, const std::string& kind = "JSON");
+// Discarded (Json::is_discarded) where read_json would throw.
+Json json_or_none(const std::filesystem::path& file);
+
+}  // namespace hysteron::experiments

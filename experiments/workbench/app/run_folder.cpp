@@ -1,0 +1,185 @@
+#include "experiments/workbench/app/run_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "experiments/workbench/app/json_file.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kElsewhere = ": give another folder (--out)";
+
+fs::path made(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!failure && !fs::is_directory(folder, failure) && !failure)
+    failure = std::make_error_code(std::errc::not_a_directory);
+  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
+  return folder;
+}
+
+bool stands(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+bool is_plain(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(fs::symlink_status(file, ignored));
+}
+
+bool stays_inside(const fs::path& name) {
+  return name.is_relative() && !name.empty() && std::find(name.begin(), name.end(), "..") == name.end();
+}
+
+// One of the folders on the way from `folder` to the file of that name is a link.
+bool is_behind_a_link(const fs::path& folder, const fs::path& name) {
+  std::error_code ignored;
+  fs::path way = folder;
+  for (const fs::path& part : name.parent_path())
+    if (fs::is_symlink(fs::symlink_status(way /= part, ignored))) return true;
+  return false;
+}
+
+// The run before, by its manifest; null without one.
+Json run_before(const fs::path& folder) {
+  const fs::path file = folder / kManifest;
+  if (!stands(file)) return {};
+  const Json manifest = is_plain(file) ? json_or_none(file) : Json();
+  if (!manifest.is_object() || !manifest.contains("hysteron"))
+    throw Error::request(file.string() + " is not of a run and is not replaced" + kElsewhere);
+  return manifest;
+}
+
+// Names of its files, and of the page that `hysteron report` may have written since.
+std::vector<fs::path> files_of(const Json& manifest, const fs::path& folder) {
+  if (!manifest.is_object()) return {};
+  std::vector<fs::path> names = {"report.html"};
+  if (!manifest.contains("files")) return names;
+  for (const Json& file : manifest["files"]) {
+    if (!file.is_string()) continue;
+    const fs::path name = file.get<std::string>();
+    if (stays_inside(name) && !is_behind_a_link(folder, name)) names.push_back(name);
+  }
+  return names;
+}
+
+// "metrics.csv" of "metrics.csv.part" and "metrics.csv.part-71-3"; "" of other names.
+std::string half_written(const std::string& name) {
+  const std::size_t part = name.rfind(".part");
+  if (part == name.npos || part == 0) return "";
+  const std::string end = name.substr(part + 5);
+  return end.find_first_not_of("-0123456789") == end.npos ? name.substr(0, part) : "";
+}
+
+// An interrupted run lists the first file of a sequence only.
+void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& listed) {
+  std::set<fs::path> names(listed.begin(), listed.end()), folders = {""}, sequences;
+  names.insert(kManifest);
+  for (const fs::path& name : listed) {
+    folders.insert(name.parent_path());
+    if (is_numbered(name)) sequences.insert(name.parent_path() / name.extension());
+  }
+  const auto of_the_run = [&](const fs::path& name) {
+    return names.contains(name) ||
+           (is_numbered(name) && sequences.contains(name.parent_path() / name.extension()));
+  };
+  std::error_code ignored;
+  for (const fs::path& inner : folders) {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder / inner, ignored))
+      found.push_back(inner / entry.path().filename());
+    for (const fs::path& name : found) {
+      const std::string target = half_written(name.filename().string());
+      const bool left = target.empty() ? is_numbered(name) && of_the_run(name) : of_the_run(inner / target);
+      if (left && is_plain(folder / name)) fs::remove(folder / name, ignored);
+    }
+  }
+}
+
+void remove_run(const Json& manifest, const fs::path& folder) {
+  const std::vector<fs::path> names = files_of(manifest, folder);
+  std::error_code ignored;
+  for (const fs::path& name : names)
+    if (is_plain(folder / name)) fs::remove(folder / name, ignored);
+  if (manifest.is_object() && !manifest.value("complete", false)) remove_interrupted(folder, names);
+  for (const fs::path& name : names)
+    if (name.has_parent_path() && fs::is_empty(folder / name.parent_path(), ignored))
+      fs::remove(folder / name.parent_path(), ignored);
+}
+
+bool is_within(const fs::path& inner, const fs::path& outer) {
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// `what`, "--loop", names files: one of them would be removed before the run, or replaced by it.
+void refuse_input(const std::string& what, const std::string& text, const fs::path& folder,
+                  const std::vector<fs::path>& names) {
+  std::error_code missing;
+  const fs::path input = fs::canonical(text, missing), whole = fs::weakly_canonical(folder);
+  if (missing || !is_within(input, whole)) return;
+  for (const fs::path& name : names)
+    if (stands(whole / name) && is_within(whole / name, input))
+      throw Error::request(what + text + " is of the run in " + folder.string() +
+                           ", which this one would replace" + kElsewhere);
+}
+
+void refuse_inputs(const CommandLine& line, const fs::path& folder, const std::vector<fs::path>& names) {
+  for (const Flag& flag : line.flags) {
+    if (flag.path == "out") continue;
+    for (const std::string& text : split(flag.text))
+      refuse_input("--" + flag.path + " ", text, folder, names);
+  }
+  for (const std::string& text : line.names) refuse_input("", text, folder, names);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder)
+    : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (handle_ < 0)
+    throw Error::machine("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
+  if (::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(handle_);
+  throw Error::request(folder.string() +
+                       " is in use by another run: wait for its end, or give another folder" + " (--out)");
+}
+
+FolderLock::~FolderLock() { ::close(handle_); }
+
+RunFolder::RunFolder(const fs::path& path, const CommandLine& line) : path_(made(path)), lock_(path) {
+  const Json before = run_before(path_);
+  refuse_inputs(line, path_, files_of(before, path_));
+  remove_run(before, path_);
+}
+
+fs::path RunFolder::place_for(const std::string& name) const {
+  const fs::path file = path_ / name;
+  if (!stays_inside(name) || is_behind_a_link(path_, name))
+    throw Error::request(file.string() + " would be written outside " + path_.string() + kElsewhere);
+  if (stands(file))
+    throw Error::request(file.string() + " is not of an earlier run and is not replaced" + kElsewhere);
+  made(file.parent_path());
+  return file;
+}
+
+bool is_numbered(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  return stem.size() >= 4 && stem.find_first_not_of("0123456789") == stem.npos;
+}
+
+}  // namespace hysteron::experiments

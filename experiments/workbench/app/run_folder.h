@@ -1,0 +1,47 @@
+// The folder that a run writes to: one run at a time, nothing outside it, nothing of others replaced.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+// Holds a folder until it is destroyed or the process ends, in whatever way.  The lock is the kernel's
+// (flock), on the folder itself: it leaves no file.  Where the file system has no such locks, nothing is
+// held.
+class FolderLock {
+ public:
+  // Throws Error::request, naming the folder, where another one holds it.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+class RunFolder {
+ public:
+  // Makes the folder, holds it and removes what the run before has left there: the files in its manifest and,
+  // if it was interrupted, the rest of its sequences and files half written.  Throws Error::machine;
+  // Error::request where another run is in the folder, where its manifest.json is not a run's, and where the
+  // line names one of those files as an input.
+  RunFolder(const std::filesystem::path& path, const CommandLine& line);
+
+  const std::filesystem::path& path() const { return path_; }
+  // Where to write the file of that name; its own folder is made.  Throws Error::request where something
+  // stands there, which this run has not written, or where a link leads out of the folder.
+  std::filesystem::path place_for(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+  FolderLock lock_;
+};
+
+// "frames/0012.png", one of a sequence, whose files are numbered.
+bool is_numbered(const std::filesystem::path& name);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,196 @@
+#include "experiments/workbench/compare/columns.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/version.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+#include "sim/base/parallel.h"
+#include "sim/base/process.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What was asked of a finished column, and of which program: it stands in its folder.
+constexpr const char* kAsked = "asked.json";
+
+Json asked(const ComparedColumn& column) {
+  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", column.words}};
+}
+
+bool is_finished(const ComparedColumn& column) {
+  const Json manifest = json_or_none(column.folder / "manifest.json");
+  return manifest.is_object() && manifest.value("complete", false) &&
+         json_or_none(column.folder / kAsked) == asked(column);
+}
+
+// The name of the GPU with that number among those that this process itself is allowed.
+std::string visible_gpu(int gpu) {
+  const char* allowed = std::getenv("CUDA_VISIBLE_DEVICES");
+  const std::vector<std::string> names = split(allowed ? allowed : "");
+  return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
+}
+
+std::vector<std::string> command_of(const ComparedColumn& column, int threads, int gpu) {
+  std::vector<std::string> words = {"env"};
+  if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
+  words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
+  words.push_back(fs::read_symlink("/proc/self/exe").string());
+  words.insert(words.end(), column.words.begin(), column.words.end());
+  words.push_back("--quiet=true");
+  words.push_back("--out=" + column.folder.string());
+  words.push_back("--threads=" + std::to_string(threads));
+  return words;
+}
+
+// Why a run ended without having finished.
+std::string reason_of(const ProcessResult& result) {
+  if (!result.first_error_line.empty()) return result.first_error_line;
+  return result.exit_code < 0 ? "ended by a signal"
+                              : "ended with exit code " + std::to_string(result.exit_code);
+}
+
+void run_column(ComparedColumn& column, int threads, int gpu, bool go_on) {
+  std::error_code ignored;
+  fs::remove(column.folder / kAsked, ignored);
+  const ProcessResult result = run_process(command_of(column, threads, gpu), "");
+  column.manifest = json_or_none(column.folder / "manifest.json");
+  if (!result.started) throw Error::machine("cannot start the run " + column.name);
+  if (go_on && result.exit_code != 0 && result.exit_code != 3) {
+    column.manifest = nullptr;  // of an earlier run
+    column.stopped = reason_of(result);
+    return;
+  }
+  if (result.exit_code == 2) throw Error::request(column.name + ": " + result.first_error_line);
+  if (result.exit_code != 0 && result.exit_code != 3)
+    throw Error::machine(column.name + ": " + result.first_error_line);
+  if (result.exit_code == 3) column.stopped = reason_of(result);
+  AtomicFile file((column.folder / kAsked).string());
+  file.stream() << asked(column).dump(2) << "\n";
+  file.commit();
+}
+
+// The last whole line of a table that grows; "" before it has a row.
+std::string last_row(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string last, line;
+  std::getline(stream, line);  // the head
+  while (std::getline(stream, line) && !stream.eof()) last = line;
+  return last;
+}
+
+// Says every few seconds how far the columns are that run, where that has changed, until its end.
+class Watch {
+ public:
+  Watch(const std::vector<ComparedColumn>& columns, const std::function<void(const std::string&)>& say)
+      : columns_(columns), say_(say), thread_([this] { run(); }) {}
+  ~Watch() {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  void begin(std::size_t column) {
+    const std::lock_guard lock(mutex_);
+    running_.insert(column);
+  }
+  void end(std::size_t column) {
+    const std::lock_guard lock(mutex_);
+    running_.erase(column);
+  }
+
+ private:
+  void run() {
+    constexpr auto kInterval = std::chrono::seconds(2);
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, kInterval, [this] { return ended_; })) {
+      std::vector<std::string> words;
+      for (const std::size_t column : running_) {
+        const std::string so_far = progress_in(columns_[column].folder);
+        if (!so_far.empty()) words.push_back(columns_[column].name + " " + so_far);
+      }
+      const std::string line = join(words, ", ");
+      if (!line.empty() && line != std::exchange(said_, line)) say_(line);
+    }
+  }
+
+  const std::vector<ComparedColumn>& columns_;
+  const std::function<void(const std::string&)>& say_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::set<std::size_t> running_;
+  std::string said_;
+  bool ended_ = false;
+  std::thread thread_;  // the last: it reads the others
+};
+
+}  // namespace
+
+std::string progress_in(const fs::path& folder) {
+  const std::string row = last_row(folder / "metrics.csv.part");
+  const Json manifest = json_or_none(folder / "manifest.json");
+  if (row.empty() || !manifest.is_object()) return "";
+  const Json all = manifest.value("scene", Json::object()).value("seconds", Json());
+  if (!all.is_number()) return "";
+  char text[60];
+  std::snprintf(text, sizeof text, "%.2f/%.4g s", std::strtod(row.c_str(), nullptr), all.get<double>());
+  return text;
+}
+
+void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
+                 const std::function<void(const ComparedColumn&)>& said,
+                 const std::function<void(const std::string&)>& progress) {
+  std::string reason;
+  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
+  const int cores =
+      jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int at_once = std::min(static_cast<int>(columns.size()),
+                               jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
+  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
+  std::mutex one_at_a_time;
+  const std::function<void(const std::string&)> say = [&](const std::string& line) {
+    const std::lock_guard lock(one_at_a_time);
+    progress(line);
+  };
+  Watch watch(columns, say);
+  const auto watched = [&](std::size_t i, int its_threads) {
+    watch.begin(i);
+    run_column(columns[i], its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1, jobs.go_on);
+    watch.end(i);
+  };
+  const auto finish = [&](std::size_t i, int its_threads) {
+    ComparedColumn& column = columns[i];
+    column.kept = jobs.resume && is_finished(column);
+    if (column.kept)
+      column.manifest = json_or_none(column.folder / "manifest.json");
+    else
+      watched(i, its_threads);
+    const std::lock_guard lock(one_at_a_time);
+    said(column);
+  };
+  if (jobs.first >= 0) finish(static_cast<std::size_t>(jobs.first), jobs.threads > 0 ? jobs.threads : cores);
+  in_parallel(columns.size(), at_once, [&](std::size_t i) {
+    if (static_cast<int>(i) != jobs.first) finish(i, threads);
+  });
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,44 @@
+// The runs that a comparison sets side by side: each a process of its own, several at a time.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+struct ComparedColumn {
+  std::string name;                // its folder's
+  std::vector<std::string> words;  // after `hysteron`, without --out, --threads and what else does not matter
+  std::filesystem::path folder;
+  // After run_columns():
+  bool kept = false;    // from an earlier comparison
+  std::string stopped;  // why it could not go on; empty: complete
+  nlohmann::ordered_json manifest;
+};
+
+// What is not asked of the runs but of how they are run.
+struct ColumnJobs {
+  int at_once = 0;  // 0: one for each GPU, or for each core
+  int threads = 0;  // of each on the CPU; 0: its share of the cores
+  bool resume = false;
+  bool gpu = true;     // may be used
+  int first = -1;      // a column that the others need: it ends before they start; -1: none
+  int cores = 0;       // that they share; 0: all
+  bool go_on = false;  // a run that is wrong or fails is only marked as stopped
+};
+
+// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first moment.
+std::string progress_in(const std::filesystem::path& folder);
+
+// `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,
+// where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::request and
+// Error::machine if one of them is wrong or fails, unless the jobs go on.
+void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
+                 const std::function<void(const ComparedColumn&)>& said,
+                 const std::function<void(const std::string&)>& progress);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,384 @@
+#include "experiments/workbench/compare/compared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <optional>
+
+#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pictures/studio.h"
+#include "render/color_map.h"
+#include "render/compare.h"
+#include "render/comparison_sheet.h"
+#include "render/plot.h"
+#include "sim/base/error.h"
+#include "sim/base/process.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kCellWidth = 420;  // [pixels]
+constexpr std::size_t kMostNumbers = 5;
+constexpr const char* kDifference = "difference";  // the look of it
+constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
+
+const Json& moments(const ComparedColumn& column) { return column.manifest.at("frames").at("moments"); }
+double second(const ComparedColumn& column, std::size_t frame) {
+  return moments(column).at(frame).at("s").get<double>();
+}
+bool has_frames(const ComparedColumn& column) {
+  return column.manifest.is_object() && column.manifest.contains("frames") && !moments(column).empty();
+}
+
+// The picture nearest to a time, the last one where the run had ended before.
+std::size_t frame_at(const ComparedColumn& column, double time) {
+  std::size_t nearest = 0;
+  for (std::size_t f = 0; f < moments(column).size(); ++f)
+    if (std::abs(second(column, f) - time) < std::abs(second(column, nearest) - time)) nearest = f;
+  return nearest;
+}
+
+// The first look's pictures stand in frames/.
+fs::path picture_of(const ComparedColumn& column, const std::string& look, std::size_t frame) {
+  const Json& looks = column.manifest.at("frames").at("looks");
+  const std::string folder = looks.begin().key() == look ? "frames" : "frames-" + look;
+  char name[16];
+  std::snprintf(name, sizeof name, "%04zu.png", frame);
+  return column.folder / folder / name;
+}
+
+// Of the column that went on longest, spread evenly; the first picture is the same in all columns.
+std::vector<double> times_of(const std::vector<ComparedColumn>& columns, int rows) {
+  const ComparedColumn* longest = nullptr;
+  for (const ComparedColumn& c : columns)
+    if (has_frames(c) &&
+        (!longest || second(c, moments(c).size() - 1) > second(*longest, moments(*longest).size() - 1)))
+      longest = &c;
+  std::vector<double> times;
+  if (!longest) return times;
+  const int last = static_cast<int>(moments(*longest).size()) - 1, count = std::min(rows, std::max(1, last));
+  for (int r = 1; r <= count; ++r)
+    times.push_back(second(*longest, static_cast<std::size_t>(std::lround(1.0 * r * last / count))));
+  return times;
+}
+
+std::string text_of(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string moment_text(const std::vector<ComparedColumn>& columns, double time) {
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c)) continue;
+    const Json& moment = moments(c).at(frame_at(c, time));
+    if (std::abs(moment.at("s").get<double>() - time) > 1e-9) continue;
+    const std::string phase = moment.value("phase", "");
+    return text_of("t = %.2f s", time) + (phase.empty() ? "" : ", " + phase);
+  }
+  return text_of("t = %.2f s", time);
+}
+
+struct Drawn {
+  const ComparedPage& page;
+  const std::vector<ComparedColumn>& columns;
+  std::vector<double> times;
+
+  render::ComparisonRow pictures(double time) const {
+    render::ComparisonRow row{moment_text(columns, time), {}};
+    for (const ComparedColumn& c : columns) {
+      row.cells.emplace_back();
+      if (!has_frames(c)) continue;
+      const std::size_t frame = frame_at(c, time);
+      row.cells.back().image = render::read_png(picture_of(c, page.look, frame));
+      if (time - second(c, frame) > 1e-9)
+        row.cells.back().caption =
+            text_of(c.stopped.empty() ? "at rest since %.2f s" : "stopped at %.2f s", second(c, frame));
+    }
+    return row;
+  }
+
+  render::ComparisonRow differences(const render::ComparisonRow& row, double time) const {
+    const std::size_t to = static_cast<std::size_t>(page.to);
+    render::ComparisonRow result{
+        row.label + (page.curvature ? ": curvature less that of " : ": difference to ") + columns[to].name,
+        {}};
+    for (std::size_t c = 0; c < row.cells.size(); ++c) {
+      result.cells.emplace_back();
+      if (c == to || !has_frames(columns[c]) || !has_frames(columns[to])) continue;
+      result.cells.back() = page.curvature ? of_curvature(columns[c], time)
+                                           : of_pictures(row.cells[c].image, row.cells[to].image);
+    }
+    return result;
+  }
+
+  static render::ComparisonCell of_pictures(const render::Image& image, const render::Image& to) {
+    return {render::heat_map(image, to, kDifferenceScale),
+            text_of("%.2f %% of the pixels differ by more than 8",
+                    render::compare(image, to).pixels_over_8_percent)};
+  }
+
+  static render::ComparisonCell of_curvature(const ComparedColumn& column, double time) {
+    const std::size_t frame = frame_at(column, time);
+    const Json& moment = moments(column).at(frame);
+    return {render::read_png(picture_of(column, kDifference, frame)),
+            text_of("rms %.3g 1/m", moment.at("difference_rms_per_m").get<double>())};
+  }
+
+  render::ComparisonRow outlines() const {
+    render::ComparisonRow row{"outlines of all", {}};
+    for (double time : times) {
+      render::Image over;
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!has_frames(columns[c])) continue;
+        const render::Image shape =
+            render::read_png(picture_of(columns[c], "silhouette", frame_at(columns[c], time)));
+        if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
+        render::draw_outline(over, shape, render::method_color(c), std::max(1, shape.width() / 320));
+      }
+      row.cells.push_back({std::move(over), moment_text(columns, time)});
+    }
+    return row;
+  }
+};
+
+std::optional<render::ColorBar> bar_of(const std::vector<ComparedColumn>& columns, const std::string& look) {
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c)) continue;
+    const Json bar = c.manifest.at("frames").at("looks").value(look, Json());
+    if (!bar.is_object()) continue;
+    render::ColorBar result{map_of(look), bar.at("low").get<double>(), bar.at("high").get<double>(),
+                            bar.at("label").get<std::string>(), bar.at("unit").get<std::string>()};
+    return result;
+  }
+  return {};
+}
+
+render::ComparisonSheet head_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  render::ComparisonSheet sheet;
+  sheet.title = page.title;
+  sheet.notes = page.notes;
+  sheet.cell_width = kCellWidth;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    sheet.columns.push_back({columns[c].name, numbers_of(columns[c]), render::method_color(c)});
+  for (const ComparedColumn& c : columns)
+    if (has_frames(c)) sheet.metres_per_pixel = c.manifest.at("frames").at("m_per_pixel").get<double>();
+  sheet.scale_note = "at the cloth's middle";
+  return sheet;
+}
+
+// All columns side by side at their frame `f`, or their last.
+render::Image strip_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns, std::size_t f) {
+  render::ComparisonSheet strip;
+  strip.cell_width = kCellWidth;
+  strip.rows.emplace_back();
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    strip.columns.push_back({columns[c].name, {}, render::method_color(c)});
+    strip.rows[0].cells.emplace_back();
+    if (!has_frames(columns[c])) continue;
+    const std::size_t last = moments(columns[c]).size() - 1;
+    strip.rows[0].cells[c].image = render::read_png(picture_of(columns[c], page.look, std::min(f, last)));
+    if (f <= last) strip.rows[0].label = moment_text({columns[c]}, second(columns[c], f));
+  }
+  return render::draw_comparison(strip);
+}
+
+// A film at the columns' own speed, where ffmpeg is there.
+void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::size_t frames = 0;
+  double rate = 1;  // [1/s]
+  for (const ComparedColumn& c : columns) {
+    if (!has_frames(c) || moments(c).size() <= frames) continue;
+    frames = moments(c).size();
+    if (frames > 1) rate = static_cast<double>(frames - 1) / (second(c, frames - 1) - second(c, 0));
+  }
+  for (std::size_t f = 0; f < frames; ++f) {
+    char name[32];
+    std::snprintf(name, sizeof name, "film/%04zu.png", f);
+    render::write_png(run.path(name), strip_of(page, columns, f));
+  }
+  const std::string name = "film." + page.video, strips = (run.folder() / "film" / "%04d.png").string();
+  std::vector<std::string> words = {"ffmpeg", "-y",  "-loglevel", "error", "-framerate", text_of("%g", rate),
+                                    "-i",     strips};
+  if (page.video == "mp4")
+    words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
+  words.push_back(run.path(name).string());
+  const ProcessResult result = run_process(words, "");
+  if (result.started && result.exit_code == 0) return;
+  run.forget(name);
+  run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
+}
+
+// What each experiment is asked for; then what any run has.
+constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",
+                                         "node_count",
+                                         "recovery_angle_deg",
+                                         "2HB_N",
+                                         "set_curvature_per_m",
+                                         "turns",
+                                         "decay_shape",
+                                         "decay_exponent",
+                                         "bending_friction_J",
+                                         "ridge_length_m",
+                                         "residual_curvature_rms_per_m",
+                                         "max_stretch_percent"};
+
+// The named list of the first column that has it.
+Json first_list(const std::vector<ComparedColumn>& columns, const char* name) {
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object() && c.manifest.contains(name)) return c.manifest[name];
+  return Json::array();
+}
+
+// The plot with a line for each column, from a file of its folder; none where the file has no rows.
+void plot_columns(Run& run, const std::string& name, render::Plot plot,
+                  const std::vector<ComparedColumn>& columns,
+                  const std::function<render::Series(const ComparedColumn&)>& read) {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    render::Series series = read(columns[c]);
+    if (series.x.empty()) continue;
+    series.label = columns[c].name;
+    const render::Rgb8 color = render::method_color(c);
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "#%02X%02X%02X", color[0], color[1], color[2]);
+    series.color = hex;
+    if (c >= render::kMethodColors && series.style == render::Series::Style::line)
+      series.style = render::Series::Style::dashed;
+    plot.series.push_back(std::move(series));
+  }
+  if (!plot.series.empty()) run.plot(name, [&](const auto& base) { render::write_plot(base, plot); });
+}
+
+render::Series read_series(const ComparedColumn& column, const std::string& file, const std::string& x,
+                           const std::string& y) {
+  if (!column.manifest.is_object() || !fs::exists(column.folder / file)) return {};
+  return render::series_from_csv(column.folder / file, x, y, "");
+}
+
+// The experiment's own columns of metrics.csv against time.
+void plot_series(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const Json& series : first_list(columns, "series")) {
+    const std::string name = series.get<std::string>(), word = name.substr(0, name.find(" ["));
+    render::Plot plot{title, {"time [s]"}, {name}};
+    std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
+    plot_columns(run, "plot_" + word, plot, columns,
+                 [&](const ComparedColumn& c) { return read_series(c, "metrics.csv", "time", word); });
+  }
+}
+
+// Tables of its own that the experiment names in its manifest.
+void plot_curves(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const Json& curve : first_list(columns, "curves")) {
+    const std::string x = curve.at("x"), y = curve.at("y");
+    const render::Plot plot{title, {x}, {y, curve.value("logarithmic", false)}};
+    plot_columns(run, curve.at("plot"), plot, columns, [&](const ComparedColumn& c) {
+      render::Series series = read_series(c, curve.at("file"), x, y);
+      series.style = render::Series::Style::line_and_points;
+      return series;
+    });
+  }
+}
+
+// Those of kFirstNumbers that stand below a column.
+std::vector<std::string> metrics_of(const ComparedColumn& column) {
+  std::vector<std::string> keys;
+  if (!column.manifest.is_object()) return keys;
+  const Json metrics = column.manifest.value("metrics", Json::object());
+  const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
+  for (const char* key : kFirstNumbers)
+    if (metrics.contains(key) && (metrics[key].is_number() || metrics[key].is_string()) && keys.size() < most)
+      keys.push_back(key);
+  return keys;
+}
+
+// What these experiments are asked for, a bar a column.
+void plot_answers(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  for (const char* key : {"drape_coefficient_percent", "recovery_angle_deg"}) {
+    render::Plot plot{title, {""}, {split_unit(key).text()}};
+    std::vector<double> values;
+    for (const ComparedColumn& c : columns) {
+      if (!c.manifest.is_object()) continue;
+      const Json value = c.manifest.value("metrics", Json::object()).value(key, Json());
+      if (!value.is_number()) continue;
+      plot.x.categories.push_back(c.name);
+      values.push_back(value.get<double>());
+    }
+    if (values.size() < 2) continue;
+    plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
+    plot.y.high = std::max(1.0, 1.05 * *std::max_element(values.begin(), values.end()));
+    run.plot(std::string("plot_") + key, [&](const auto& base) { render::write_plot(base, plot); });
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> texts;
+  for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
+  return texts;
+}
+
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> keys;
+  for (const char* key : kFirstNumbers) {
+    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const ComparedColumn& c) {
+      const std::vector<std::string> own = metrics_of(c);
+      return std::find(own.begin(), own.end(), key) != own.end();
+    });
+    if (shown) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::vector<std::string> numbers_of(const ComparedColumn& column) {
+  std::vector<std::string> lines;
+  if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
+  if (!column.manifest.is_object()) return lines;
+  const Json metrics = column.manifest.value("metrics", Json::object());
+  for (const std::string& key : metrics_of(column)) {
+    lines.push_back(metrics[key].is_string() ? split_unit(key).name + " " + metrics[key].get<std::string>()
+                                             : metric_text(key, metrics[key].get<double>()));
+    if (is_headline(metrics, key)) lines.push_back(headline_words(metrics, key).errors);
+  }
+  const Json seconds = column.manifest.value("wall_seconds", Json::object());
+  const Json steps = column.manifest.value("steps", Json());
+  double stepping = 0;
+  for (const char* stage : {"membrane", "bending", "solve", "contact", "history"})
+    if (seconds.is_object() && seconds.contains(stage) && seconds[stage].is_number())
+      stepping += seconds[stage].get<double>();
+  if (steps.is_number() && steps.get<double>() > 0)
+    lines.push_back(text_of("%.3g ms per step", 1e3 * stepping / steps.get<double>()));
+  return lines;
+}
+
+void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  const Drawn drawn{page, columns, times_of(columns, page.rows)};
+  if (drawn.times.empty()) throw Error::run("no column has a picture");
+  render::ComparisonSheet sheet = head_of(page, columns);
+  for (double time : drawn.times) {
+    sheet.rows.push_back(drawn.pictures(time));
+    if (page.to >= 0) sheet.rows.push_back(drawn.differences(sheet.rows.back(), time));
+  }
+  if (page.outlines) sheet.more = {drawn.outlines()};
+  std::vector<std::string> looks = {page.look};
+  if (page.to >= 0 && page.curvature) looks.push_back(kDifference);
+  for (const std::string& look : looks)
+    if (const auto bar = bar_of(columns, look)) sheet.bars.push_back(*bar);
+  if (page.to >= 0 && !page.curvature)
+    sheet.bars.push_back(
+        {render::ColorMap::sequential, 0, kDifferenceScale, "difference of pictures", "8-bit steps", 5});
+  render::write_png(run.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);
+  if (page.video != "none") film(run, page, columns);
+}
+
+void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+  plot_series(run, title, columns);
+  plot_curves(run, title, columns);
+  plot_answers(run, title, columns);
+}
+
+}  // namespace hysteron::experiments

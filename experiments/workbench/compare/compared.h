@@ -1,0 +1,39 @@
+// What finished columns of a comparison show, on one page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/columns.h"
+
+namespace hysteron::experiments {
+
+struct ComparedPage {
+  std::string title;
+  std::vector<std::string> notes;
+  int rows = 4;            // moments
+  std::string look;        // of the pictures
+  int to = -1;             // the column that others differ from; -1: no differences
+  bool curvature = false;  // what differs: curvature, as the columns pictured it, not pictures
+  bool outlines = true;    // of all columns, over each other
+  std::string video;       // none | mp4 | gif
+};
+
+// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
+// video where they are asked for.
+void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+
+// The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
+std::vector<std::string> numbers_of(const ComparedColumn& column);
+
+// Names of the metrics among them, of any column.
+std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns);
+// "t = 0.50 s, hang" of each of the page's rows.
+std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+
+// Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
+// that its manifest's `curves` name; and bars of what it is asked for.
+void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,142 @@
+#include "experiments/workbench/compare/comparison_captions.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "experiments/workbench/pages/figure_captions.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/run_words.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// What the numbers below a column mean, by the metric's name.
+const std::map<std::string, std::string>& meanings() {
+  static const std::map<std::string, std::string> kMeanings = {
+      {"drape_coefficient_percent",
+       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
+      {"node_count", "folds of the outline"},
+      {"recovery_angle_deg", "angle between the limbs after release; 180 degrees is flat"},
+      {"2HB_N", "width of the last moment-curvature loop"},
+      {"set_curvature_per_m", "curvature that is left without moment"},
+      {"turns", "how often the free end turned"},
+      {"decay_shape",
+       "how amplitudes A_n of small swings fall from turn to turn, dA/dn = -c A^p: linear (p near 0, "
+       "friction of "
+       "constant moment), exponential (1, viscosity), hyperbolic (2, friction whose loops grow as A^3), "
+       "plateau "
+       "(a turn takes less than 1 %)"},
+      {"decay_exponent", "p"},
+      {"bending_friction_J", "energy that friction in bending has taken"},
+      {"ridge_length_m", "length of the ridges, sharper than a threshold, that are left"},
+      {"residual_curvature_rms_per_m",
+       "root mean square of the curvature that is left if the cloth is let go"},
+      {"max_stretch_percent", "largest stretch of an edge"}};
+  return kMeanings;
+}
+
+std::string question_of(const std::string& name) {
+  for (const Experiment& experiment : experiments())
+    if (experiment.name == name) return experiment.question;
+  return name;
+}
+
+// In the order in which they are shown, those that a column shows.
+std::string numbers_text(const std::vector<ComparedColumn>& columns) {
+  std::string text;
+  for (const std::string& key : shown_metrics(columns)) {
+    const NamedUnit what = split_unit(key);
+    const auto known = meanings().find(key);
+    text += (text.empty() ? "Numbers below the columns: " : "; ") + what.text() +
+            (known == meanings().end() ? "" : ", " + known->second);
+  }
+  return text.empty() ? "" : text + "; ms per step, computing time without pictures.";
+}
+
+std::string rows_text(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+  std::string text;
+  for (const std::string& moment : shown_moments(page, columns)) text += (text.empty() ? "" : "; ") + moment;
+  text = "Rows: " + text + " (each column's picture nearest to that time, in look " + page.look +
+         ", from one camera).";
+  if (page.to >= 0) {
+    const std::string& to = columns[static_cast<std::size_t>(page.to)].name;
+    text += page.curvature ? " Below each, its curvature less that of " + to +
+                                 " at the same vertex and moment, on its own shape; its root mean square."
+                           : " Below each, its difference to " + to + ", in colours.";
+  }
+  if (page.outlines)
+    text += " Last row: the outlines of all columns over each other, in the columns' colours.";
+  return text;
+}
+
+std::string columns_text(const std::vector<ComparedColumn>& columns) {
+  std::string text;
+  for (const ComparedColumn& c : columns)
+    text += (text.empty() ? "Columns: " : ", ") + c.name +
+            (c.stopped.empty() ? "" : " (stopped: " + c.stopped + ")");
+  return text + ".";
+}
+
+std::string facts_text(const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> names;
+  std::vector<const Json*> manifests;
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object()) names.push_back(c.name), manifests.push_back(&c.manifest);
+  return facts_of(names, manifests);
+}
+
+std::string first_upper(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+// "plot_tip_height.png" is "tip height".
+std::string plotted(const std::string& stem) {
+  std::string what = split_unit(stem.substr(std::string("plot_").size())).name;
+  std::replace(what.begin(), what.end(), '_', ' ');
+  return what;
+}
+
+// What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
+std::string shown_in(const std::string& stem, const std::vector<ComparedColumn>& columns) {
+  for (const ComparedColumn& c : columns)
+    if (c.manifest.is_object())
+      for (const Json& curve : c.manifest.value("curves", Json::array()))
+        if (curve.at("plot") == stem) return curve.value("caption", "");
+  const auto metric = meanings().find(stem.substr(std::string("plot_").size()));
+  if (metric != meanings().end()) return "A bar for each column: " + metric->second + ".";
+  return first_upper(plotted(stem)) + " against time, a line for each column.";
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences)
+    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
+  return text;
+}
+
+}  // namespace
+
+void write_comparison_captions(Run& run, const ComparedPage& page, const std::string& experiment,
+                               const std::string& command, const std::vector<ComparedColumn>& columns) {
+  std::vector<FigureCaption> figures = {
+      {"sheet.png", page.title,
+       joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
+               numbers_text(columns), joined(page.notes), facts_text(columns),
+               origin_words(command, columns.front().manifest)})}};
+  std::vector<std::string> plots;
+  for (const fs::path& file : files_ending(run.folder(), ".png"))
+    if (is_plot(file)) plots.push_back(file.stem().string());
+  for (const std::string& stem : plots) {
+    figures.push_back({stem + ".png", page.title + ": " + plotted(stem),
+                       joined({shown_in(stem, columns), columns_text(columns),
+                               "Runs, numbers and command are those of sheet.png."})});
+  }
+  write_captions(run.path("README.md"), page.title,
+                 "What the figures of this folder show, in words from the runs' manifests.", figures);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,170 @@
+#include "experiments/workbench/compare/errors.h"
+
+#include <algorithm>
+
+#include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/compare/columns.h"
+#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/pages/error_words.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kFiner = 4;  // times the triangles
+
+// Structured ones; those of a tube close at its seam.
+std::vector<std::string> other_families(const Scene& scene) {
+  if (scene.mesh == "random") return {};
+  std::vector<std::string> families = {"unionjack", "equilateral"};
+  if (scene.cloth.shape == "tube") families = {"unionjack", "flipped"};
+  std::erase(families, scene.mesh);
+  return families;
+}
+
+// Draw 1, 2 ...: other families first, then random meshes of other seeds.
+std::vector<Flag> drawn_mesh(const Scene& scene, int draw) {
+  const std::vector<std::string> families = other_families(scene);
+  const int random = draw - static_cast<int>(families.size());
+  if (random <= 0) return {{"mesh", families[static_cast<std::size_t>(draw) - 1]}};
+  return {{"mesh", "random"}, {"seed", std::to_string(scene.seed + static_cast<unsigned>(random))}};
+}
+
+// Draw 1, 2 ...: 3/2, 2/3, 2, 1/2 ... times the triangles.
+std::vector<Flag> drawn_number(const Scene& scene, int draw) {
+  const int halves = 2 + (draw + 1) / 2;
+  const int number = draw % 2 ? scene.triangles / 2 * halves : scene.triangles * 2 / halves;
+  return {{"triangles", std::to_string(number)}};
+}
+
+bool from_a_file(const Scene& scene) { return scene.cloth.shape == "file" || scene.mesh.ends_with(".obj"); }
+
+// What is the run's own, or of its pictures.
+bool is_passed_on(const Flag& flag) {
+  static const std::vector<std::string> kNames = {"out",    "json",    "quiet", "resume",    "threads",
+                                                  "errors", "explain", "look",  "reference", "export"};
+  return !flag.path.starts_with("errors.") && !std::count(kNames.begin(), kNames.end(), flag.path);
+}
+
+ComparedColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
+  std::vector<Flag> flags;
+  std::copy_if(line.flags.begin(), line.flags.end(), std::back_inserter(flags), is_passed_on);
+  flags = with_later(flags, repeat.changes);
+  // A scene's file may say otherwise.
+  flags = with_later(flags, {{"errors", "false"}, {"json", "false"}, {"no-images", "true"}});
+  flags = with_later(flags, {{"look", "cloth"}, {"export", "none"}});
+  ComparedColumn column;
+  column.name = repeat.name;
+  column.words = {line.experiment};
+  for (const Flag& flag : flags) column.words.push_back("--" + flag.path + "=" + flag.text);
+  column.folder = run.folder() / "errors" / repeat.name;
+  return column;
+}
+
+// How the run's cloth was let go, from what it noted: "drape.release" is `release` of "drape".
+std::string release_of(const Run& run, const Headlines& headlines) {
+  const std::size_t dot = headlines.release.find('.');
+  if (dot == std::string::npos) return "";
+  return run.noted(headlines.release.substr(0, dot)).at(headlines.release.substr(dot + 1));
+}
+
+std::string changes_text(const std::vector<Flag>& flags) {
+  std::string text;
+  for (const Flag& flag : flags) text += (text.empty() ? "" : " ") + flag.path + "=" + flag.text;
+  return text;
+}
+
+Json entry(const Json& manifest, const char* key) {
+  return manifest.is_object() ? manifest.value(key, Json()) : Json();
+}
+
+Json metrics_in(const Json& manifest) {
+  const Json metrics = entry(manifest, "metrics");
+  return metrics.is_object() ? metrics : Json::object();
+}
+
+Repeated what_came_of(const Repeat& repeat, const ComparedColumn& column, const Run& run) {
+  const Json state = entry(column.manifest, "state_hash");
+  return {repeat, metrics_in(column.manifest), column.stopped,
+          state.is_string() && state == run.noted("state_hash")};
+}
+
+// errors.csv: a row for each repeat.
+void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<Repeat>& repeats,
+                 const std::vector<ComparedColumn>& columns) {
+  std::vector<std::string> head = {"repeat", "differs"};
+  head.insert(head.end(), metrics.begin(), metrics.end());
+  head.insert(head.end(), {"wall_s", "complete", "stopped"});
+  AtomicFile file(run.path("errors.csv").string());
+  file.stream() << row_of(head);
+  for (std::size_t i = 0; i < repeats.size(); ++i) {
+    const Json found = metrics_in(columns[i].manifest);
+    std::vector<std::string> fields = {repeats[i].name, changes_text(repeats[i].changes)};
+    for (const std::string& name : metrics) {
+      const Json value = found.value(name, Json());
+      fields.push_back(value.is_number() ? number_text(value.get<double>()) : "");
+    }
+    const Json wall = entry(columns[i].manifest, "wall_seconds");
+    fields.push_back(wall.is_object() ? number_field(wall.value("total", 0.0)) : "");
+    fields.push_back(columns[i].stopped.empty() ? "1" : "0");
+    fields.push_back(columns[i].stopped);
+    file.stream() << row_of(fields);
+  }
+  file.commit();
+}
+
+}  // namespace
+
+std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
+                               int draws) {
+  const Headlines& headlines = *headlines_of(experiment);
+  std::vector<Repeat> repeats;
+  const bool meshed = !from_a_file(scene);
+  // The longest first: they run side by side.
+  if (meshed) repeats.push_back({"mesh", {{"triangles", std::to_string(kFiner * scene.triangles)}}});
+  if (!headlines.equilibria) repeats.push_back({"step", {{"step", number_text(scene.step / 2)}}});
+  for (int draw = 1; meshed && draw <= draws; ++draw)
+    repeats.push_back({"draw-" + std::to_string(draw),
+                       headlines.own_mesh ? drawn_number(scene, draw) : drawn_mesh(scene, draw)});
+  const auto other = std::find_if(headlines.paths.begin(), headlines.paths.end(),
+                                  [&](const std::string& path) { return path != release; });
+  if (other != headlines.paths.end()) repeats.push_back({"path", {{headlines.release, *other}}});
+  return repeats;
+}
+
+void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
+  const auto stage = run.stage("errors");
+  run.keep();
+  const Headlines& headlines = *headlines_of(line.experiment);
+  const std::vector<Repeat> repeats =
+      repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
+  std::vector<ComparedColumn> columns;
+  for (const Repeat& repeat : repeats) columns.push_back(column_of(run, line, repeat));
+  ColumnJobs jobs;
+  jobs.at_once = setup.options.errors_jobs;
+  jobs.cores = setup.scene.threads;
+  jobs.gpu = setup.scene.device != "cpu";
+  jobs.go_on = true;
+  run_columns(
+      columns, jobs,
+      [&](const ComparedColumn& column) {
+        run.progress("errors, " + column.name + ": " +
+                     (column.kept              ? "kept"
+                      : column.stopped.empty() ? "done"
+                                               : column.stopped));
+      },
+      [&](const std::string& line) { run.progress("errors: " + line); });
+  write_table(run, headlines.metrics, repeats, columns);
+  std::vector<Repeated> found;
+  for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
+  const Errors errors = errors_of(line.experiment, run.metrics(), found);
+  for (const auto& [name, value] : errors.metrics.items()) run.metric(name, value);
+  if (!errors.missing.empty()) run.note("errors_missing", errors.missing);
+  for (const std::string& name : headlines.metrics)
+    if (is_headline(run.metrics(), name)) run.progress(with_errors(run.metrics(), name));
+  for (const std::string& sentence : errors.missing) run.progress("errors: " + sentence);
+}
+
+}  // namespace hysteron::experiments

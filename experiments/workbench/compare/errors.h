@@ -1,0 +1,48 @@
+// Every headline number carries its error (--errors): the run again at half the step, with four times the
+// triangles, on other meshes and, where release matters, along the other path.
+//
+//   run -> repeats (a process each, in OUT/errors/NAME/) -> <metric>_step_error ... , OUT/errors.csv
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+
+namespace hysteron::experiments {
+
+// One run more: what differs from the first.  Its name is "step", "mesh", "path" or "draw-1", "draw-2" ...
+struct Repeat {
+  std::string name;
+  std::vector<Flag> changes;
+};
+// Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  A cloth whose
+// triangles come from a file has no other mesh.
+std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
+                               int draws);
+
+// What came of one.
+struct Repeated {
+  Repeat repeat;
+  Json metrics = Json::object();
+  std::string stopped{};   // why it is not complete; empty: it is
+  bool unchanged = false;  // it ended in the run's own state, bit for bit
+};
+
+// For each headline among the metrics of the run:
+//   _step_error, _mesh_error   |its value there - the run's|
+//   _draw_error                standard deviation over the run and the draws
+//   _mean, _mean_stderr        of the same, from three draws on
+//   _path_difference           its value there - the run's
+// An error that is not known is null, and a sentence says why.
+struct Errors {
+  Json metrics = Json::object();
+  std::vector<std::string> missing;
+};
+Errors errors_of(const std::string& experiment, const Json& metrics, const std::vector<Repeated>& repeats);
+
+// Runs the repeats of a run whose metrics are known, adds its errors to them, the sentences as
+// `errors_missing`, and writes errors.csv.  Throws Error::machine.
+void measure_errors(Run& run, const CommandLine& line, const Setup& setup);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,59 @@
+#include "experiments/workbench/compare/matching.h"
+
+#include <cmath>
+
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kSteps = 2000;          // to the curvature
+constexpr double kAlmostFlat = 1e-6;  // of k0: where the slope at rest is taken
+constexpr double kExact = 1e-9;       // relative
+constexpr int kMostIterations = 60;
+
+double measure(LawRequest law, double scale, Match match, double curvature) {
+  law.curve.b1 *= scale;
+  law.curve.b2 *= scale;
+  return match == Match::energy ? bending_work(law, curvature) : initial_stiffness(law);
+}
+
+}  // namespace
+
+Match match_named(const std::string& name) {
+  if (name == "fabric") return Match::fabric;
+  if (name == "small-strain") return Match::small_strain;
+  if (name == "energy") return Match::energy;
+  throw Error::request("match = " + name + " must be fabric | small-strain | energy");
+}
+
+double bending_work(const LawRequest& law, double curvature) {
+  std::vector<LawRow> rows(kSteps + 1);
+  for (int i = 0; i <= kSteps; ++i) rows[i] = {curvature * i / kSteps, i == 0 ? 0.0 : 1.0 / kSteps};
+  const LawRun run = run_law(law, rows);
+  double work = 0;
+  for (int i = 0; i < kSteps; ++i) work += (run.moment[i] + run.moment[i + 1]) / 2 * curvature / kSteps;
+  return work;
+}
+
+double initial_stiffness(const LawRequest& law) {
+  const double flat = kAlmostFlat * law.curve.k0;
+  return run_law(law, {{0, 0}, {flat, 1e-6}}).moment.back() / flat;
+}
+
+// Moments of nearly all laws are proportional to b1 and b2; then the first step is exact.
+double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature) {
+  if (match == Match::fabric) return 1;
+  const double wanted = measure(reference, 1, match, curvature);
+  double scale = 1;
+  for (int k = 0; k < kMostIterations; ++k) {
+    const double found = measure(law, scale, match, curvature);
+    if (std::abs(found / wanted - 1) <= kExact) return scale;
+    scale *= wanted / found;
+    if (!(scale > 0) || !std::isfinite(scale)) break;
+  }
+  throw Error::request("law " + law.name + " cannot be made as stiff as " + reference.name +
+                       " by scaling b1 and b2");
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,28 @@
+// Laws of equal stiffness: what a comparison has to agree on before it compares anything else.
+#pragma once
+
+#include <string>
+
+#include "sim/bending/laws/law_run.h"
+
+namespace hysteron::experiments {
+
+enum class Match {
+  fabric,        // each law makes of b1, b2 and k0 what its own definition says; nothing is changed
+  small_strain,  // equal slopes of the moment at rest
+  energy,        // equal work to bend from flat to a given curvature
+};
+
+// "fabric", "small-strain" or "energy"; Error::request for anything else.
+Match match_named(const std::string& name);
+
+// The number by which b1 and b2 of `law` have to be multiplied (k0 stays) so that it is as stiff as
+// `reference`; `curvature` is that of Match::energy [1/m], reached in one second by laws that take time.
+// Error::request as run_law(), or if no number makes them equal to 1e-9.
+double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
+
+// Work to bend from flat to `curvature`, stored or lost [J/m^2]; slope of the moment at rest [N m].
+double bending_work(const LawRequest& law, double curvature);
+double initial_stiffness(const LawRequest& law);
+
+}  // namespace hysteron::experiments

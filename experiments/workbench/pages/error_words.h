@@ -1,0 +1,34 @@
+// How headline numbers are written with their errors, from the metrics of a manifest:
+//   "drape coefficient 86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw".
+#pragma once
+
+#include <string>
+
+#include "experiments/workbench/app/run.h"
+
+namespace hysteron::experiments {
+
+// Endings of the metrics that errors.h adds to a headline.
+inline constexpr const char* kStepError = "_step_error";
+inline constexpr const char* kMeshError = "_mesh_error";
+inline constexpr const char* kDrawError = "_draw_error";
+inline constexpr const char* kDrawMean = "_mean";
+inline constexpr const char* kDrawMeanError = "_mean_stderr";
+inline constexpr const char* kPathDifference = "_path_difference";
+
+// Whether the metric's errors were asked for.
+bool is_headline(const Json& metrics, const std::string& name);
+// The headline that this metric is an error, a mean or a difference of; "" if none.
+std::string headline_of(const Json& metrics, const std::string& name);
+
+// A headline in parts.  Errors have one significant digit, two if the first is 1, and the value ends where
+// the largest of them does.  An error that could not be measured is said to be unknown.
+struct HeadlineWords {
+  std::string value, unit, errors;  // "86.0", "%", "± 0.10 step ± 0.6 mesh ± 0.8 draw"
+};
+HeadlineWords headline_words(const Json& metrics, const std::string& name);
+
+// Name, value, unit and errors in one line; without errors for a number that is no headline.
+std::string with_errors(const Json& metrics, const std::string& name);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,16 @@
+// One exhibit of a gallery as HTML.
+#pragma once
+
+#include "experiments/workbench/pages/gallery_folders.h"
+
+namespace hysteron::experiments {
+
+// "stability/bdf2" -> "stability-bdf2": name of its place on the page.
+std::string anchor_of(const Exhibit& exhibit);
+
+// Heading, contact sheet, metrics, pictures and plots, series, tables, the command, links to the files.
+// Pictures are embedded shrunk and link to the file, relative to the gallery.  Throws Error::request, naming
+// the file, if a picture, a table or a manifest is broken.
+std::string exhibit_html(const Exhibit& exhibit);
+
+}  // namespace hysteron::experiments

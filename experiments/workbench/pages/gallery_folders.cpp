@@ -1,0 +1,123 @@
+#include "experiments/workbench/pages/gallery_folders.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_check.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/pictures.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// Others follow in the order of their names.
+constexpr const char* kOrder[] = {"compare", "drape",   "swing",    "crease",     "fold",
+                                  "crumple", "render",  "kes",      "cantilever", "buckle",
+                                  "law",     "figures", "fit",      "accuracy",   "stability",
+                                  "bench",   "speed",   "validate", "scenes"};
+
+std::ptrdiff_t place_of(const std::string& experiment) {
+  return std::find(std::begin(kOrder), std::end(kOrder), experiment) - std::begin(kOrder);
+}
+
+// A link to a folder through which it was reached has no last subfolder.
+void refuse_loop(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_symlink(folder, ignored)) return;
+  const fs::path target = fs::canonical(folder, ignored);
+  for (fs::path above = folder.parent_path(); !above.empty(); above = above.parent_path()) {
+    if (fs::canonical(above, ignored) == target)
+      throw Error::request(folder.string() + " is a link back to " + above.string() + ": remove it");
+    if (above == above.parent_path()) return;
+  }
+}
+
+std::vector<fs::path> subfolders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code failure, ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    const std::string name = entry.path().filename().string();
+    const bool sequence = name == "frames" || name.starts_with("frames-") || name == "film" || name == "mesh";
+    if (!entry.is_directory(ignored) || name.starts_with('.') || sequence) continue;
+    refuse_loop(entry.path());
+    found.push_back(entry.path());
+  }
+  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// A list, a table or another run's manifest.
+Json read_list(const fs::path& file) {
+  Json json = read_json(file);
+  if (is_manifest(json)) check_manifest(json, file);
+  return json;
+}
+
+// `beside` receives the subfolders of a folder that is no run.
+void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside);
+
+Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
+  Exhibit exhibit{name, folder, {}, {}, {}};
+  for (const fs::path& file : files_ending(folder, ".json")) {
+    if (file.filename() == "manifest.json") {
+      exhibit.manifest = read_manifest(file);
+    } else {
+      exhibit.lists.emplace_back(file, read_list(file));
+    }
+  }
+  for (const fs::path& sub : subfolders(folder)) {
+    collect(sub, name + "/" + sub.filename().string(), exhibit.manifest.is_null() ? beside : exhibit.parts);
+  }
+  return exhibit;
+}
+
+bool holds_anything(const Exhibit& exhibit) {
+  const auto any = [&](const char* ending) { return !files_ending(exhibit.folder, ending).empty(); };
+  return !exhibit.manifest.is_null() || !exhibit.lists.empty() || any(".png") || any(".svg") || any(".csv") ||
+         !files_ending(exhibit.folder / "frames", ".png").empty();
+}
+
+void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
+  Exhibit exhibit = exhibit_of(folder, name, beside);
+  if (holds_anything(exhibit)) beside.push_back(std::move(exhibit));
+}
+
+}  // namespace
+
+std::string Exhibit::experiment() const {
+  if (!manifest.is_null()) return manifest.value("experiment", "run");
+  return name.substr(0, name.find_first_of("/-"));
+}
+
+bool Exhibit::has_pictures() const {
+  const auto any = [](const Exhibit& part) { return part.has_pictures(); };
+  return !files_ending(folder, ".png").empty() || std::any_of(parts.begin(), parts.end(), any);
+}
+
+std::vector<ExhibitGroup> exhibits_in(const fs::path& gallery) {
+  std::vector<Exhibit> all;
+  for (const fs::path& folder : subfolders(gallery)) collect(folder, folder.filename().string(), all);
+  if (all.empty()) {
+    throw Error::request("nothing to show in " + gallery.string() +
+                         ": neither it nor its subfolders hold a manifest.json, pictures or tables");
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Exhibit& a, const Exhibit& b) {
+    const auto key = [](const Exhibit& e) {
+      return std::tuple(place_of(e.experiment()), e.experiment(), !e.has_pictures(), e.name);
+    };
+    return key(a) < key(b);
+  });
+  std::vector<ExhibitGroup> groups;
+  for (Exhibit& exhibit : all) {
+    const std::string experiment = exhibit.experiment();
+    if (groups.empty() || groups.back().experiment != experiment) groups.push_back({experiment, {}});
+    groups.back().exhibits.push_back(std::move(exhibit));
+  }
+  return groups;
+}
+
+}  // namespace hysteron::experiments

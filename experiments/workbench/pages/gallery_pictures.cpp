@@ -1,0 +1,134 @@
+#include "experiments/workbench/pages/gallery_pictures.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "experiments/workbench/pages/gallery_about.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/page.h"
+#include "experiments/workbench/pages/pictures.h"
+#include "sim/base/whole_file.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 900;                        // [pixels] of an embedded picture
+constexpr std::uintmax_t kLargestDrawing = 60000;  // [byte] SVG files above this are linked, and shown as PNG
+constexpr int kMostFrames = 12;
+
+// What names of files mean, see Options::look and Options::light.
+std::string words_of(std::string stem) {
+  static const std::map<std::string, std::string> kWords = {
+      {"sheet", "contact sheet"},
+      {"shadow", "shadow, from above"},
+      {"curvature", "curvature, drawn in colours"},
+      {"friction", "bending friction, drawn in colours"},
+      {"residual", "residual curvature, drawn in colours"},
+      {"raking", "in raking light, as wrinkles are photographed"}};
+  if (const auto known = kWords.find(stem); known != kWords.end()) return known->second;
+  if (stem.starts_with("plot_")) stem.replace(0, 5, "plot: ");
+  std::replace(stem.begin(), stem.end(), '_', ' ');
+  std::replace(stem.begin(), stem.end(), '-', ' ');
+  return stem;
+}
+
+// Captions that the run wrote into FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
+std::map<std::string, std::string> written_captions(const fs::path& folder) {
+  std::map<std::string, std::string> captions;
+  const fs::path readme = folder / "README.md";
+  if (!is_there(readme)) return captions;
+  std::istringstream stream(whole_file(readme, "cannot read " + readme.string()));
+  std::string file;
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t open = line.find("]("), close = line.rfind(')');
+    if (line.starts_with("![") && open != line.npos && close != line.npos && close > open) {
+      file = line.substr(open + 2, close - open - 2);
+    } else if (line.starts_with("**") && !file.empty()) {
+      for (std::size_t stars; (stars = line.find("**")) != line.npos;) line.erase(stars, 2);
+      line.erase(std::remove(line.begin(), line.end(), '`'), line.end());
+      captions[file] = line;
+      file.clear();
+    }
+  }
+  return captions;
+}
+
+// ": cotton-broad, law prandtl, 0 to 3.67 s"
+std::string subject_words(const Json& manifest) {
+  std::string words = subject_of(manifest);
+  const Json seconds = manifest.value("seconds_simulated", Json());
+  if (seconds.is_number())
+    words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(seconds.get<double>()));
+  return words.empty() ? "" : ": " + words;
+}
+
+// Plots are written as PNG and SVG.
+bool is_drawn(const fs::path& file) {
+  return is_plot(file) || is_there(fs::path(file).replace_extension(".svg"));
+}
+
+struct Picture {
+  fs::path file;        // PNG, or SVG where there is no PNG
+  std::string link;     // relative to the gallery
+  std::string caption;  // text
+};
+
+// Of the exhibit and its parts, the contact sheet first and plots last.
+std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& prefix) {
+  std::vector<fs::path> files = files_ending(exhibit.folder, ".png");
+  for (const fs::path& file : files_ending(exhibit.folder, ".svg")) {
+    if (!is_there(fs::path(file).replace_extension(".png"))) files.push_back(file);
+  }
+  std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const auto rank = [](const fs::path& f) { return f.stem() == "sheet" ? 0 : is_drawn(f) ? 2 : 1; };
+    return rank(a) < rank(b);
+  });
+  std::map<std::string, std::string> captions = written_captions(exhibit.folder);
+  std::vector<Picture> pictures;
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string(), written = captions[name];
+    std::string caption = written;
+    if (written.empty()) {
+      caption = prefix + words_of(file.stem().string());
+      caption[0] = static_cast<char>(std::toupper(caption[0]));
+      if (file.stem() == "sheet" && !exhibit.manifest.is_null()) caption += subject_words(exhibit.manifest);
+    }
+    pictures.push_back({file, exhibit.name + "/" + name, caption});
+  }
+  for (const Exhibit& part : exhibit.parts) {
+    const std::string name = fs::path(part.name).filename().string();
+    for (const Picture& picture : pictures_of(part, prefix + name + ": ")) pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+std::string figure(const Exhibit& exhibit, const Picture& picture) {
+  const fs::path drawing = fs::path(picture.file).replace_extension(".svg");
+  const bool drawn = is_there(drawing);
+  const bool as_drawing = drawn && (drawing == picture.file || fs::file_size(drawing) <= kLargestDrawing);
+  const std::string words = exhibit.name + ": " + picture.caption.substr(0, picture.caption.find(". "));
+  const std::string image = as_drawing ? embedded_image(bytes_of(drawing), "image/svg+xml", words)
+                                       : embedded_image(thumbnail(picture.file, kWidth), "image/png", words);
+  const std::string svg = fs::path(picture.link).replace_extension(".svg").string();
+  return "<figure><a class=\"zoom\" href=\"" + url_of(as_drawing ? svg : picture.link) + "\">" + image +
+         "</a><figcaption>" + escaped(picture.caption) +
+         (drawn && !as_drawing ? " (" + html_link(svg, "SVG") + ")" : "") + "</figcaption></figure>\n";
+}
+
+}  // namespace
+
+std::string pictures_html(const Exhibit& exhibit) {
+  std::string large, beside, plots;
+  for (const Picture& picture : pictures_of(exhibit, "")) {
+    const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
+    (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture);
+  }
+  const auto grid = [](const std::string& kind, const std::string& figures) {
+    return figures.empty() ? "" : "<div class=\"" + kind + "\">\n" + figures + "</div>\n";
+  };
+  return large + player(exhibit.folder, kMostFrames) + grid("grid", beside) + grid("grid wide", plots);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,79 @@
+#include "experiments/workbench/pages/metrics.h"
+
+#include <algorithm>
+#include <map>
+
+#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/page.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// A metric's unit stands elsewhere.
+HeadlineWords words_of(const Json& metrics, const std::string& key) {
+  if (is_headline(metrics, key)) return headline_words(metrics, key);
+  return {shown(metrics[key]), split_unit(key).unit, ""};
+}
+
+std::string spaced(const std::string& a, const std::string& b) {
+  return a + (a.empty() || b.empty() ? "" : " ") + b;
+}
+
+}  // namespace
+
+std::string metric_cards(const Json& metrics) {
+  std::string cards;
+  for (const auto& [key, value] : metrics.items()) {
+    if (key.find('.') != key.npos || !headline_of(metrics, key).empty()) continue;
+    const HeadlineWords words = words_of(metrics, key);
+    cards += "<div class=\"card\"><b>" + escaped(words.value) + " <small>" +
+             escaped(spaced(words.unit, words.errors)) + "</small></b><span>" +
+             escaped(split_unit(key).name) + "</span></div>\n";
+  }
+  return cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n";
+}
+
+std::string metric_table(const Json& metrics) {
+  std::vector<std::string> names, keys;
+  const auto once = [](std::vector<std::string>& known, const std::string& word) {
+    if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
+  };
+  std::map<std::string, Json> of;  // by name
+  for (const auto& [key, value] : metrics.items()) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    once(names, key.substr(0, dot));
+    of[key.substr(0, dot)][key.substr(dot + 1)] = value;
+  }
+  if (names.empty()) return "";
+  for (const auto& [key, value] : metrics.items()) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    if (headline_of(of[key.substr(0, dot)], key.substr(dot + 1)).empty()) once(keys, key.substr(dot + 1));
+  }
+  std::vector<std::string> head = {""};
+  std::vector<std::size_t> numeric;
+  for (const std::string& key : keys) {
+    numeric.push_back(head.size());
+    head.push_back(split_unit(key).text());
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& name : names) {
+    rows.push_back({name});
+    for (const std::string& key : keys) {
+      const HeadlineWords words = of[name].contains(key) ? words_of(of[name], key) : HeadlineWords{};
+      rows.back().push_back(spaced(words.value, words.errors));
+    }
+  }
+  return html_table(head, rows, numeric);
+}
+
+std::string missing_errors(const Json& manifest) {
+  std::string text;
+  const Json missing = manifest.value("errors_missing", Json::array());
+  for (const Json& sentence : missing) text += (text.empty() ? "" : "; ") + sentence.get<std::string>();
+  return text.empty() ? "" : "<p class=\"about\">Errors that are not known: " + escaped(text) + ".</p>\n";
+}
+
+}  // namespace hysteron::experiments

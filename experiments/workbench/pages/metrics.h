@@ -1,0 +1,17 @@
+// A run's metrics as pieces of a page; headlines stand there with their errors.
+#pragma once
+
+#include <string>
+
+#include "experiments/workbench/app/run.h"
+
+namespace hysteron::experiments {
+
+// Metrics of the run itself.
+std::string metric_cards(const Json& metrics);
+// Metrics of several laws or fabrics, "prandtl.2HB_N": a row for each, a column for each metric.  "" if none.
+std::string metric_table(const Json& metrics);
+// Why some errors of the manifest's headlines are not known.  "" if all are.
+std::string missing_errors(const Json& manifest);
+
+}  // namespace hysteron::experiments

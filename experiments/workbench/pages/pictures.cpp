@@ -1,0 +1,92 @@
+#include "experiments/workbench/pages/pictures.h"
+
+#include <algorithm>
+#include <sstream>
+#include <thread>
+
+#include "experiments/workbench/pages/page.h"
+#include "render/contact_sheet.h"
+#include "render/palette.h"
+#include "sim/base/csv.h"
+#include "sim/base/parallel.h"
+#include "sim/base/whole_file.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kColors = 128;      // of a thumbnail; shading shows no steps yet
+constexpr int kFrameWidth = 480;  // [pixels]
+
+// Columns of a CSV file as its first line names them; empty if the file has no row.
+std::vector<std::string> columns_of(const fs::path& file) {
+  if (!is_there(file)) return {};
+  std::istringstream stream(whole_file(file, "cannot read " + file.string()));
+  std::string header, row, name;
+  if (!std::getline(stream, header) || !std::getline(stream, row)) return {};
+  std::vector<std::string> columns;
+  for (std::istringstream names(header); std::getline(names, name, ',');) columns.push_back(name);
+  return columns;
+}
+
+}  // namespace
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+std::vector<fs::path> files_ending(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file(ignored) && entry.path().extension() == ending) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::uint8_t> bytes_of(const fs::path& file) {
+  const std::string bytes = whole_file(file, "cannot read " + file.string());
+  return {bytes.begin(), bytes.end()};
+}
+
+bool is_plot(const fs::path& file) { return file.filename().string().starts_with("plot_"); }
+
+std::vector<std::uint8_t> thumbnail(const fs::path& file, int width) {
+  const render::Image picture = render::read_png(file);
+  const int w = std::min(width, picture.width()), h = std::max(1, picture.height() * w / picture.width());
+  return encode_png(render::in_few_colors(shrink(picture, w, h), kColors));
+}
+
+std::string player(const fs::path& folder, int count) {
+  const std::vector<fs::path> frames = files_ending(folder / "frames", ".png");
+  if (frames.empty()) return "";
+  const std::vector<int> chosen = render::spread(static_cast<int>(frames.size()), count);
+  std::vector<std::string> figures(chosen.size());
+  in_parallel(chosen.size(), static_cast<int>(std::thread::hardware_concurrency()), [&](std::size_t i) {
+    const fs::path& file = frames[static_cast<std::size_t>(chosen[i])];
+    figures[i] =
+        embedded_picture(thumbnail(file, kFrameWidth), "image/png", "frames/" + file.filename().string());
+  });
+  std::string html;
+  for (const std::string& figure : figures) html += figure;
+  return "<div class=\"player\"><div class=\"strip\">\n" + html + "</div></div>\n";
+}
+
+std::string series_charts(const fs::path& folder, bool with_energies) {
+  const fs::path file = folder / "metrics.csv";
+  const std::vector<std::string> columns = columns_of(file);
+  if (columns.size() < 2) return "";
+  const Table table = read_csv(file, columns, {}, "report");
+  std::string charts;
+  for (std::size_t i = 1; i < columns.size(); ++i) {
+    if (!with_energies && columns[i].ends_with("[J]")) continue;
+    std::string title = columns[i];
+    std::replace(title.begin(), title.end(), '_', ' ');
+    charts += line_chart(title, table.find(columns[0])->values, columns[0], table.find(columns[i])->values);
+  }
+  return charts.empty() ? "" : "<div class=\"charts\">\n" + charts + "</div>\n";
+}
+
+}  // namespace hysteron::experiments

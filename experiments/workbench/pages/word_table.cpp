@@ -1,0 +1,159 @@
+#include "experiments/workbench/pages/word_table.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/page.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Walks through the text of a file, field by field.
+struct Reader {
+  const std::string& text;
+  const std::string& name;  // of the file
+  std::size_t at = 0;
+  int line = 1;
+
+  bool done() const { return at >= text.size(); }
+  Error error(const std::string& what) const {
+    return Error::request(name + ":" + std::to_string(line) + ": " + what);
+  }
+
+  std::string quoted() {
+    std::string field;
+    const int start = line;
+    for (++at; !done(); ++at) {
+      if (text[at] == '"' && (++at >= text.size() || text[at] != '"')) return field;
+      line += text[at] == '\n';
+      field += text[at];
+    }
+    line = start;
+    throw error("a quote is not closed");
+  }
+
+  std::vector<std::string> row() {
+    std::vector<std::string> fields(1);
+    for (; !done() && text[at] != '\n';) {
+      if (text[at] == '"') {
+        fields.back() += quoted();
+      } else if (const char c = text[at++]; c == ',') {
+        fields.emplace_back();
+      } else if (c != '\r') {
+        fields.back() += c;
+      }
+    }
+    return fields;
+  }
+};
+
+bool is_number(const std::string& text, double& value) {
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return failure == std::errc() && end == text.data() + text.size();
+}
+
+// Six significant digits of a number that has more, other texts as they are.
+std::string short_field(const std::string& text) {
+  double value = 0;
+  const bool exact = text.find_first_of(".e") == text.npos;
+  return exact || text.size() < 8 || !is_number(text, value) ? text : number_field(value);
+}
+
+bool numeric(const WordTable& table, std::size_t column) {
+  bool any = false;
+  for (const auto& row : table.rows) {
+    double value = 0;
+    if (row[column].empty()) continue;
+    if (!is_number(row[column], value)) return false;
+    any = true;
+  }
+  return any;
+}
+
+bool same_everywhere(const WordTable& table, std::size_t column) {
+  return std::all_of(table.rows.begin(), table.rows.end(),
+                     [&](const auto& row) { return row[column] == table.rows[0][column]; });
+}
+
+// "set_curvature_per_m" and "set_curvature [1/m]" are both "set curvature [1/m]".
+std::string column_name(std::string name) {
+  if (name.find('[') == name.npos) return split_unit(name).text();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+WordTable read_words(const std::filesystem::path& file) {
+  const std::string name = file.string(), text = whole_file(file, "cannot read " + name);
+  WordTable table;
+  for (Reader reader{text, name}; !reader.done(); ++reader.at, ++reader.line) {
+    std::vector<std::string> row = reader.row();
+    if (row.size() == 1 && row[0].empty()) continue;
+    if (table.head.empty()) {
+      table.head = std::move(row);
+      continue;
+    }
+    if (row.size() != table.head.size())
+      throw reader.error(std::to_string(row.size()) + " fields, must be " +
+                         std::to_string(table.head.size()));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+WordTable table_of(const Json& objects) {
+  WordTable table;
+  for (const Json& object : objects) {
+    std::ptrdiff_t place = 0;  // behind the key before it in this object
+    for (const auto& [key, value] : object.items()) {
+      const auto known = std::find(table.head.begin(), table.head.end(), key);
+      if (known != table.head.end()) {
+        place = known - table.head.begin() + 1;
+      } else if (!value.is_structured()) {
+        table.head.insert(table.head.begin() + place++, key);
+      }
+    }
+  }
+  for (const Json& object : objects) {
+    table.rows.emplace_back();
+    for (const std::string& key : table.head) {
+      const bool there = object.contains(key) && !object[key].is_null();
+      table.rows.back().push_back(there ? shown(object[key]) : "");
+    }
+  }
+  return table;
+}
+
+std::string take_common(WordTable& table) {
+  std::string common;
+  if (table.rows.size() < 2) return common;
+  for (std::size_t c = table.head.size(); c-- > 0;) {
+    if (!same_everywhere(table, c)) continue;
+    const std::string value = table.rows[0][c];
+    if (!value.empty()) {
+      common = column_name(table.head[c]) + ": " + short_field(value) + (common.empty() ? "" : ", ") + common;
+    }
+    table.head.erase(table.head.begin() + static_cast<std::ptrdiff_t>(c));
+    for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+  }
+  return common;
+}
+
+std::string html_of(const WordTable& table) {
+  std::vector<std::string> head;
+  std::vector<std::size_t> right;
+  for (std::size_t c = 0; c < table.head.size(); ++c) {
+    head.push_back(column_name(table.head[c]));
+    if (numeric(table, c)) right.push_back(c);
+  }
+  std::vector<std::vector<std::string>> rows = table.rows;
+  for (auto& row : rows) std::transform(row.begin(), row.end(), row.begin(), short_field);
+  return html_table(head, rows, right);
+}
+
+}  // namespace hysteron::experiments

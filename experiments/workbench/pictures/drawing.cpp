@@ -1,0 +1,59 @@
+#include "experiments/workbench/pictures/drawing.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kThumbnailWidth = 640;                // [pixels]
+const Eigen::Vector3f kRaking{0.94f, 0.2f, 0.25f};  // light from the left, a little from the front and above
+constexpr float kRakingRoom = 0.22f;                // in a dim room
+
+}  // namespace
+
+render::Camera camera_of(const Options& options, const render::Box& bounds) {
+  const float aspect = static_cast<float>(options.width()) / static_cast<float>(options.height());
+  return render::Camera::framing(bounds, options.camera_direction.cast<float>(),
+                                 static_cast<float>(options.camera_fov), aspect);
+}
+
+render::Look lit(render::Look look, const Options& options) {
+  look.background = render::background_named(options.background);
+  if (options.light != "raking") return look;
+  const Eigen::Vector3f back = options.camera_direction.cast<float>().normalized();
+  const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();
+  look.room = kRakingRoom;
+  look.to_light = kRaking.x() * left + kRaking.y() * back + kRaking.z() * Eigen::Vector3f::UnitZ();
+  return look;
+}
+
+void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
+            const std::string& caption, const std::optional<render::ColorBar>& bar) {
+  render::draw_caption(image, caption, render::Corner::top_left);
+  render::draw_scale_bar(image, camera.metres_per_pixel(middle, image.height()), render::Corner::bottom_left,
+                         "at the cloth's middle");
+  if (bar) render::draw_color_bar(image, *bar, render::Corner::bottom_right);
+}
+
+render::Image thumbnail(const render::Image& image) {
+  const int width = std::min(kThumbnailWidth, image.width());
+  return render::shrink(image, width, std::max(1, image.height() * width / image.width()));
+}
+
+std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face) {
+  std::vector<int> corners;
+  corners.reserve(3 * face.size());
+  for (const Eigen::Vector3i& f : face) corners.insert(corners.end(), {f[0], f[1], f[2]});
+  return corners;
+}
+
+std::vector<float> flat_points(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<float> xyz;
+  xyz.reserve(3 * points.size());
+  for (const auto& p : points)
+    for (int k = 0; k < 3; ++k) xyz.push_back(static_cast<float>(p[k]));
+  return xyz;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,31 @@
+// What pictures of runs and pictures of files have in common: camera, light and letters.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/options.h"
+#include "render/camera.h"
+#include "render/caption.h"
+#include "render/look.h"
+
+namespace hysteron::experiments {
+
+// The options' camera, as near as `bounds` stays whole.
+render::Camera camera_of(const Options& options, const render::Box& bounds);
+// The look in the options' light, "studio" or "raking", before their background.
+render::Look lit(render::Look look, const Options& options);
+
+// Caption, scale bar (it holds at `middle`) and, where there is one, colour bar.
+void letter(render::Image& image, const render::Camera& camera, const Eigen::Vector3f& middle,
+            const std::string& caption, const std::optional<render::ColorBar>& bar);
+// The picture as small as the contact sheet needs it.
+render::Image thumbnail(const render::Image& image);
+
+// Triangles and points as the renderer takes them.
+std::vector<int> flat_triangles(const std::vector<Eigen::Vector3i>& face);
+std::vector<float> flat_points(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,89 @@
+#include "experiments/workbench/pictures/mesh_pictures.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/mesh_sequence.h"
+#include "sim/base/root_mean_square.h"
+#include "sim/bending/vertex_curvature.h"
+
+namespace hysteron::experiments {
+namespace {
+
+render::Look look_of(const Options& options, double range) {
+  render::Look look = render::look_named(options.look);
+  if (look.show == render::Show::curvature) {
+    look.value_high = static_cast<float>(range);
+    look.value_low = -look.value_high;
+  }
+  return lit(look, options);
+}
+
+// With area-weighted normals.
+render::TriangleMesh matte_mesh(const Surface& surface) {
+  render::TriangleMesh mesh;
+  std::vector<Eigen::Vector3d> normal(surface.vertex.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& f : surface.face) {
+    const Eigen::Vector3d& a = surface.vertex[f[0]];
+    const Eigen::Vector3d twice_area = (surface.vertex[f[1]] - a).cross(surface.vertex[f[2]] - a);
+    for (const int v : f) {
+      normal[v] += twice_area;
+      mesh.triangles.push_back(static_cast<std::uint32_t>(v));
+    }
+  }
+  for (std::size_t v = 0; v < normal.size(); ++v) {
+    mesh.positions.push_back(surface.vertex[v].cast<float>());
+    mesh.normals.push_back(normal[v].normalized().cast<float>());
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshPictures::MeshPictures(const Options& options, const Choice& choice)
+    : options_(options),
+      choice_(choice),
+      look_(look_of(options, choice.range)),
+      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer))),
+      view_(*offscreen_, render::PictureSize{options.width(), options.height()}) {
+  view_.set_look(look_);
+  view_.set_ground(choice.ground);
+  view_.set_bounds(choice.bounds);
+}
+
+void MeshPictures::add_body(const Surface& body) {
+  view_.add_obstacle(matte_mesh(body), Eigen::Matrix4f::Identity());
+}
+
+std::vector<float> MeshPictures::curvature_of(const Surface& frame, const std::string& what) const {
+  if (!choice_.stored_curvature) return surface_curvature(frame.vertex, frame.face, what);
+  return {frame.curvature.begin(), frame.curvature.end()};
+}
+
+render::Image MeshPictures::picture(const Surface& frame, const std::string& caption,
+                                    const std::string& what) {
+  if (frame.face != face_ || frame.vertex.size() != vertices_) {
+    face_ = frame.face;
+    vertices_ = frame.vertex.size();
+    view_.set_cloth({vertices_, flat_triangles(face_), thread_coordinates(frame)});
+  }
+  view_.set_positions(flat_points(frame.vertex));
+  std::optional<render::ColorBar> bar;
+  if (look_.show == render::Show::curvature) {
+    curvature_ = curvature_of(frame, what);
+    view_.set_values(curvature_);
+    bar = {look_.map, look_.value_low, look_.value_high, "curvature", "1/m"};
+  }
+  const render::Camera camera = camera_of(options_, choice_.bounds);
+  render::Image image = view_.draw(camera);
+  letter(image, camera, choice_.bounds.center(), caption, bar);
+  return image;
+}
+
+std::optional<double> MeshPictures::curvature_rms() const {
+  if (curvature_.empty()) return {};
+  return root_mean_square(curvature_);
+}
+
+}  // namespace hysteron::experiments

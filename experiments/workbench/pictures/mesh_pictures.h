@@ -1,0 +1,52 @@
+// Pictures of surfaces from files, as runs are pictured.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/options.h"
+#include "render/camera.h"
+#include "render/cloth_view.h"
+#include "sim/mesh/surface.h"
+
+namespace hysteron::experiments {
+
+class MeshPictures {
+ public:
+  struct Choice {
+    render::Box bounds;             // framed in every picture [m]
+    std::optional<float> ground;    // height of a visible ground [m]
+    double range = 100;             // of curvature, at the ends of the colour bar [1/m]
+    bool stored_curvature = false;  // shown as the frames have it, not computed
+  };
+  // Of the options: size, renderer, look ("cloth", "curvature", "wireframe" or "silhouette"), light, camera.
+  MeshPictures(const Options& options, const Choice& choice);
+
+  const std::string& renderer() const { return offscreen_->description(); }
+  // What is drawn in every picture as obstacles are [m].
+  void add_body(const Surface& body);
+  // The frames to come belong to another cloth.
+  void begin_sequence() { face_.clear(); }
+  // `frame` [m] with its letters; `what` names it in messages.  Threads follow the first frame that has these
+  // triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::request where
+  // curvature is to be computed and the triangles allow none (surface_curvature).
+  render::Image picture(const Surface& frame, const std::string& caption, const std::string& what);
+  // Root of the mean square over the vertices last pictured [1/m]; nothing in other looks than "curvature".
+  std::optional<double> curvature_rms() const;
+
+ private:
+  std::vector<float> curvature_of(const Surface& frame, const std::string& what) const;
+
+  Options options_;
+  Choice choice_;
+  render::Look look_;
+  std::unique_ptr<render::Offscreen> offscreen_;
+  render::ClothView view_;
+  std::vector<Eigen::Vector3i> face_;  // of the cloth that the view has; empty: none of this sequence
+  std::size_t vertices_ = 0;
+  std::vector<float> curvature_;
+};
+
+}  // namespace hysteron::experiments

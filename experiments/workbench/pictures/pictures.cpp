@@ -1,0 +1,178 @@
+#include "experiments/workbench/pictures/pictures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+#include "experiments/workbench/pictures/drawing.h"
+#include "sim/base/root_mean_square.h"
+#include "sim/bending/vertex_curvature.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSheetCells = 12;  // pictures on the contact sheet
+
+// Adds the time from now until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
+                   std::optional<float> floor)
+    : scene_(setup.scene),
+      options_(setup.options),
+      cloth_(cloth),
+      simulation_(simulation),
+      bounds_(bounds),
+      studio_([this, floor] {
+        return std::make_unique<Studio>(scene_, options_, cloth_, bounds_, floor, simulation_.cuda_device());
+      }) {
+  if (!options_.reference.empty()) reference_.emplace(options_.reference);
+  studio_.run([this](Studio& studio) {
+    renderer_ = studio.offscreen().description();
+    studio.view().share_positions(simulation_.share_positions(studio.view().position_buffer(),
+                                                              studio.offscreen().cuda_device(), why_host_));
+  });
+}
+
+render::Camera Pictures::camera() const { return camera_of(options_, bounds_); }
+
+// The studio's thread reads the options while it draws.
+void Pictures::set_light(const std::string& light) {
+  studio_.wait();
+  options_.light = light;
+}
+
+// The simulation stands still meanwhile, because the studio's thread reads its positions where they are.
+void Pictures::take_positions() {
+  if (studio_.run([this](Studio& studio) { return studio.view().write_positions(why_host_); })) return;
+  const std::vector<float> xyz = flat_points(simulation_.positions());
+  studio_.run([&](Studio& studio) { studio.view().set_positions(xyz); });
+}
+
+std::vector<float> Pictures::values(const std::string& look) const {
+  const int d = simulation_.dimension();
+  if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
+  if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
+  if (look != "curvature" && look != "difference") return {};
+  std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
+  if (look == "curvature") return curvature;
+  const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
+  std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
+  return curvature;
+}
+
+std::string Pictures::when(double time) const {
+  char text[64];
+  std::snprintf(text, sizeof text, "t = %.2f s", time);
+  const std::string phase = scene_.phase_at(time);
+  return text + (phase.empty() ? "" : ", " + phase);
+}
+
+std::string Pictures::caption(double time) const {
+  return scene_.fabric.name + ", law " + scene_.law + "\n" + when(time);
+}
+
+// A figure, whose background is transparent, has a caption of its own.
+std::string Pictures::captioned(const std::string& text) const {
+  return options_.background == "transparent" ? "" : text;
+}
+
+render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
+                                const std::string& text) {
+  take_positions();
+  const Studio::Shown shown{simulation_.time(), values(look)};
+  return studio_.run([&](Studio& studio) {
+    const Stopwatch watch(render_seconds_);
+    render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
+    letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
+    return image;
+  });
+}
+
+// What a page that compares runs has to know of their pictures.
+void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
+  Json moment = {{"s", simulation_.time()}, {"phase", scene_.phase_at(simulation_.time())}};
+  Json looks = Json::object();
+  for (const Order& order : orders) {
+    looks[order.look] = nullptr;
+    if (const auto bar = color_bar_of(scene_, options_, order.look))
+      looks[order.look] = {
+          {"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
+    if (order.look == "difference") moment["difference_rms_per_m"] = root_mean_square(order.shown.values);
+  }
+  moments_.push_back(std::move(moment));
+  run.note("frames", {{"looks", looks},
+                      {"m_per_pixel", camera().metres_per_pixel(bounds_.center(), options_.height())},
+                      {"moments", moments_}});
+}
+
+void Pictures::frame(Run& run) {
+  const Stopwatch waited(waited_seconds_);
+  take_positions();
+  const double time = simulation_.time();
+  std::vector<Order> orders;
+  for (const std::string& look : options_.looks()) {
+    char name[32];
+    std::snprintf(name, sizeof name, "/%04d.png", frames_);
+    const std::string folder = orders.empty() ? "frames" : "frames-" + look;
+    orders.push_back({look, run.path(folder + name), {time, values(look)}});
+  }
+  ++frames_;
+  note_frame(run, orders);
+  studio_.post([this, orders = std::move(orders)](Studio& studio) {
+    const Stopwatch watch(render_seconds_);
+    for (const Order& order : orders) fill(studio, order, &order == orders.data());
+  });
+}
+
+// On the studio's thread.
+void Pictures::fill(Studio& studio, const Order& order, bool on_sheet) {
+  render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
+  if (!options_.plain)
+    letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)),
+           color_bar_of(scene_, options_, order.look));
+  if (on_sheet) thumbnails_.push_back({thumbnail(image), when(order.shown.time)});
+  writer_.write(order.file, std::move(image));
+}
+
+render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {
+  const float r = static_cast<float>(half_width);
+  const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
+  const render::Camera camera = render::Camera::top(box, 1);
+  metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
+  const std::vector<float> xyz = flat_points(simulation_.positions());
+  return studio_.run([&](Studio& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
+}
+
+void Pictures::finish(Run& run, const std::string& title) {
+  studio_.wait();
+  writer_.finish();
+  std::vector<render::SheetEntry> cells;
+  for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))
+    cells.push_back(std::move(thumbnails_[i]));
+  if (!cells.empty())
+    render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
+                      render::PngEffort::best);
+  run.note("renderer", renderer());
+  run.note("positions", positions_way());
+  run.add_seconds("render", render_seconds_);
+  run.add_seconds("encode", writer_.encode_seconds());
+  run.add_seconds("waited", waited_seconds_);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,83 @@
+// The pictures of a run: a sequence of frames, single pictures, a contact sheet.
+//
+//   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
+//   simulation goes on:  draw, letter, thumbnail                              -> PNG writer's threads
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pictures/reference_run.h"
+#include "experiments/workbench/pictures/studio.h"
+#include "render/contact_sheet.h"
+#include "render/png_writer.h"
+#include "sim/base/own_thread.h"
+#include "sim/scene/cloth.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+class Pictures {
+ public:
+  // `simulation`: what is drawn; it must outlive the pictures.  `bounds`: what every picture of the sequence
+  // frames; `floor`: height of the visible ground [m].
+  Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
+           std::optional<float> floor);
+
+  const std::string& renderer() const { return renderer_; }
+  // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
+  std::string positions_way() const { return why_host_.empty() ? "CUDA-GL" : "host (" + why_host_ + ")"; }
+
+  // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
+  // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
+  // wrong with an earlier one.
+  void frame(Run& run);
+  // Draws the present state in a look of its own, with caption and colour bar.
+  render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
+  // "studio" or "raking", for the pictures to come.
+  void set_light(const std::string& light);
+  // The sequence's camera.
+  render::Camera camera() const;
+  // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
+  render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
+  // Waits for the files and writes sheet.png.
+  void finish(Run& run, const std::string& title);
+
+ private:
+  // A picture to be drawn while the simulation goes on.
+  struct Order {
+    std::string look;
+    std::filesystem::path file;
+    Studio::Shown shown;
+  };
+
+  void take_positions();
+  std::vector<float> values(const std::string& look) const;  // at present, one a vertex
+  void note_frame(Run& run, const std::vector<Order>& orders);
+  void fill(Studio& studio, const Order& order, bool on_sheet);
+  std::string when(double time) const;  // "t = 0.50 s, lift"
+  std::string caption(double time) const;
+  std::string captioned(const std::string& text) const;
+
+  Scene scene_;
+  Options options_;
+  const Cloth& cloth_;
+  Simulation& simulation_;
+  render::Box bounds_;
+  std::optional<ReferenceRun> reference_;
+  std::string why_host_;  // positions pass the host; empty: they do not
+  render::PngWriter writer_;
+  int frames_ = 0;
+  Json moments_ = Json::array();  // of frames
+  double waited_seconds_ = 0;     // of the simulation, for its pictures
+  // The studio's thread writes these while a picture is drawn.
+  std::vector<render::SheetEntry> thumbnails_;
+  double render_seconds_ = 0;
+  std::string renderer_;
+  OwnThread<Studio> studio_;
+};
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,126 @@
+#include "experiments/workbench/pictures/studio.h"
+
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/wrinkles.h"
+#include "render/shapes.h"
+#include "sim/scene/motion.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
+
+std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
+  std::vector<float> uv;
+  if (shape.shape == "tube") {
+    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
+      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
+    return uv;
+  }
+  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
+  for (int i = 0; i < mesh.vertices(); ++i) {
+    const bool given = !mesh.pattern.empty();
+    uv.push_back(static_cast<float>(given ? mesh.pattern[i].x() : mesh.rest[i].dot(mesh.warp_axis)));
+    uv.push_back(static_cast<float>(given ? mesh.pattern[i].y() : mesh.rest[i].dot(weft)));
+  }
+  return uv;
+}
+
+render::TriangleMesh body_of(const Obstacle& o) {
+  const auto f = [](double x) { return static_cast<float>(x); };
+  if (o.kind == "sphere") return render::sphere_mesh(f(o.radius));
+  if (o.kind == "capsule") return render::capsule_mesh(f(o.radius), f(o.height));
+  if (o.kind == "box") return render::box_mesh(o.size.cast<float>(), f(o.rim));
+  return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
+}
+
+Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
+  const Placement at = placement(o.motion, time);
+  Eigen::Matrix4f motion = Eigen::Matrix4f::Identity();
+  motion.topLeftCorner<3, 3>() = (at.scale * at.rotation).cast<float>();
+  motion.topRightCorner<3, 1>() = at.translation.cast<float>();
+  return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
+}
+
+render::Look base_look(const std::string& name) {
+  const bool of_curvature = name == "residual" || name == "difference";
+  return render::look_named(of_curvature ? "curvature" : name);
+}
+
+// [1/m].  What stays and what differs is half of what bends.
+double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
+  const double range =
+      options.curvature_range > 0 ? options.curvature_range : kCurvatureRange * scene.fabric.k0;
+  return look == "curvature" ? range : range / 2;
+}
+
+}  // namespace
+
+render::ColorMap map_of(const std::string& look) { return base_look(look).map; }
+
+render::Look look_of(const Scene& scene, const Options& options, const std::string& name) {
+  render::Look look = base_look(name);
+  if (look.show == render::Show::curvature) {
+    look.value_high = static_cast<float>(curvature_range(scene, options, name));
+    look.value_low = -look.value_high;
+  } else if (look.show == render::Show::friction) {
+    look.value_low = 0;
+    look.value_high = 1;
+  }
+  return lit(look, options);
+}
+
+std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& options,
+                                             const std::string& name) {
+  const render::Look look = look_of(scene, options, name);
+  if (look.show == render::Show::curvature) {
+    const char* what = name == "residual"     ? "residual curvature"
+                       : name == "difference" ? "difference of curvature"
+                                              : "curvature";
+    return render::ColorBar{look.map, look.value_low, look.value_high, what, "1/m"};
+  }
+  if (look.show == render::Show::friction)
+    return render::ColorBar{look.map, 0, 1, "friction moment / M0", ""};
+  return {};
+}
+
+Studio::Studio(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
+               std::optional<float> floor, int cuda_device)
+    : scenery_(scene.obstacle),
+      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
+      view_(*offscreen_, render::PictureSize{options.width(), options.height()}) {
+  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
+  const std::vector<float> pattern = pattern_of(cloth.mesh, scene.cloth);
+  view_.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
+  for (const Obstacle& o : scenery_) {
+    const bool body = o.kind != "ground" && o.kind != "hollow" && o.visible;
+    body_.push_back(body ? view_.add_obstacle(body_of(o), placed_at(o, 0)) : -1);
+    if (o.kind == "ground" && !floor) floor = static_cast<float>(o.center.z());
+  }
+  view_.set_ground(floor);
+  view_.set_bounds(bounds);
+}
+
+render::Image Studio::draw(const render::Look& look, const render::Camera& camera, const Shown& shown) {
+  if (!shown.values.empty()) view_.set_values(shown.values);
+  view_.set_look(look);
+  for (std::size_t i = 0; i < body_.size(); ++i) {
+    if (body_[i] < 0) continue;
+    const Obstacle& o = scenery_[i];
+    view_.move_obstacle(body_[i], placed_at(o, shown.time));
+    view_.show_obstacle(body_[i], o.from <= shown.time && shown.time < o.until);
+  }
+  return view_.draw(camera);
+}
+
+render::Image Studio::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
+                                 const render::Camera& camera, int pixels) {
+  render::ClothView view(*offscreen_, {pixels, pixels});
+  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
+  view.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, {}});
+  view.set_look(render::look_named("silhouette"));
+  view.set_positions(xyz);
+  return view.draw(camera);
+}
+
+}  // namespace hysteron::experiments

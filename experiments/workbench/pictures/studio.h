@@ -1,0 +1,55 @@
+// The room in which a scene is pictured: the cloth at one moment, its obstacles, ground, light and camera.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/options.h"
+#include "render/camera.h"
+#include "render/caption.h"
+#include "render/cloth_view.h"
+#include "sim/scene/cloth.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+// The colours of a look that shows a value.
+render::ColorMap map_of(const std::string& look);
+// Light, and the ends of the colour map, of the options' look `name` ("cloth", "curvature", "residual",
+// "difference", ...) for a scene.
+render::Look look_of(const Scene& scene, const Options& options, const std::string& name);
+// Of looks that show a value.
+std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& options,
+                                             const std::string& name);
+
+// All of it belongs to the thread that made it, as its OpenGL context does.
+class Studio {
+ public:
+  // `bounds`: what casts shadows in the whole sequence [m]; `floor`: height of the visible ground [m];
+  // `cuda_device`: tried first, -1: none.
+  Studio(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
+         std::optional<float> floor, int cuda_device);
+
+  const render::Offscreen& offscreen() const { return *offscreen_; }
+  render::ClothView& view() { return view_; }  // to set the cloth's positions
+
+  // What a picture shows beside positions.
+  struct Shown {
+    double time = 0;            // [s], of the obstacles
+    std::vector<float> values;  // one a vertex, in looks that show one
+  };
+  render::Image draw(const render::Look& look, const render::Camera& camera, const Shown& shown);
+  // The cloth alone from straight above, black on white; `xyz` of its vertices [m].
+  render::Image silhouette(const Cloth& cloth, const std::vector<float>& xyz, const render::Camera& camera,
+                           int pixels);
+
+ private:
+  std::vector<Obstacle> scenery_;
+  std::unique_ptr<render::Offscreen> offscreen_;
+  render::ClothView view_;
+  std::vector<int> body_;  // the view's number of each obstacle, -1 = not a body
+};
+
+}  // namespace hysteron::experiments

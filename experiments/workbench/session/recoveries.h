@@ -1,0 +1,34 @@
+// How far each bending element of a cloth was bent before it was let go: the chapter's three cases of
+// recovery (sim/bending/laws/recovery.h), which `law` and `kes` count at every reversal.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/scene/scene.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+// Sees the cloth at recorded moments only: a peak between two of them is missed, and nothing is kept on the
+// device.  The reversal that counts is the last one from a moment past Ma, taken as the largest of the time
+// spent there; the tremor of a crease at rest has smaller ones, which lie on its recovery branch.
+class Recoveries {
+ public:
+  explicit Recoveries(const Scene& scene);
+
+  bool counts() const { return counts_; }  // does the law have the three cases?
+  void see(Simulation& simulation);
+  // `moment`: `dimension` components per element [N].
+  void see(const std::vector<double>& moment, int dimension);
+  // Elements by case: elastic (never past Ma), partial, full slip.
+  std::array<long, 3> cases() const;
+
+ private:
+  VirginCurve curve_;
+  bool counts_ = false;
+  std::vector<double> before_;  // moments seen last [N]
+  std::vector<double> peak_;    // per element [N]; 0: never past Ma
+};
+
+}  // namespace hysteron::experiments

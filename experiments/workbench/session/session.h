@@ -1,0 +1,87 @@
+// One simulated run from set-up to manifest: what every experiment shares.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pictures/pictures.h"
+#include "experiments/workbench/session/record.h"
+#include "experiments/workbench/session/recoveries.h"
+#include "render/camera.h"
+#include "render/plot.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+// What is known of a moment that is recorded.
+struct Moment {
+  double time;                            // [s]
+  const std::vector<Eigen::Vector3d>& x;  // positions [m]
+  double fastest;  // largest displacement since the last moment over the time between [m/s]
+};
+
+// The experiment's own part of a run.
+struct Question {
+  render::Box bounds;                // framed by the pictures [m]
+  std::optional<float> floor;        // height of the visible ground [m]
+  std::vector<std::string> columns;  // own columns of metrics.csv, with units
+  std::function<std::vector<double>(const Moment&)> measure;
+  std::function<bool(const Moment&)> settled;  // ends the run early
+  bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
+  std::function<bool(const Moment&)> pictured;  // which moments are drawn and exported; empty: all of them
+  std::function<std::string(const Moment&)> progress;
+};
+
+// Prints what the scene includes and leaves out, with bytes and loops (--explain).
+void explain(const Cloth& cloth, const Simulation& simulation);
+
+class Session {
+ public:
+  // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
+  Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
+
+  bool only_explain() const;  // --explain: it is printed already
+  Run& run() { return *run_; }
+  const Cloth& cloth() const { return cloth_; }
+  const Scene& scene() const { return setup_.scene; }
+  Simulation& simulation() { return *simulation_; }
+  long intersections() const { return intersections_; }  // of all recorded moments, where they are counted
+  Pictures* pictures() { return pictures_.get(); }       // null with --no-images
+
+  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled, and
+  // then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
+  bool simulate(const Question& question);
+  // Draws a plot as Run::plot does.
+  void plot(const std::string& name, const render::Plot& plot);
+  // Metrics that every simulated run has, the manifest, the report.
+  void finish(const std::string& title);
+
+ private:
+  // A moment of the series: its row, pictures and checks.
+  Moment record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+                double fastest, const std::string& left);
+  bool find_rest(const Question& question, Record& series);
+  bool checks_intersections() const;
+  void watch_intersections(const std::vector<Eigen::Vector3d>& x);
+  std::string opening_words() const;
+  void watch_folds(const std::vector<Eigen::Vector3d>& x);
+  void note_folds();
+  void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
+
+  CommandLine line_;
+  Setup setup_;
+  Cloth cloth_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Run> run_;
+  std::unique_ptr<Pictures> pictures_;
+  std::vector<double> rest_angle_;
+  int meshes_ = 0;  // exported so far
+  Recoveries recoveries_;
+  long intersections_ = 0;  // pairs of triangles, of all recorded moments
+  double folded_ = 0;       // largest share of sharply folded edges
+};
+
+}  // namespace hysteron::experiments

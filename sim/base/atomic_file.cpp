@@ -1,0 +1,71 @@
+#include "sim/base/atomic_file.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+namespace {
+namespace fs = std::filesystem;
+
+// What is to be replaced: a link keeps its name, and devices and pipes are not for replacing; neither is what
+// /dev/stdout leads to, though it may be a file.
+std::string plain_file(const std::string& target) {
+  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  std::error_code failure;
+  bool plain = true;
+  fs::path file = target;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links) {
+    plain = plain && !fs::weakly_canonical(file.parent_path(), failure).string().starts_with("/proc/");
+    file = file.parent_path() / fs::read_symlink(file, failure);
+  }
+  const fs::file_status status = fs::symlink_status(file, failure);
+  if (!plain || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)))
+    throw Error::request("cannot write " + target + ": it is no plain file; give another name");
+  return file.string();
+}
+
+// Unique within the process (worker threads) and between processes; same folder, so that rename is atomic.
+std::string temporary_name(const std::string& target) {
+  static std::atomic<unsigned> count{0};
+  return target + ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+}
+
+Error failure(const std::string& attempt, const std::string& file, int code) {
+  const std::string reason = code ? std::strerror(code) : "the stream failed (disk full?)";
+  return Error::machine(attempt + " " + file + ": " + reason);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& target)
+    : target_(plain_file(target)), temporary_(temporary_name(target_)) {
+  errno = 0;
+  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!stream_) throw failure("cannot create", target_, errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  stream_.close();
+  std::remove(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  errno = 0;
+  const bool written = static_cast<bool>(stream_.flush());
+  const int code = errno;
+  stream_.close();
+  if (!written || !stream_) throw failure("cannot write", target_, code);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0)
+    throw failure("cannot rename to", target_, errno);
+  committed_ = true;
+}
+
+}  // namespace hysteron

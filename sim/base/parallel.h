@@ -1,0 +1,25 @@
+// Independent pieces of work on several threads.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <future>
+#include <vector>
+
+namespace hysteron {
+
+// body(i) for i in [0, n), in this order but `threads` at a time.  An exception of a body ends its thread and
+// is thrown again when the others are done.
+template <class Body>
+void in_parallel(std::size_t n, int threads, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < n; i = next++) body(i);
+  };
+  std::vector<std::future<void>> workers;
+  for (int t = 0; t < threads; ++t) workers.push_back(std::async(std::launch::async, work));
+  for (auto& worker : workers) worker.wait();
+  for (auto& worker : workers) worker.get();
+}
+
+}  // namespace hysteron

@@ -1,0 +1,77 @@
+#include "sim/base/whole_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+namespace {
+
+class Descriptor {
+ public:
+  // What becomes a pipe after it was looked at does not wait for a writer.
+  explicit Descriptor(const std::filesystem::path& file)
+      : number_(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+Error failure(const std::string& attempt, int code) {
+  return Error::machine(attempt + ": " + std::strerror(code ? code : EIO));
+}
+
+void check_kind(const struct stat& status, const std::string& attempt) {
+  if (S_ISREG(status.st_mode)) return;
+  throw Error::machine(attempt + (S_ISDIR(status.st_mode)
+                                      ? ": it is a folder"
+                                      : ": it is a pipe or a device; write it to a file first"));
+}
+
+void check_size(std::size_t bytes, const std::string& attempt, std::size_t most) {
+  if (bytes <= most) return;
+  throw Error::request(attempt + ": it is larger than " + std::to_string(most >> 20) + " MiB");
+}
+
+}  // namespace
+
+std::string whole_file(const std::filesystem::path& file, const std::string& attempt, std::size_t most) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) throw failure(attempt, errno);
+  check_kind(status, attempt);
+  const Descriptor descriptor(file);
+  if (descriptor.number() < 0 || fstat(descriptor.number(), &status) != 0) throw failure(attempt, errno);
+  check_kind(status, attempt);
+  check_size(static_cast<std::size_t>(status.st_size), attempt, most);
+  std::string bytes;
+  bytes.reserve(static_cast<std::size_t>(status.st_size));
+  for (char block[1 << 16];;) {
+    const ssize_t count = read(descriptor.number(), block, sizeof block);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw failure(attempt, errno);
+    if (count == 0) return bytes;
+    bytes.append(block, static_cast<std::size_t>(count));
+    check_size(bytes.size(), attempt, most);
+  }
+}
+
+std::string file_named(const std::filesystem::path& file, const std::string& attempt) {
+  try {
+    return whole_file(file, attempt);
+  } catch (const Error& error) {
+    throw Error::request(error.what());
+  }
+}
+
+}  // namespace hysteron

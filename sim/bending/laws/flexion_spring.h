@@ -1,0 +1,45 @@
+// Flexion springs of mass-spring cloth (Provot 1995; the seed's chapter 3): a spring of rest length 2 h
+// between the two corners opposite to an edge.  Folded by theta it is 2 h cos(theta/2) long, and with K =
+// theta/h
+//   M = c (1 - cos(K h/2)) sin(K h/2),   c such that M(K0) = b2 K0.
+// It carries nothing at small bends (M ~ K^3) and grows very stiff when folded: dM/dK up to 9/16 c h.
+#pragma once
+
+#include <cmath>
+
+#include "sim/bending/laws/radial_elastic.h"
+
+namespace hysteron {
+
+template <class Real, int D>
+struct FlexionSpring : RadialElastic<FlexionSpring<Real, D>, Real, D> {
+  Real c = 0;  // [N]
+  Real h = 0;  // height of the hinge [m]
+
+  static FlexionSpring make(const VirginCurve& curve, double height) {
+    const double x = curve.k0 * height / 2, s = std::sin(x / 2);
+    FlexionSpring law;
+    law.c = Real(curve.b2 * curve.k0 / (2 * s * s * std::sin(x)));
+    law.h = Real(height);
+    return law;
+  }
+
+  HYST_HD Real secant(Real k) const {
+    using std::sin;
+    const Real x = k * h / 2, s = sin(x / 2);
+    return x > 0 ? c * h * s * s * sin(x) / x : Real(0);
+  }
+  HYST_HD Real slope(Real k) const {
+    using std::cos;
+    const Real x = k * h / 2;
+    return c * h / 2 * (cos(x) - cos(2 * x));
+  }
+  HYST_HD Real energy(Real k) const {
+    using std::sin;
+    const Real s = sin(k * h / 4);
+    return 4 * c / h * s * s * s * s;
+  }
+  HYST_HD Real largest_stiffness() const { return Real(9) / 16 * c * h; }
+};
+
+}  // namespace hysteron

@@ -1,0 +1,50 @@
+// Elastic bending whose rest curvature is set to the current one on command (after Grinspun et al. 2003, who
+// model creases and curls of thin shells by editing rest angles).
+//
+//   M = b2 (K - K_r),   on command: K_r = K
+//
+// The command is the user's, not the material's: the energy that it removes is booked apart from friction.
+#pragma once
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+template <class Real, int D>
+struct GrinspunEdit {
+  static constexpr int kDimension = D;
+  static constexpr int kHistory = D;  // K_r [1/m]
+  using Scalar = Real;
+  using Memory = History<Real, D>;
+
+  Real b2 = 0;  // bending rigidity [N m]
+
+  static GrinspunEdit make(const VirginCurve& curve) { return {Real(curve.b2)}; }
+
+  HYST_HD LawStep<Real, D, D> step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const Vec<Real, D> bent = curvature - residual(before);
+    LawStep<Real, D, D> result;
+    result.moment = b2 * bent;
+    result.stored = b2 * bent.squaredNorm() / 2;
+    result.history = before;
+    return result;
+  }
+  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>&, const Memory&) const {
+    return b2 * Tangent<Real, D>::Identity();
+  }
+  // History after the command at this curvature.
+  HYST_HD Memory edited(const Vec<Real, D>& curvature, const Memory&) const {
+    Memory after;
+    for (int c = 0; c < D; ++c) after[c] = curvature[c];
+    return after;
+  }
+  HYST_HD Vec<Real, D> residual(const Memory& history) const {
+    Vec<Real, D> rest;
+    for (int c = 0; c < D; ++c) rest[c] = history[c];
+    return rest;
+  }
+  HYST_HD Real used(const Vec<Real, D>&, const Memory&) const { return 0; }
+  HYST_HD Real largest_stiffness() const { return b2; }
+};
+
+}  // namespace hysteron

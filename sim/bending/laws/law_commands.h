@@ -1,0 +1,54 @@
+// What is done to a law from outside: the time of its steps, editing its rest curvature, ironing.
+#pragma once
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+// Tells a law that creeps or ages how long the coming step takes [s]; others have no time.
+template <class Law, class Real>
+HYST_HD void set_step_time(Law& law, Real seconds) {
+  if constexpr (requires { law.dt; })
+    law.dt = seconds;
+  else if constexpr (requires { law.law; })
+    set_step_time(law.law, seconds);
+}
+
+template <class Law>
+inline constexpr bool kIsEditable = requires(const Law& law,
+                                             const History<typename Law::Scalar, Law::kHistory>& h) {
+  law.edited(Vec<typename Law::Scalar, Law::kDimension>(), h);
+};
+
+// History after making this curvature the rest curvature; unchanged for laws that cannot be edited.
+template <class Law, class Real, int D, int N>
+HYST_HD History<Real, N> edited(const Law& law, const Vec<Real, D>& curvature,
+                                const History<Real, N>& before) {
+  if constexpr (kIsEditable<Law>)
+    return law.edited(curvature, before);
+  else
+    return before;
+}
+
+// History after ironing at this curvature: as if virgin cloth had been bent there in one step, at once.  A
+// law with ironed() says what of its history ironing leaves.
+template <class Law, class Real, int D, int N>
+HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
+  set_step_time(law, Real(0));
+  History<Real, N> fresh;
+  if constexpr (requires { law.ironed(before); }) fresh = law.ironed(before);
+  return law.step(curvature, fresh).history;
+}
+
+// How far friction or plasticity is used, 0 to 1: what the law says of itself, else |M - b2 K|/M0.
+template <class Law, class Real, int D, int N>
+HYST_HD Real share_used(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& memory,
+                        Real b2, Real m0) {
+  if constexpr (requires { law.used(curvature, memory); })
+    return law.used(curvature, memory);
+  else if (N > 0 && m0 > 0)
+    return (law.step(curvature, memory).moment - b2 * curvature).norm() / m0;
+  return 0;
+}
+
+}  // namespace hysteron

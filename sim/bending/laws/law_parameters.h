@@ -1,0 +1,57 @@
+// A law with all its parameters, read from names and texts as scene files and flags give them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+using LawParameters = std::map<std::string, std::string>;
+
+// Weakening of the friction moment with dissipated energy; fatigue.h says how.
+struct FatigueChoice {
+  double dc = 0;     // fatigue.dc     energy per area over which M0 falls to 1/e [J/m^2]; 0: no fatigue
+  double m_inf = 0;  // fatigue.m-inf  friction moment that is left in the end [N]
+  double set = 1;    // fatigue.set    eta: share of the lost friction moment that becomes permanent set
+  bool on() const { return dc > 0; }
+};
+
+struct LawChoice {
+  std::string name;
+  VirginCurve curve;
+  bool stack = false;       // memory     stops | stack (prandtl)
+  int stops = 8;            // stops      4 | 8 | 16 | 32
+  int depth = 8;            // stack      reversal points kept: 4 | 6 | 8 | 16, and 32 | 64 for a law alone
+  bool reversible = false;  // recovery   masing | reversible (wong)
+  FatigueChoice fatigue;    // fatigue.*  (bilinear, prandtl, wong)
+  double yield = 0;         // yield      curvature at which plastic flow begins [1/m]; default k0
+  double max_set = 0;       // max-set    largest plastic curvature [1/m]; default: no bound
+  double weakening = 1;     // weakening  w: rigidity b2/(1 + w damage) (narain, kim)
+  double height = 5e-3;     // height     mean height of a hinge's triangles [m] (bridson, spring)
+  double tau = 1;           // tau        time of creep or of hold [s]; 1 (terzopoulos, kim), 30 (gong)
+};
+
+// A cloth has one history per element, so that its memory is kept small: `prandtl` with 8 stops by default.
+// A law alone is exact: `prandtl` with a stack of 64.
+enum class LawUse { cloth, alone };
+
+// Every value checked.  Error::request for unknown laws, parameters that the law does not have, and values
+// out of range; its message names the law and the parameter.
+LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
+                     LawUse use = LawUse::cloth);
+
+// Names of the parameters that law `name` takes, in the order of LawChoice.
+std::vector<std::string> law_parameter_names(const std::string& name);
+
+struct LawEntry {
+  std::string name;
+  std::string description;  // one line
+};
+
+// All laws of the interface in its order.
+const std::vector<LawEntry>& law_catalogue();
+
+}  // namespace hysteron

@@ -1,0 +1,31 @@
+// A step of a law as a minimum problem: the incremental potential W(K) = int M dK at a fixed history, and a
+// tangent that stays positive semidefinite.
+#pragma once
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+// W up to a constant of the history [J/m^2].  Where all that is lost is lost on the way to K, it is what is
+// stored and what is lost; laws that creep or weaken at the end of their step say it themselves.
+template <class Law, class Real, int D, int N>
+HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
+  if constexpr (requires { law.potential(curvature, before); }) {
+    return law.potential(curvature, before);
+  } else {
+    const LawStep<Real, D, N> step = law.step(curvature, before);
+    return step.stored + step.dissipated;
+  }
+}
+
+// dM/dK, without what falls where a law's moment falls.
+template <class Law, class Real, int D, int N>
+HYST_HD Tangent<Real, D> convex_tangent(const Law& law, const Vec<Real, D>& curvature,
+                                        const History<Real, N>& before) {
+  if constexpr (requires { law.convex_tangent(curvature, before); })
+    return law.convex_tangent(curvature, before);
+  else
+    return law.tangent(curvature, before);
+}
+
+}  // namespace hysteron

@@ -1,0 +1,64 @@
+// One law alone, driven through a list of curvatures: what `hysteron law` and the fits stand on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/bending/laws/law_parameters.h"
+
+namespace hysteron {
+
+struct LawRequest {
+  std::string name = "prandtl";  // one of law_catalogue()
+  VirginCurve curve;
+  LawParameters parameters;
+};
+
+// One accepted step.  The first row starts from rest (K = 0, no history).
+struct LawRow {
+  double curvature = 0;  // [1/m]
+  double seconds = 1;    // time that the step takes [s]
+  bool edit = false;     // after the step the rest curvature is set to the current one (grinspun-edit)
+};
+
+// One value per row.
+struct LawRun {
+  std::vector<double> moment;      // [N]
+  std::vector<double> tangent;     // dM/dK of the step [N m]
+  std::vector<double> stored;      // recoverable energy [J/m^2]
+  std::vector<double> dissipated;  // lost since rest [J/m^2]; `wong`: work of friction since rest
+};
+
+// Drives the law through `rows` in double precision, D = 1; parameters as in choose_law() for a law alone.
+// Laws that cannot be edited ignore `edit`.  Throws Error::request as choose_law() does.
+LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
+
+// What an accepted step leaves.
+struct LawPoint {
+  double moment = 0;      // [N]
+  double stored = 0;      // recoverable energy [J/m^2]
+  double dissipated = 0;  // lost since rest [J/m^2]; `wong`: work of friction since rest
+};
+
+// A law with its memory on the way, a step at a time, for histories too long to be kept.  A copy goes on from
+// the same state by itself.
+class LawWalk {
+ public:
+  explicit LawWalk(const LawRequest& request);  // at rest, as run_law(); Error::request likewise
+  ~LawWalk();
+  LawWalk(const LawWalk& other);
+  LawWalk(LawWalk&&) noexcept;
+
+  LawPoint to(const LawRow& row);
+  double residual() const;         // curvature at which the moment is zero now [1/m]
+  double friction_moment() const;  // M0 that fatigue has left [N]; NaN for a law without fatigue
+  double permanent_set() const;    // K_p of fatigue [1/m]; 0 for a law without fatigue
+
+  struct State;  // of some law
+
+ private:
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace hysteron

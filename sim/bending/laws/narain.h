@@ -1,0 +1,62 @@
+// Plasticity with weakening (Narain, Pfaff & O'Brien 2013, ARCSim, whose folding and crumpling sheets yield
+// at 200/m with weakening 1 to 2).
+//
+//   as `obrien` with the yield curvature y;  M = b2/(1 + w d) (K - K_p);  when it yields: d += |e|/y - 1
+//   (the way of K_p over y, also where K_p meets its bound)
+//
+// y = `yield`, k0 by default; w = `weakening`, 1 by default.  The damage d acts from the next step on, so
+// that the moment of a step has a potential; the elastic energy that softening releases is booked as lost.
+// Not convex once it acts within a step of its own.
+#pragma once
+
+#include "sim/bending/laws/obrien.h"
+
+namespace hysteron {
+
+template <class Real, int D>
+struct Narain {
+  static constexpr int kDimension = D;
+  static constexpr int kHistory = D + 1;  // K_p [1/m], damage
+  using Scalar = Real;
+  using Memory = History<Real, kHistory>;
+
+  Obrien<Real, D> plastic;
+  Real weakening = 1;  // w
+
+  static Narain make(const VirginCurve& curve, double yield, double max_set, double weakening) {
+    return {Obrien<Real, D>::make(curve, yield, max_set), Real(weakening)};
+  }
+
+  HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const auto sound = plastic.step(curvature, set_of(before));
+    const Vec<Real, D> set = load_set<Real, D>(sound.history);
+    const Real stiff = stiffness(before[D]);
+    LawStep<Real, D, kHistory> result;
+    result.history = before;
+    store_set<Real, D>(set, result.history);
+    result.history[D] += (set - residual(before)).norm() / plastic.yield;
+    const Real softer = stiffness(result.history[D]);
+    result.moment = stiff * sound.moment;
+    result.stored = softer * sound.stored;
+    result.dissipated = stiff * sound.dissipated + (stiff - softer) * sound.stored;
+    return result;
+  }
+  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
+    return stiffness(before[D]) * plastic.tangent(curvature, set_of(before));
+  }
+  HYST_HD Vec<Real, D> residual(const Memory& history) const { return load_set<Real, D>(history); }
+  HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {  // |e|/y
+    return plastic.used(curvature, set_of(history));
+  }
+  HYST_HD Real largest_stiffness() const { return plastic.b2; }
+
+ private:
+  HYST_HD Real stiffness(Real damage) const { return 1 / (1 + weakening * damage); }
+  HYST_HD static History<Real, D> set_of(const Memory& m) {
+    History<Real, D> set;
+    for (int c = 0; c < D; ++c) set[c] = m[c];
+    return set;
+  }
+};
+
+}  // namespace hysteron

@@ -1,0 +1,56 @@
+// The curvature at which a law carries no moment: the minimum of its incremental potential.
+//
+// From a given state W(K) = stored + dissipated is convex with dW/dK = M, so that damped Newton on W finds
+// the one curvature where a piece of cloth at rest would stay (the residual curvature, Anandjiwala & Leaf
+// 1991). Laws with a closed form use that instead.
+#pragma once
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+// Solves A x = b for symmetric positive definite A by elimination; runs on both devices.
+template <class Real, int D>
+HYST_HD Vec<Real, D> solve_definite(Tangent<Real, D> a, Vec<Real, D> b) {
+  for (int i = 0; i < D; ++i) {
+    for (int j = i + 1; j < D; ++j) {
+      const Real factor = a(j, i) / a(i, i);
+      for (int k = i; k < D; ++k) a(j, k) -= factor * a(i, k);
+      b[j] -= factor * b[i];
+    }
+  }
+  for (int i = D - 1; i >= 0; --i) {
+    for (int k = i + 1; k < D; ++k) b[i] -= a(i, k) * b[k];
+    b[i] /= a(i, i);
+  }
+  return b;
+}
+
+// Curvature [1/m] of zero moment, reached from the state `history`; `start` is where the search begins.
+// Precision: last Newton step below 1e-12 (double) or 1e-5 (float) of the curvature, at most 60 steps.
+template <class Law, class Real, int D, int N>
+HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history, Vec<Real, D> start) {
+  constexpr int kMostSteps = 60, kMostHalvings = 30;
+  constexpr Real kPrecision = sizeof(Real) == 8 ? Real(1e-12) : Real(1e-5);
+  constexpr Real kEnoughDescent = Real(1e-4);                 // Armijo's fraction of the predicted decrease
+  const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
+  Vec<Real, D> curvature = start;
+  LawStep<Real, D, N> here = law.step(curvature, history);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Tangent<Real, D> tangent = law.tangent(curvature, history) + softest * Tangent<Real, D>::Identity();
+    const Vec<Real, D> newton = -solve_definite<Real, D>(tangent, here.moment);
+    if (!(newton.norm() > kPrecision * curvature.norm())) break;
+    const Real energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
+    const Real half_moment = here.moment.norm() / 2;  // decides where the energy differs by rounding only
+    Real fraction = 1;
+    for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
+      here = law.step(Vec<Real, D>(curvature + fraction * newton), history);
+      if (here.stored + here.dissipated <= energy + fraction * descent) break;
+      if (here.moment.norm() <= half_moment) break;
+    }
+    curvature += fraction * newton;
+  }
+  return curvature;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,69 @@
+// One coarse level of the multigrid preconditioner on one device: interpolation, matrix and vectors.
+#pragma once
+
+#include "sim/linear/block_rows.h"
+#include "sim/linear/rest_hierarchy.h"
+
+namespace hysteron {
+
+template <class Real>
+struct DeviceInterpolation {
+  int node[3];
+  Real weight[3];
+
+  // Value interpolated from the coarse nodes' values.
+  HYST_HD Vec3<Real> of(const Vec3<Real>* coarse) const {
+    return weight[0] * coarse[node[0]] + weight[1] * coarse[node[1]] + weight[2] * coarse[node[2]];
+  }
+  HYST_HD Real weight_of(int coarse) const {
+    Real sum = 0;
+    for (int k = 0; k < 3; ++k) sum += node[k] == coarse ? weight[k] : Real(0);
+    return sum;
+  }
+};
+
+// One block on or above the diagonal of a coarse matrix, and where it and its transpose stand.
+struct UpperBlock {
+  int row, column;
+  int slot, mirror;  // among the off-diagonal blocks; -1 on the diagonal
+};
+
+template <class Real>
+struct CoarseLevelView {
+  int nodes;
+  const DeviceInterpolation<Real>* finer;  // for each finer node
+  // The same by coarse nodes: the finer nodes that see this one.
+  const int* start;
+  const int* item;
+  const Real* weight;
+  BlockRowsView<Real> matrix;
+  Mat3<Real>* inverse;               // of the diagonal blocks
+  const double* inverse_eigenvalue;  // of inverse * matrix, the largest
+  Vec3<Real>*b, *x, *y;              // right-hand side; sweeps go from x to y and back; the result is in y
+
+  HYST_HD Vec3<Real> restricted(int i, const Vec3<Real>* fine) const {
+    Vec3<Real> sum = Vec3<Real>::Zero();
+    for (int j = start[i]; j < start[i + 1]; ++j) sum += weight[j] * fine[item[j]];
+    return sum;
+  }
+};
+
+template <class Real, class Device>
+struct CoarseLevel {
+  int nodes;
+  Buffer<DeviceInterpolation<Real>, Device> finer;
+  Buffer<int, Device> gather_start, gather_item;
+  Buffer<Real, Device> gather_weight;
+  Buffer<int, Device> start, column;
+  Buffer<UpperBlock, Device> upper;
+  Buffer<Real, Device> plate_off, plate_diagonal;
+  Buffer<Mat3<Real>, Device> off, diagonal, inverse;
+  Buffer<double, Device> inverse_eigenvalue;
+  Buffer<Vec3<Real>, Device> b, x, y;
+
+  CoarseLevel(Device& device, const RestLevel& level);
+  CoarseLevelView<Real> view();
+  std::size_t bytes() const;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,34 @@
+// The linear systems of Newton's method, solved to a relative tolerance.
+#pragma once
+
+#include "sim/linear/pcg.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  // system * x = rhs for the rows that are not held, zero for those that are.
+  virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
+                           Vec3<Real>* x, double tolerance) = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+// Conjugate gradients with the inverted diagonal blocks.
+template <class Real, class Device>
+class BlockJacobiSolver : public LinearSolver<Real, Device> {
+ public:
+  BlockJacobiSolver(Device& device, int rows) : pcg_(device, rows) {}
+  PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
+                   Vec3<Real>* x, double tolerance) override {
+    constexpr int kMostIterations = 20000;
+    return pcg_.solve(system, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
+  }
+  std::size_t bytes() const override { return pcg_.bytes(); }
+
+ private:
+  Pcg<Real, Device> pcg_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,65 @@
+// Preconditioner of the implicit solve: inverted diagonal blocks plus multigrid on the rest shape's coarser
+// levels.
+//
+//   P r = w D^-1 r + I V(I^T r)      D   diagonal blocks, bending included;  I  interpolation from level 1
+//                                    V   one V(2,2)-cycle on levels 1, 2, ... with damped block-Jacobi
+//   A_1 = I^T A I + bending S_1 x 1  A   mass, membrane and contact;  S  the plates of RestHierarchy
+//   A_l+1 = I_l^T A_l I_l            less half of the plate; down to some dozen nodes, inverted densely
+//
+// The membrane couples the whole cloth within a step, so that conjugate gradients with D alone take
+// iterations in proportion to the number of vertices along a side; with P their number hardly grows.  The
+// finest level is smoothed additively (Bramble, Pasciak, Xu 1990): that saves products with the bending
+// operator, whose rows are by far the longest.  Bending acts on the coarse levels as an isotropic plate at
+// rest: exact for flat cloth, and elsewhere too small beside the membrane to matter.
+#pragma once
+
+#include <vector>
+
+#include "sim/linear/coarse_level.h"
+#include "sim/linear/preconditioner.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+class Multigrid : public Preconditioner<Real, Device> {
+ public:
+  Multigrid(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy);
+
+  // Follows a new linearisation, in the matrix's units:
+  //   matrix            mass, membrane and contact; read now only
+  //   bending_diagonal  diagonal blocks of the bending stiffness, those of the hinges at least; null without
+  //   bending           rigidity in the matrix's units: b1 for mass/step^2 + stiffness
+  //   held              rows that apply() leaves zero; read by apply() too
+  void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
+               const char* held);
+  void apply(const Vec3<Real>* r, Vec3<Real>* z) override;
+  std::size_t bytes() const override;
+  int levels() const { return 1 + static_cast<int>(level_.size()); }
+
+  // The parts of the above; public because nvcc allows no device lambda in a private member function.
+  void invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added, const char* held,
+                       Mat3<Real>* inverse);
+  // Coarse matrix of the next finer level's; held may be null.
+  void coarsen(BlockRowsView<Real> finer, const char* held, CoarseLevel<Real, Device>& level);
+  void add_plate(Real rigidity, CoarseLevel<Real, Device>& level);
+  void find_eigenvalue(CoarseLevel<Real, Device>& level);
+  void invert_coarsest(CoarseLevel<Real, Device>& level);
+  void restrict_to(CoarseLevel<Real, Device>& level, const Vec3<Real>* finer);
+  void sweep(CoarseLevel<Real, Device>& level, int which, const Vec3<Real>* from, Vec3<Real>* to);
+  void residual(CoarseLevel<Real, Device>& level);
+  void correct(CoarseLevel<Real, Device>& level, CoarseLevel<Real, Device>& coarser);
+  void solve_coarsest(CoarseLevel<Real, Device>& level);
+
+ private:
+  bool dense() const { return dense_[0].size() > 0; }
+
+  Device& device_;
+  int vertices_;
+  const char* held_ = nullptr;
+  Buffer<Mat3<Real>, Device> inverse_;
+  std::vector<CoarseLevel<Real, Device>> level_;
+  // Blocks of the coarsest matrix, row by row, and where the next step of its inversion goes.
+  Buffer<Eigen::Matrix3d, Device> dense_[2];
+};
+
+}  // namespace hysteron

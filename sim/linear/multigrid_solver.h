@@ -1,0 +1,34 @@
+// Conjugate gradients preconditioned by multigrid, for Newton's method.
+#pragma once
+
+#include "sim/linear/linear_solver.h"
+#include "sim/linear/multigrid.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+class MultigridSolver : public LinearSolver<Real, Device> {
+ public:
+  // rigidity: the largest slope of the bending law [N m]; the systems are of mass/step^2 + stiffness [N/m].
+  MultigridSolver(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy, double rigidity)
+      : multigrid_(device, mesh, hierarchy),
+        pcg_(device, mesh.vertices()),
+        rigidity_(static_cast<Real>(rigidity)) {}
+
+  PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
+                   Vec3<Real>* x, double tolerance) override {
+    constexpr int kMostIterations = 20000;
+    multigrid_.rebuild(system.matrix, system.rest_diagonal, rigidity_, held);
+    LinearSystem<Real, Device> preconditioned = system;
+    preconditioned.preconditioner = &multigrid_;
+    return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
+  }
+  std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
+
+ private:
+  Multigrid<Real, Device> multigrid_;
+  Pcg<Real, Device> pcg_;
+  Real rigidity_;
+};
+
+}  // namespace hysteron

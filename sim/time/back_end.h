@@ -1,0 +1,32 @@
+// What the CPU build and the GPU build of the numerical sources each offer to host code.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/bending/curvature_operator.h"
+#include "sim/bending/law_cost.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron {
+
+inline constexpr int kMostMovingPins = 12;  // their placements travel with a kernel launch by value
+
+std::unique_ptr<Simulation> make_cpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&);
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&);
+
+// Bound on dM/dK of the scene's law on an element of this dimension [N m].
+double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
+
+// Cost of a law's loop alone; precision = double | float, threads 0 = all.  Error::machine without a GPU.
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
+                     int threads);
+LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision);
+
+std::string cpu_description();
+int gpu_count(std::string& reason);  // usable GPUs; why there are none
+std::string gpu_description(int index);
+
+}  // namespace hysteron

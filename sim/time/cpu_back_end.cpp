@@ -1,0 +1,30 @@
+#include "sim/time/back_end.h"
+#include "sim/time/stepper.h"
+
+namespace hysteron {
+
+std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth& cloth,
+                                                const CurvatureOperator& op, const StepLimits& limits) {
+  auto cpu = std::make_unique<Cpu>(scene.threads);
+  if (scene.precision == "float")
+    return std::make_unique<Stepper<float, Cpu>>(std::move(cpu), scene, cloth, op, limits);
+  return std::make_unique<Stepper<double, Cpu>>(std::move(cpu), scene, cloth, op, limits);
+}
+
+double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
+  Cpu cpu(1);
+  return make_law_loop<double>(cpu, choose_law(scene.law, scene.fabric.virgin_curve(), scene.param),
+                               op.dimension, 0)
+      ->largest_stiffness();
+}
+
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
+                     int threads) {
+  Cpu cpu(threads);
+  return precision == "float" ? law_cost<float>(cpu, choice, dimension, elements)
+                              : law_cost<double>(cpu, choice, dimension, elements);
+}
+
+std::string cpu_description() { return "cpu: " + Cpu(0).description(); }
+
+}  // namespace hysteron

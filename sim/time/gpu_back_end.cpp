@@ -1,0 +1,25 @@
+// Compiled by nvcc only.
+#include "sim/time/back_end.h"
+#include "sim/time/stepper.h"
+
+namespace hysteron {
+
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth& cloth,
+                                                const CurvatureOperator& op, const StepLimits& limits) {
+  auto gpu = std::make_unique<Cuda>(0);
+  if (scene.precision == "float")
+    return std::make_unique<Stepper<float, Cuda>>(std::move(gpu), scene, cloth, op, limits);
+  return std::make_unique<Stepper<double, Cuda>>(std::move(gpu), scene, cloth, op, limits);
+}
+
+LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision) {
+  Cuda gpu(0);
+  return precision == "float" ? law_cost<float>(gpu, choice, dimension, elements)
+                              : law_cost<double>(gpu, choice, dimension, elements);
+}
+
+int gpu_count(std::string& reason) { return cuda_device_count(reason); }
+
+std::string gpu_description(int index) { return "cuda: " + Cuda(index).description(); }
+
+}  // namespace hysteron

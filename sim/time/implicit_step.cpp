@@ -1,0 +1,320 @@
+// Ledger.  Over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, a = (v_{n+1} -
+// v^)/over with v^ the formula's combination of older velocities.  What of it does not become kinetic energy,
+//   m a.d - m (|v_{n+1}|^2 - |v_n|^2)/2,   in backward Euler m |dv|^2/2,
+// the integrator has taken away; so it has, of each energy, the gap between its change and the work of its
+// forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
+#include "sim/time/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace hysteron {
+
+namespace {
+
+template <class Real, class Device>
+double sum_of(const Buffer<Real, Device>& values) {
+  const std::vector<Real> host = values.download();
+  return std::accumulate(host.begin(), host.end(), 0.0);
+}
+
+template <class Real>
+NewtonLimits newton_limits(const Scene& scene, bool statics) {
+  NewtonLimits limits;
+  limits.residual = scene.newton_residual;
+  // Single precision resolves positions of a metre to 6e-8 m.
+  constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
+  limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
+  if (statics && scene.integrator != "quasi-static") {
+    // What is good enough for steps in time, whose own error hides it, is not for the equilibrium after them.
+    limits.residual = std::min(limits.residual, 1e-6);
+    limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kLeastVelocity);
+  }
+  if (statics) {
+    limits.iterations = 400;
+    // Parts of a step find no other equilibrium after a motion: the caller sees whether cloth still moves.
+    limits.take_unconverged = scene.integrator != "quasi-static";
+    limits.first_shift = 1e4;  // as in a step of 10 ms
+    limits.least_shift = 1e-4;
+  } else if (scene.newton_iterations > 0) {
+    limits.iterations = scene.newton_iterations;
+    limits.take_unconverged = true;
+  }
+  return limits;
+}
+
+}  // namespace
+
+template <class Real, class Device>
+ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
+                                         BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+                                         Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+                                         SelfContact<Real, Device>* self_contact,
+                                         std::unique_ptr<LinearSolver<Real, Device>> solver)
+    : device_(device),
+      two_step_(scene.integrator == "bdf2"),
+      static_(scene.integrator == "quasi-static"),
+      bending_lags_(scene.integrator == "semi-implicit"),
+      gravity_(scene.gravity.cast<Real>()),
+      drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
+      vertices_(static_cast<int>(mass.size())),
+      total_mass_(sum_of(mass)),
+      membrane_(membrane),
+      bending_(bending),
+      potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_),
+      solver_(std::move(solver)),
+      newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene, static_)),
+      size_(device, 1),
+      end_(device, vertices_),
+      reference_(device, vertices_),
+      drift_(device, vertices_),
+      predicted_(device, vertices_),
+      acceleration_(device, vertices_),
+      x_before_(device, two_step_ ? vertices_ : 0),
+      v_before_(device, two_step_ ? vertices_ : 0),
+      way_(device, self_contact ? vertices_ : 0) {}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
+  static_ = true;
+  two_step_ = false;
+  newton_.set_limits(newton_limits<Real>(scene, true));
+  last_h_ = 0;  // velocities that were are no guess
+}
+
+template <class Real, class Device>
+std::size_t ImplicitStep<Real, Device>::bytes() const {
+  return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
+         way_.bytes();
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share) {
+  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;
+  formula_ = static_     ? StepFormula::statics(h)
+             : two_steps ? StepFormula::bdf2(h, last_h_)
+                         : StepFormula::backward_euler(h);
+  share_ = static_cast<Real>(share);
+  place(state);
+  potential_.begin({formula_, state.x, x_before_.data(), reference_.data(), predicted_.data(), state.held,
+                    gravity_, drag_, share_});
+  // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
+  const double steady = potential_of_guess(state, false);
+  double begun = steady;
+  if (last_h_ > 0) {
+    begun = potential_of_guess(state, true);
+    if (!(begun < steady)) begun = potential_of_guess(state, false);
+  }
+  if (!std::isfinite(begun)) {  // the handles' way is not free, or the state not finite
+    NewtonOutcome outcome;
+    outcome.blocked = potential_.has_self_contact() && !keep_apart(state);
+    return outcome;
+  }
+  const double over = static_ ? 1.0 : formula_.over;
+  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, over);
+}
+
+template <class Real, class Device>
+std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const char* held) const {
+  std::vector<Vec3<Real>> force(vertices_);
+  device_download(device_, force.data(), potential_.gradient(), force.size() * sizeof(Vec3<Real>));
+  std::vector<char> mask(vertices_);
+  device_download(device_, mask.data(), held, mask.size());
+  for (int i = 0; i < vertices_; ++i)
+    if (!mask[i]) force[i].setZero();
+  return force;
+}
+
+template <class Real, class Device>
+Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
+  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
+  std::vector<Vec3<Real>> gradient(vertices_);
+  device_download(device_, gradient.data(), potential_.gradient(), gradient.size() * sizeof(Vec3<Real>));
+  std::vector<char> mask(vertices_);
+  device_download(device_, mask.data(), held, mask.size());
+  Unbalanced result;
+  for (int i = 0; i < vertices_; ++i) {
+    const double force = static_cast<double>(gradient[i].norm());
+    if (mask[i] || !(force > result.force)) continue;
+    result.vertex = i;
+    result.force = force;
+  }
+  if (result.vertex >= 0) result.position = end_.download()[result.vertex].template cast<double>();
+  return result;
+}
+
+template <class Real, class Device>
+double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state, bool accelerated) {
+  guess(state, accelerated);
+  if (potential_.has_self_contact() && !keep_apart(state)) return std::numeric_limits<double>::infinity();
+  potential_.lag_friction(end_.data());
+  return potential_.evaluate(end_.data(), nullptr).energy;
+}
+
+// What the formula starts from.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
+  const Real over = static_ ? Real(0) : static_cast<Real>(formula_.over);
+  const Real lag = static_cast<Real>(formula_.lag);
+  const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
+  for_each(
+      device_, "implicit start", vertices_, HYST_KERNEL(int i) {
+        reference[i] = x[i];
+        drift[i] = v[i];
+        if (lag > 0) {
+          reference[i] += lag * (x[i] - x0[i]);
+          drift[i] += lag * (v[i] - v0[i]);
+        }
+        predicted[i] = reference[i] + over * drift[i];
+      });
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool accelerated) {
+  const Real h = static_cast<Real>(formula_.dt);
+  const double way = static_ ? formula_.dt : formula_.over * formula_.over;
+  const Real share = accelerated ? static_cast<Real>(way) : Real(0);
+  const Vec3<Real>*x = state.x, *v = state.v, *predicted = predicted_.data(), *a = acceleration_.data();
+  const char* held = state.held;
+  Vec3<Real>* end = end_.data();
+  for_each(
+      device_, "implicit guess", vertices_, HYST_KERNEL(int i) {
+        end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + share * a[i]);
+      });
+}
+
+// Shortens the guess until the cloth does not pass through itself on the way there; held vertices have to go
+// all of theirs.
+template <class Real, class Device>
+bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
+  constexpr int kMostShortenings = 12;
+  constexpr double kWithin = 0.99, kFastest = 0.1;
+  double shorter = 1;
+  for (int k = 0; k < kMostShortenings; ++k) {
+    shorten_way(state, static_cast<Real>(shorter));
+    const double feasible = potential_.feasible_share(state.x, way_.data(), 1);
+    if (feasible >= 1) {
+      potential_.took(end_.data());
+      return true;
+    }
+    shorter = std::max(kWithin * feasible, kFastest);
+  }
+  return false;
+}
+
+// The way to the guess, of free vertices this share of it; the guess moves there.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::shorten_way(const VertexState<Real>& state, Real share) {
+  const Vec3<Real>* x = state.x;
+  const char* held = state.held;
+  Vec3<Real>*end = end_.data(), *way = way_.data();
+  for_each(
+      device_, "implicit: way", vertices_, HYST_KERNEL(int i) {
+        way[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(share * (end[i] - x[i]));
+        end[i] = x[i] + way[i];
+      });
+}
+
+// Both the formula's error and the extrapolation's are multiples of h^2 x^(2) (backward Euler: 1/2 against
+// 1/2 more) or of h^3 x^(3) (bdf2 with w = h/h_before: (1 + w)^2/(6 w (1 + 2w)) against 1/6 + 1/(4w) more).
+template <class Real, class Device>
+double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
+  const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
+  const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
+  const bool second = formula_.lag > 0;
+  const double share = second ? of_bdf2 / (of_bdf2 + of_extrapolation) : 0.5;
+  const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
+  const Vec3<Real>*x = state.x, *v = state.v, *a = acceleration_.data(), *end = end_.data();
+  const char* held = state.held;
+  const Real* mass = state.mass;
+  double* size = size_.data();
+  for_each_sum<1>(
+      device_, "implicit error", vertices_,
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        if (held[i]) return;
+        const Vec3<Real> miss = end[i] - x[i] - h * v[i] - curved * a[i];
+        sums.term[0] += static_cast<double>(mass[i] * miss.squaredNorm());
+      },
+      HYST_KERNEL(const Sums<1>& total) { *size = total.term[0]; });
+  return share * std::sqrt(size_.download()[0] / total_mass_);
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLedger* ledger) {
+  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
+  if (!bending_lags_) bending_.accept(end_.data());
+  book(state, ledger);
+  membrane_.add_viscous_loss();
+  move_on(state);
+  last_h_ = formula_.dt;
+}
+
+// Work of the forces at the end of the step over the way there.  Membrane and contact: what is left of the
+// gradient.
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
+  const Real rate = static_cast<Real>(1 / formula_.over);  // 0 in statics
+  const Real inertia = rate * rate, drag = drag_ * rate;
+  const Vec3<Real> g = gravity_, carried = (1 - share_) * gravity_;
+  const GatheredForces<Real> bending = bending_.forces();
+  const Vec3<Real>*x = state.x, *v = state.v, *end = end_.data(), *reference = reference_.data();
+  const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
+  const char* held = state.held;
+  const Real* mass = state.mass;
+  const Vec3<Real>* handle_way = state.handle_way;
+  for_each(
+      device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
+        const Vec3<Real> way = held[i] && handle_way ? handle_way[i] : d;
+        const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
+        const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
+        const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down
+        const Vec3<Real> rest = inertial - air - weight - support - bend - gradient[i];
+        VertexLedger& sum = ledger[i];
+        sum.bending_work += static_cast<double>(bend.dot(way));
+        sum.gravity_work += static_cast<double>(weight.dot(d));
+        sum.implicit_work += static_cast<double>(rest.dot(way));
+        sum.handle_work += static_cast<double>(support.dot(d));
+        if (held[i]) {
+          sum.handle_work -= static_cast<double>((weight + support).dot(d) + (bend + rest).dot(way));
+          return;
+        }
+        // What Newton's method has left unbalanced acts like one more force on the masses.
+        sum.unbalanced -= static_cast<double>(gradient[i].dot(d));
+        sum.air -= static_cast<double>(air.dot(d));
+        // Statics take the velocities of a motion before them.
+        const Vec3<Real> moved =
+            rate > 0 ? Vec3<Real>(drift[i] + rate * (end[i] - predicted[i])) : Vec3<Real>(Vec3<Real>::Zero());
+        sum.inertia +=
+            static_cast<double>(inertial.dot(d) - mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
+      });
+}
+
+template <class Real, class Device>
+void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
+  const Real rate = static_cast<Real>(1 / formula_.over), h = static_cast<Real>(formula_.dt);
+  const bool two_step = two_step_, statics = static_;
+  Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  const Vec3<Real>*end = end_.data(), *reference = reference_.data();
+  Vec3<Real>* acceleration = acceleration_.data();
+  const char* held = state.held;
+  for_each(
+      device_, "implicit end", vertices_, HYST_KERNEL(int i) {
+        const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>(rate * (end[i] - reference[i]));
+        if (two_step) {
+          x0[i] = x[i];
+          v0[i] = v[i];
+        }
+        acceleration[i] = statics ? Vec3<Real>((end[i] - x[i]) / h) : Vec3<Real>((moved - v[i]) / h);
+        x[i] = end[i];
+        v[i] = moved;
+      });
+}
+
+template class ImplicitStep<double, ThisDevice>;
+template class ImplicitStep<float, ThisDevice>;
+
+}  // namespace hysteron

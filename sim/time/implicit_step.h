@@ -1,0 +1,92 @@
+// One implicit step: backward Euler, two-step backward differences (bdf2), or equilibrium (quasi-static).  In
+// `semi-implicit` with self-contact bending lags: its force is that of the state accepted last.
+#pragma once
+
+#include <memory>
+
+#include "sim/scene/scene.h"
+#include "sim/time/newton.h"
+#include "sim/time/vertex_ledger.h"
+
+namespace hysteron {
+
+// State of the cloth's vertices on the device, owned by the stepper.
+template <class Real>
+struct VertexState {
+  Vec3<Real>*x, *v;  // v of held vertices: that of the coming step
+  const char* held;
+  const Real* mass;
+  // Of moving handles: the way along their arcs as the end of the step sees it, duration times velocity;
+  // null if none moves [m].
+  const Vec3<Real>* handle_way;
+};
+
+// The vertex that is farthest from equilibrium.
+struct Unbalanced {
+  int vertex = -1;
+  double force = 0;  // [N]
+  Eigen::Vector3d position{0, 0, 0};
+};
+
+template <class Real, class Device>
+class ImplicitStep {
+ public:
+  ImplicitStep(Device& device, const Scene& scene, const Buffer<Real, Device>& mass,
+               BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+               Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+               SelfContact<Real, Device>* self_contact, std::unique_ptr<LinearSolver<Real, Device>> solver);
+
+  // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
+  NewtonOutcome solve(const VertexState<Real>& state, double h, double share);
+  // Steps are equilibria from now on.
+  void become_static(const Scene& scene);
+  // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
+  // caller's.
+  void accept(const VertexState<Real>& state, VertexLedger* ledger);
+  // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
+  // mean square by mass [m].  It is of the order error_order() in the step.
+  double local_error(const VertexState<Real>& state);
+  double error_order() const { return formula_.lag > 0 ? 3 : 2; }
+  // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
+  std::vector<Vec3<Real>> handle_forces(const char* held) const;
+  // Where solve() has ended without success.
+  Unbalanced most_unbalanced(const char* held);
+  std::size_t bytes() const;
+
+  // The parts; public because nvcc allows no device lambda in a private member function.
+  void place(const VertexState<Real>& state);
+  void guess(const VertexState<Real>& state, bool accelerated);
+  bool keep_apart(const VertexState<Real>& state);
+  void shorten_way(const VertexState<Real>& state, Real share);
+  void book(const VertexState<Real>& state, VertexLedger* ledger);
+  void move_on(const VertexState<Real>& state);
+
+ private:
+  static constexpr double kMostGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
+  double potential_of_guess(const VertexState<Real>& state, bool accelerated);
+
+  Device& device_;
+  bool two_step_, static_, bending_lags_;
+  Vec3<Real> gravity_;
+  Real drag_;       // over mass [1/s]
+  Real share_ = 1;  // of the weight
+  int vertices_;
+  double total_mass_;
+  Membrane<Real, Device>& membrane_;
+  Bending<Real, Device>& bending_;
+  IncrementalPotential<Real, Device> potential_;
+  std::unique_ptr<LinearSolver<Real, Device>> solver_;
+  Newton<Real, Device> newton_;
+  StepFormula formula_;
+  double last_h_ = 0;  // of the step before; 0: none
+  Buffer<double, Device> size_;
+  Buffer<Vec3<Real>, Device> end_;  // positions looked for
+  Buffer<Vec3<Real>, Device> reference_, drift_,
+      predicted_;  // r [m], velocity that goes with it [m/s], y [m]
+  // Over the step before: acceleration [m/s^2]; in statics the velocity of the load [m/s].
+  Buffer<Vec3<Real>, Device> acceleration_;
+  Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
+  Buffer<Vec3<Real>, Device> way_;                  // to a guess; with self-contact only
+};
+
+}  // namespace hysteron

@@ -1,0 +1,100 @@
+// An implicit step as a minimum problem (Martin et al. 2011 for elastic bodies; with hysteresis because
+// moment is a function of curvature from the accepted history on):
+//
+//   Phi(x) = sum m/2 |x - y|^2/over^2 + drag m/2 |x - r|^2/over - m g.(x - x_n)
+//            + membrane + bending law + viscosity + contact + friction [J]
+//
+// Lagged bending (of `semi-implicit`) is the force of the state accepted last: -f.(x - x_n) takes the place
+// of its energy.
+//
+// r = the formula's reference position, y = r + over * (the same combination of velocities).  Statics have
+// over = infinity: no inertia, drag or viscosity.
+#pragma once
+
+#include "sim/bending/bending.h"
+#include "sim/contact/contact.h"
+#include "sim/contact/self_contact.h"
+#include "sim/linear/pcg.h"
+#include "sim/membrane/membrane.h"
+
+namespace hysteron {
+
+// Where a step starts; arrays of vertices.
+template <class Real>
+struct StepStart {
+  StepFormula formula;
+  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read if formula.lag = 0)
+  const Vec3<Real>*reference, *predicted;  // r, y
+  const char* held;
+  Vec3<Real> gravity;  // [m/s^2]
+  Real drag;           // air drag over mass [1/s]
+  Real share;          // of the weight that acts: the load of statics grows
+};
+
+struct PotentialValue {
+  double energy = 0;    // Phi [J]
+  double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
+  double residual = 0;  // norm of the gradient over all free vertices [N]
+  double reaction = 0;  // the same over the held ones: what the handles carry [N]
+  double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
+  double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
+  double slope = 0;     // gradient . direction [J]
+};
+
+template <class Real, class Device>
+class IncrementalPotential {
+ public:
+  IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+                       Bending<Real, Device>& bending, Contact<Real, Device>* contact,
+                       SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass,
+                       bool bending_lags);
+
+  void begin(const StepStart<Real>& start);
+  // Largest share of the way from x, up to `at_most`, on which the cloth does not pass through itself.
+  // evaluate() then serves points up to there; took() tells which of them was taken.
+  double feasible_share(const Vec3<Real>* x, const Vec3<Real>* way, double at_most);
+  void took(const Vec3<Real>* x);
+  bool has_self_contact() const { return self_contact_ != nullptr; }
+  // Limits of friction from the contact at x; Phi changes with them.
+  void lag_friction(const Vec3<Real>* x);
+  // Phi and its gradient; the direction may be null.
+  PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
+  // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  It is
+  // positive semidefinite unless it is `full`: then with what compression takes away.  Bending's part is
+  // Gauss-Newton's, without the second derivatives of angles.
+  LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
+  const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
+  double load();  // norm of the weight of all free vertices [N]
+  bool has_friction() const { return contact_ || self_contact_; }
+  std::size_t bytes() const {
+    return gradient_.bytes() + rest_diagonal_.bytes() + softening_off_.bytes() + softening_diagonal_.bytes() +
+           sums_.bytes();
+  }
+
+  struct Totals {  // on the device
+    double energy, size, internal2, inertia2, residual2, reaction2, slope;
+  };
+
+  // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
+  void compute_gradient(const Vec3<Real>* x);
+  void add_energies(const double* energies, int count);
+  void measure_gradient(const Vec3<Real>* direction);
+
+ private:
+  Device& device_;
+  BlockRows<Real, Device>& matrix_;
+  Membrane<Real, Device>& membrane_;
+  Bending<Real, Device>& bending_;
+  Contact<Real, Device>* contact_;
+  SelfContact<Real, Device>* self_contact_;
+  const Buffer<Real, Device>& mass_;
+  bool bending_lags_;
+  int vertices_;
+  StepStart<Real> start_{};
+  Buffer<Vec3<Real>, Device> gradient_;
+  Buffer<Mat3<Real>, Device> rest_diagonal_;
+  Buffer<Real, Device> softening_off_, softening_diagonal_;
+  Buffer<Totals, Device> sums_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,40 @@
+#include "sim/time/ledger.h"
+
+#include <cmath>
+
+namespace hysteron {
+
+void Ledger::close() {
+  const double now = kinetic + gravitational + membrane + bending + contact;
+  const double losses = commands + bending_friction + viscous + air + contact_friction + integrator();
+  remainder = now - initial - handle_work - obstacle_work + losses;
+  double scale = 0;
+  for (double term : {kinetic, gravitational, membrane, bending, contact, handle_work, obstacle_work,
+                      commands, bending_friction, viscous, air, contact_friction, inertia})
+    scale += std::abs(term);
+  remainder_relative = scale > 0 ? std::abs(remainder) / scale : 0;
+}
+
+std::vector<std::pair<std::string, double>> Ledger::rows() const {
+  return {{"kinetic", kinetic},
+          {"gravitational", gravitational},
+          {"membrane", membrane},
+          {"bending", bending},
+          {"contact", contact},
+          {"initial", initial},
+          {"handle_work", handle_work},
+          {"obstacle_work", obstacle_work},
+          {"commands", commands},
+          {"bending_friction", bending_friction},
+          {"viscous", viscous},
+          {"air", air},
+          {"contact_friction", contact_friction},
+          {"integrator_inertia", inertia},
+          {"integrator_unbalanced", unbalanced},
+          {"integrator_bending", bending_gap},
+          {"integrator_implicit", implicit_gap},
+          {"integrator_gravity", gravity_gap},
+          {"remainder", remainder}};
+}
+
+}  // namespace hysteron

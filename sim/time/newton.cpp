@@ -1,0 +1,195 @@
+#include "sim/time/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hysteron {
+
+namespace {
+constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step must reach (Armijo 1966)
+constexpr int kMostHalvings = 30;
+constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow; then they stay
+// What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
+template <class Real>
+constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
+// Rounding of positions.  What it makes of forces, stiffness times position times this, may exceed the forces
+// that decide, as those of a thin strip on edge, or the weight of fine cloth in single precision: it ends a
+// step only of free cloth without weight, whose forces have nothing else to compare with.
+template <class Real>
+constexpr double kBlur = sizeof(Real) == 8 ? 1e-16 : 6e-8;
+// Corrections that rounding of positions cannot tell from none, relative to the positions.
+template <class Real>
+constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
+// A correction too small to matter ends a step only where the unbalanced force, over the forces at work, has
+// become small, too: a stiffness far above the true one makes any correction small.
+template <class Real>
+constexpr double kBalanced = sizeof(Real) == 8 ? 1e-3 : 1;
+}  // namespace
+
+template <class Real, class Device>
+Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
+                             LinearSolver<Real, Device>& solver, const NewtonLimits& limits)
+    : device_(device),
+      vertices_(vertices),
+      potential_(potential),
+      solver_(solver),
+      limits_(limits),
+      direction_(device, vertices),
+      trial_(device, vertices),
+      rhs_(device, vertices),
+      sums_(device, 1) {}
+
+// Linear systems are solved the better the nearer the minimum (Eisenstat & Walker 1996, choice 2).
+template <class Real, class Device>
+NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
+                                             double total_mass, double over) {
+  constexpr double kLoosest = 0.1, kTightest = 1e-5;
+  constexpr double kNear = 0.1;  // share of the first unbalanced force below which the full stiffness is used
+  NewtonOutcome outcome;
+  const double weight = potential_.load();
+  potential_.lag_friction(x);
+  PotentialValue value = potential_.evaluate(x, nullptr);
+  const double first = value.residual;
+  // What a way may meet costs the more the longer it is: the next one is looked at as far as a few times the
+  // last.
+  constexpr double kLonger = 4;
+  double farthest = std::numeric_limits<double>::infinity();  // [m]
+  double forcing = kLoosest, shift = limits_.first_shift, rounding = 0;
+  for (;; ++outcome.iterations) {
+    outcome.residual = value.residual;
+    outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
+    // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
+    outcome.converged |= value.residual <= std::max(limits_.residual * outcome.load, rounding) ||
+                         value.residual * over * std::sqrt(vertices_) / total_mass <= limits_.velocity;
+    if (outcome.converged || !std::isfinite(value.energy)) break;
+    if (outcome.iterations == limits_.iterations) {
+      outcome.converged = outcome.unbalanced = limits_.take_unconverged;
+      break;
+    }
+    const LinearSystem<Real, Device> system =
+        potential_.linearise(x, static_cast<Real>(shift), value.residual < kNear * first);
+    outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
+    const bool is_free = std::hypot(weight, value.reaction) == 0;
+    const Correction correction = measure_correction(system, x, mass, held, is_free);
+    if (is_free) rounding = kBlur<Real> * std::sqrt(correction.forces2);
+    const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
+    const double before = value.residual;
+    const double length = std::sqrt(correction.size2 / total_mass);
+    // Of potentials: what their sum loses, and what forces make of rounded positions.
+    const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
+    const double blurred =
+        std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
+    const double share = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
+    if (potential_.has_self_contact()) farthest = kLonger * share * length;
+    const bool balanced =
+        value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
+    if (share == 0) {
+      outcome.converged = value.residual <= rounding ||
+                          (balanced && (unmoved || -correction.slope <= blurred));  // no more to gain
+      outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
+      outcome.converged |= outcome.unbalanced;
+      break;
+    }
+    outcome.converged =
+        balanced && shift <= limits_.least_shift && (unmoved || length / over <= limits_.velocity);
+    shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
+    if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
+      potential_.lag_friction(x);
+      value = potential_.evaluate(x, nullptr);
+    }
+    forcing = std::min(kLoosest, 0.9 * std::pow(value.residual / before, 2));
+  }
+  return outcome;
+}
+
+// Newton's direction.  In a `full` system the membrane's softening under compression counts, and where the
+// stiffness is indefinite the direction leads down along its negative curvature, away from the saddle;
+// without, the stiffness is positive.  Longva et al. 2023 compare such choices.  Returns the linear solver's
+// iterations.
+template <class Real, class Device>
+long Newton<Real, Device>::find_direction(const LinearSystem<Real, Device>& system, const char* held,
+                                          double tolerance) {
+  negate_gradient();
+  return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
+}
+
+// Takes the first share of the direction, as much as is feasible or less, that lowers the potential enough,
+// and returns it; 0 if there is none.  Where the difference is within rounding, the slope must have become
+// flatter instead (Hager & Zhang 2005).
+template <class Real, class Device>
+double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most,
+                                    double blurred) {
+  if (!(slope < 0)) return 0;
+  double share = potential_.feasible_share(x, direction_.data(), at_most);
+  if (!(share > 0)) return 0;
+  for (int halving = 0; halving < kMostHalvings; ++halving) {
+    try_share(x, static_cast<Real>(share));
+    const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
+    const double rise = trial.energy - value.energy;
+    const bool lower = rise <= kEnough * share * slope,
+               flatter = std::abs(rise) <= blurred && std::abs(trial.slope) <= -0.9 * slope;
+    if (lower || flatter) {
+      take_trial(x);
+      potential_.took(x);
+      value = trial;
+      return share;
+    }
+    const double curved = 2 * (rise - share * slope);  // minimum of the parabola through what is known
+    const double next = curved > 0 ? -slope * share * share / curved : 0;
+    share = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * share, 0.5 * share);
+  }
+  return 0;
+}
+
+template <class Real, class Device>
+typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(
+    const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass, const char* held,
+    bool is_free) {
+  const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
+  const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
+  Correction* result = sums_.data();
+  for_each_sum<4>(
+      device_, "newton: correction", vertices_,
+      HYST_KERNEL(int i, Sums<4>& sums) {
+        if (held[i]) return;
+        sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
+        sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
+        sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
+        if (!is_free) return;  // the blocks are most of what would be read
+        const Real stiffness = diagonal[i].trace() + rest[i].trace();
+        sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
+      },
+      HYST_KERNEL(const Sums<4>& total) {
+        *result = {total.term[0], total.term[1], total.term[2], total.term[3]};
+      });
+  return sums_.download()[0];
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::try_share(const Vec3<Real>* x, Real share) {
+  const Vec3<Real>* d = direction_.data();
+  Vec3<Real>* trial = trial_.data();
+  for_each(
+      device_, "newton: try", vertices_, HYST_KERNEL(int i) { trial[i] = x[i] + share * d[i]; });
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::take_trial(Vec3<Real>* x) {
+  const Vec3<Real>* trial = trial_.data();
+  for_each(
+      device_, "newton: take", vertices_, HYST_KERNEL(int i) { x[i] = trial[i]; });
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::negate_gradient() {
+  const Vec3<Real>* gradient = potential_.gradient();
+  Vec3<Real>* rhs = rhs_.data();
+  for_each(
+      device_, "newton: load", vertices_, HYST_KERNEL(int i) { rhs[i] = -gradient[i]; });
+}
+
+template class Newton<double, ThisDevice>;
+template class Newton<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,72 @@
+// Newton's method with line search on the incremental potential.
+#pragma once
+
+#include "sim/linear/linear_solver.h"
+#include "sim/time/incremental_potential.h"
+
+namespace hysteron {
+
+// A step has converged when the unbalanced force is small or the last correction was.
+struct NewtonLimits {
+  // Norm of the unbalanced force over that of the weight and what the handles carry, or, where the masses'
+  // inertia is larger, over that: free cloth without weight has nothing else to compare with.
+  double residual = 1e-6;
+  double velocity = 1e-9;  // root mean square of a correction over the step's time, or of what the unbalanced
+                           // force makes of free masses in it [m/s]
+  int iterations = 60;
+  bool take_unconverged = false;  // what is reached by then is taken as it is
+  // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift
+  // falls with every full step and rises with every shortened one [1/s^2].
+  double first_shift = 0, least_shift = 0;
+};
+
+struct NewtonOutcome {
+  bool converged = false;   // or taken as it is
+  bool unbalanced = false;  // taken as it is
+  bool blocked = false;     // the handles' own way leads the cloth through itself
+  int iterations = 0;
+  long linear_iterations = 0;
+  double residual = 0;  // [N]
+  double load = 0;      // weight and reactions, or inertia if that is larger [N]
+};
+
+template <class Real, class Device>
+class Newton {
+ public:
+  Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
+         LinearSolver<Real, Device>& solver, const NewtonLimits& limits);
+
+  // Minimises the potential over the vertices that are not held, from x on.  `over` turns corrections into
+  // velocities [s].  Each accepted iterate lowers the potential, up to rounding.
+  NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass, double over);
+  void set_limits(const NewtonLimits& limits) { limits_ = limits; }
+  std::size_t bytes() const { return direction_.bytes() + trial_.bytes() + rhs_.bytes() + sums_.bytes(); }
+
+  // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
+  struct Correction {
+    double size2;    // sum of m |d|^2 [kg m^2]
+    double slope;    // gradient . d [J]
+    double extent2;  // sum of m |x|^2 [kg m^2]
+    double forces2;  // sum of (trace of the stiffness times |x|)^2, whose rounding no force escapes; of free
+                     // cloth [N^2]
+  };
+  Correction measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
+                                const Real* mass, const char* held, bool is_free);
+  void try_share(const Vec3<Real>* x, Real share);
+  void take_trial(Vec3<Real>* x);
+  void negate_gradient();
+
+ private:
+  long find_direction(const LinearSystem<Real, Device>& system, const char* held, double tolerance);
+  double search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most, double blurred);
+
+  Device& device_;
+  int vertices_;
+  IncrementalPotential<Real, Device>& potential_;
+  LinearSolver<Real, Device>& solver_;
+  NewtonLimits limits_;
+  Buffer<Vec3<Real>, Device> direction_, trial_, rhs_;
+  Buffer<Correction, Device> sums_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,27 @@
+// Stands in for gpu_back_end.cpp in a build without CUDA.
+#include "sim/base/error.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron {
+
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&) {
+  std::string reason;
+  gpu_count(reason);
+  throw Error::machine("device = cuda: " + reason);
+}
+
+LawCost gpu_law_cost(const LawChoice&, int, int, const std::string&) {
+  std::string reason;
+  gpu_count(reason);
+  throw Error::machine("device = cuda: " + reason);
+}
+
+int gpu_count(std::string& reason) {
+  reason = "this build has no CUDA back end";
+  return 0;
+}
+
+std::string gpu_description(int) { return "cuda: none"; }
+
+}  // namespace hysteron

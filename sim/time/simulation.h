@@ -1,0 +1,89 @@
+// A running simulation: one interface over both devices and both precisions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/device/gl_positions.h"
+#include "sim/scene/cloth.h"
+#include "sim/scene/scene.h"
+#include "sim/time/ledger.h"
+
+namespace hysteron {
+
+// A part of a scene and what it costs; parts that the scene does not need have no bytes and say why.
+struct ScenePart {
+  std::string name;
+  bool included = false;
+  std::size_t bytes = 0;
+  std::string kernels;  // names of its loops
+  std::string reason;
+};
+
+struct StepLimits {
+  double bending_step = 0;   // largest stable explicit bending step, safety margin included [s]
+  double membrane_step = 0;  // the same for the membrane; 0 if the integrator treats it implicitly [s]
+  int substeps = 1;          // alpha in use
+  double substep = 0;        // he = hi/alpha [s]
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  // Error::run when the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.
+  virtual void advance(int steps) = 0;
+  // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
+  // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
+  // Error::request for integrators that are not implicit in all forces.
+  virtual void become_static() = 0;
+  virtual void wait() = 0;          // until the device has done what advance() ordered
+  virtual double time() const = 0;  // [s]
+  virtual long steps() const = 0;
+
+  virtual std::vector<Eigen::Vector3d> positions() = 0;   // [m]
+  virtual std::vector<Eigen::Vector3d> velocities() = 0;  // [m/s]
+  virtual std::vector<double> curvature() = 0;            // `dimension` components per element [1/m]
+  virtual std::vector<double> moment() = 0;               // likewise, with viscosity [N]
+  virtual std::vector<double> residual_curvature() = 0;   // likewise, where the moment is zero [1/m]
+  virtual std::vector<double> friction_share() = 0;       // per element: |friction moment|/M0
+  virtual int dimension() const = 0;                      // 1: elements are hinges, 3: elements are faces
+  // Opens an OpenGL buffer of three floats a vertex for positions that do not pass the host.  Its context is
+  // current and draws on CUDA device `gl_device` (-1: none).  Null, and why, where that cannot be; the
+  // simulation must outlive what is returned.
+  virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
+                                                       std::string& reason) = 0;
+  // Forces of the handles on each vertex at the end of the last step [N], zero on free ones; empty for
+  // integrators that are not implicit in all forces.
+  virtual std::vector<Eigen::Vector3d> handle_forces() = 0;
+  virtual Ledger ledger() = 0;
+  virtual double largest_stretch() = 0;    // largest principal stretch minus 1
+  virtual std::uint64_t state_hash() = 0;  // of positions and velocities, bit for bit
+
+  virtual std::vector<std::pair<std::string, double>> stage_seconds() = 0;
+  virtual double solver_iterations() const = 0;  // mean per step
+  virtual double newton_iterations() const = 0;  // mean per step; 0 where there is no Newton solve
+  virtual long parts_taken() const = 0;          // into which steps were divided, by retries or a tolerance
+  virtual long retried_steps() const = 0;        // that were taken again in smaller parts
+  virtual long unbalanced_steps() const = 0;     // parts taken before Newton's method had converged
+  virtual StepLimits limits() const = 0;
+  virtual std::vector<ScenePart> parts() const = 0;
+  virtual std::size_t device_bytes() const = 0;
+  virtual double copy_bandwidth() = 0;     // of this device, bytes read plus written [byte/s], measured
+  virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
+  virtual int cuda_device() const = 0;     // -1: the CPU
+  // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
+  // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.
+  virtual long deep_steps() const = 0;
+};
+
+// Chooses device and precision as the scene asks.  Error::request for what cannot be simulated, a start that
+// contact cannot go on from included (contact/start_checks.h), Error::machine for a missing GPU.
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth);
+
+// Names of the usable devices: the CPU, then the GPUs or the reason why there are none.
+std::vector<std::string> device_list();
+
+}  // namespace hysteron

@@ -1,0 +1,137 @@
+// Fronts and orders on made-up findings; the problems' own answers at small size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/accuracy/front.h"
+#include "experiments/workbench/app/experiment.h"
+#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Solved made_up(int triangles, double error, double seconds, const std::string& law = "linear") {
+  Solved solved;
+  solved.setting.triangles = triangles;
+  solved.setting.law = law;
+  solved.found.triangles = triangles;
+  solved.found.error = error;
+  solved.found.seconds = seconds;
+  return solved;
+}
+
+Solution made_up_solution() {
+  Solution solution;
+  solution.solved = {made_up(100, 0.04, 1), made_up(400, 0.01, 4), made_up(1600, 0.0025, 16),
+                     made_up(900, 0.02, 9), made_up(100, 0.001, 0.5, "pabst")};
+  for (const Solved& s : solution.solved) solution.problem.settings.push_back(s.setting);
+  return solution;
+}
+
+TEST(AccuracyFront, HoldsWhatNothingElseBeatsOnTheSameQuestion) {
+  EXPECT_EQ(pareto_front(made_up_solution()), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(AccuracyFront, NamesTheCheapestWithinAnError) {
+  const Solution solution = made_up_solution();
+  EXPECT_EQ(cheapest(solution, 0.1), 0u);
+  EXPECT_EQ(cheapest(solution, 0.01), 1u);
+  EXPECT_EQ(cheapest(solution, 0.003), 2u);
+  EXPECT_FALSE(cheapest(solution, 0.001)) << "only another law is as good";
+}
+
+TEST(AccuracyFront, LeavesOutWhatFailed) {
+  Solution solution = made_up_solution();
+  solution.solved[0].found.failed = "no equilibrium";
+  EXPECT_EQ(pareto_front(solution).front(), 1u);
+}
+
+TEST(ObservedOrders, AreThoseOfTheErrors) {
+  Solution solution = made_up_solution();
+  solution.solved.erase(solution.solved.begin() + 3);
+  const auto orders = observed_orders(solution);
+  ASSERT_EQ(orders.size(), 2u);
+  for (const Order& order : orders) EXPECT_NEAR(order.order, 2, 1e-12);
+}
+
+Found solved_base(const Problem& problem) { return problem.solve(problem.settings.front()); }
+
+const Effort kQuick{true, "cpu"};
+
+TEST(Sag, OfTheBaseLiesOnTheElastica) { EXPECT_LT(solved_base(sag_problem(kQuick)).error, 2e-3); }
+
+// Second order: a quarter of the triangles has four times the error.
+TEST(Sag, ConvergesWithTheMesh) {
+  const Problem problem = sag_problem(kQuick);
+  Setting setting = problem.settings.front();
+  double before = 0;
+  for (const int triangles : {32, 128, 512}) {
+    setting.triangles = triangles;
+    const double error = problem.solve(setting).error;
+    if (before > 0) {
+      EXPECT_LT(error, 0.4 * before) << triangles;
+    }
+    before = error;
+  }
+}
+
+TEST(Sag, OfHingesOnACutGridDropsTooFar) {
+  const Problem problem = sag_problem(kQuick);
+  Setting setting = problem.settings.front();
+  setting.element = "hinge";
+  setting.load = 1;
+  const Found found = problem.solve(setting);
+  EXPECT_NEAR(found.value / found.reference, 1.22, 0.03) << setting.mesh;
+}
+
+TEST(Droop, OfTheBaseIsThatOfTheElastica) {
+  const Found found = solved_base(droop_problem(kQuick));
+  EXPECT_GT(found.reference, 0.005);
+  EXPECT_LT(found.error, 1e-3);
+}
+
+TEST(Bend, OfTheBaseFollowsItsLaw) { EXPECT_LT(solved_base(bend_problem(kQuick)).error, 0.01); }
+
+// Observed orders of the integrators on a smooth motion.
+double order_in_time(const std::string& integrator, double step) {
+  const Problem problem = swing_problem(kQuick);
+  Setting setting = problem.settings.front();
+  setting.integrator = integrator;
+  setting.step = step;
+  const double coarse = problem.solve(setting).error;
+  setting.step = step / 2;
+  return std::log2(coarse / problem.solve(setting).error);
+}
+
+TEST(Swing, Bdf2IsOfSecondOrder) { EXPECT_GT(order_in_time("bdf2", 1.0 / 480), 1.9); }
+TEST(Swing, ImplicitIsOfFirstOrder) { EXPECT_NEAR(order_in_time("implicit", 1.0 / 960), 0.95, 0.1); }
+TEST(Swing, SemiImplicitIsOfFirstOrder) { EXPECT_NEAR(order_in_time("semi-implicit", 1.0 / 30720), 1, 0.1); }
+
+TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
+  const Folder folder;
+  const auto out = folder.path() / "a";
+  CommandLine line{"accuracy", "hysteron accuracy", {{"problem", "bend"}, {"out", out.string()}}, {}};
+  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
+  EXPECT_EQ(experiment_named("accuracy").run(line), 0);
+  const std::string table = text_of(out / "table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'),
+            1 + static_cast<long>(bend_problem(kQuick).settings.size()));
+  EXPECT_NE(text_of(out / "cheapest.csv").find("bend,"), std::string::npos);
+  EXPECT_NE(text_of(out / "orders.csv").find("problem,in,group"), std::string::npos);
+}
+
+TEST(AccuracyCommand, RefusesAnUnknownProblem) {
+  CommandLine line{"accuracy", "hysteron accuracy", {{"problem", "sagg"}}, {}};
+  try {
+    experiment_named("accuracy").run(line);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("bend, sag"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,189 @@
+// The crease recovery specimen, and what opens it.
+#include "experiments/crease/creased.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/compare/law_page.h"
+#include "sim/contact/penalty.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.cloth.length = 0.04;
+  scene.cloth.width = 0.015;
+  scene.triangles = 200;
+  scene.contact_stiffness = 1e9;
+  return scene;
+}
+
+TEST(CreaseSpecimen, HasElementsNoLongerThanAThicknessAcrossTheCrease) {
+  const Crease crease = creased(small_scene(), {}, 1.4e-3);
+  const ClothMesh& mesh = crease.cloth.mesh;
+  int near = 0;
+  for (const Edge& e : mesh.edge) {
+    const double middle = (mesh.rest[e.p2].x() + mesh.rest[e.p3].x()) / 2;
+    if (std::abs(middle - 0.02) > 2e-3) continue;
+    ++near;
+    EXPECT_LE(std::abs(mesh.rest[e.p2].x() - mesh.rest[e.p3].x()), crease.scene.fabric.thickness);
+  }
+  EXPECT_GT(near, 20);
+  EXPECT_NEAR(crease.opening(crease.cloth.start), 180, 1e-6);
+}
+
+TEST(CreaseSpecimen, FeelsThePlateByItsShell) {
+  const Crease crease = creased(small_scene(), {}, 1.4e-3);
+  auto x = crease.cloth.start;
+  const double sink = 0.1 * crease.scene.fabric.thickness;
+  for (auto& p : x) p.z() = 1.4e-3 - crease.scene.fabric.thickness + sink;
+  const double covered = 0.015 * (0.3 + 0.375) * 0.04;
+  EXPECT_NEAR(crease.plate_force(x, crease.times.pressed) / (1e9 * covered * sink), 1, 0.1);
+}
+
+// Bent to a curvature K over all its length and let go, a law keeps M0/b2 at most.
+TEST(CreaseSpecimen, KnowsWhatTheLawAloneKeeps) {
+  Crease crease = creased(small_scene(), {}, 1.4e-3);
+  const std::vector<double> largest(crease.cloth.mesh.faces(), 1000.0);
+  const Fabric& f = crease.scene.fabric;
+  const double kept = (f.b1 - f.b2) * f.k0 / 2 / f.b2 * 0.04 * 180 / 3.14159265358979323846;
+  EXPECT_NEAR(crease.opening_of_law(largest), 180 - kept, 0.01 * kept);
+  crease.scene.law = "linear";
+  EXPECT_NEAR(crease.opening_of_law(largest), 180, 1e-9);
+}
+
+nlohmann::json metrics_in(const std::filesystem::path& out) {
+  return nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+}
+
+// Both laws by one command.
+TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  CommandLine line{"crease",
+                   "hysteron crease",
+                   {{"law", "linear,prandtl"},
+                    {"triangles", "200"},
+                    {"crease.hold", "0.05"},
+                    {"crease.recovery", "0.3"},
+                    {"crease.force", "5"},
+                    {"out", out.string()}},
+                   {}};
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  EXPECT_EQ(experiment_named("crease").run(line), 0);
+  const std::string table = text_of(out / "table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
+  EXPECT_EQ(elastic["intersections"], 0);
+  EXPECT_EQ(hysteretic["intersections"], 0);
+  EXPECT_GT(elastic["recovery_angle_deg"], 178);
+  EXPECT_NEAR(elastic["law_recovery_angle_deg"].get<double>(), 180, 1e-6);
+  EXPECT_LT(hysteretic["recovery_angle_deg"], 165);
+  EXPECT_GT(hysteretic["recovery_angle_deg"], 90);
+  EXPECT_NEAR(elastic["plate_force_N"].get<double>(), 5, 1.5);
+  EXPECT_LT(elastic["energy_remainder_relative"], 1e-4);
+}
+
+CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
+  CommandLine line{
+      "crease",
+      "hysteron crease",
+      {{"crease.fold", fold}, {"triangles", "200"}, {"crease.recovery", "1"}, {"out", out.string()}},
+      {}};
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  return line;
+}
+
+// Opens to within `tolerance` of the law alone and between the limits [degree].
+void expect_opening(const char* fold, double tolerance, double least, double most) {
+  const Folder folder;
+  EXPECT_EQ(experiment_named("crease").run(soft_fold(fold, folder.path())), 0);
+  const auto metrics = metrics_in(folder.path());
+  EXPECT_EQ(metrics["intersections"], 0);
+  const double opening = metrics["recovery_angle_deg"];
+  EXPECT_NEAR(opening, metrics["law_recovery_angle_deg"].get<double>(), tolerance);
+  EXPECT_GT(opening, least);
+  EXPECT_LT(opening, most);
+}
+
+// Bent to 1/r everywhere, well beyond K0, a strip keeps at most M0/b2 over the arc; it opens as the law does.
+TEST(SoftFold, AroundARodOpensAsTheLawAlone) { expect_opening("rod", 3, 45, 130); }
+
+// Let go slowly, it passes through equilibria: what stays does not depend on the step.
+TEST(SoftFold, LetGoSlowlyKeepsTheSameWithHalfTheStep) {
+  const auto kept = [](const char* step) {
+    const Folder folder;
+    CommandLine line = soft_fold("rod", folder.path());
+    line.flags.push_back({"step", step});
+    EXPECT_EQ(experiment_named("crease").run(line), 0);
+    const auto metrics = metrics_in(folder.path());
+    return std::pair<double, double>(metrics["recovery_angle_deg"], metrics["residual_curvature_per_m"]);
+  };
+  const auto [angle, residual] = kept("0.016666666666666666");
+  const auto [finer_angle, finer_residual] = kept("0.008333333333333333");
+  EXPECT_NEAR(angle, finer_angle, 1);
+  EXPECT_NEAR(residual / finer_residual, 1, 0.05);
+}
+
+TEST(CreaseSpecimen, HasFinerColumnsWhereMoreTrianglesAreAskedFor) {
+  const auto shortest = [](int triangles) {
+    Scene scene = small_scene();
+    scene.triangles = triangles;
+    const ClothMesh mesh = creased(scene, {}, 1.4e-3).cloth.mesh;
+    double least = 1;
+    for (const Edge& e : mesh.edge) {
+      const double along = std::abs(mesh.rest[e.p2].x() - mesh.rest[e.p3].x());
+      if (along > 1e-9) least = std::min(least, along);
+    }
+    return least;
+  };
+  EXPECT_NEAR(shortest(2000) / shortest(500), 0.5, 0.05);
+}
+
+TEST(CreaseSpecimen, IsLeftByASlowPlateSlowly) {
+  CreaseChoice slow, quick;
+  quick.release = "quick";
+  const CreaseTimes one = creased(small_scene(), slow, 1.4e-3).times,
+                    other = creased(small_scene(), quick, 1.4e-3).times;
+  EXPECT_EQ(one.released, other.released);
+  EXPECT_NEAR(one.lifted - one.released, slow.lift, 1e-12);
+  EXPECT_LT(other.lifted - other.released, 0.2);
+}
+
+// Pulled straight, it does not return to the angle that it was made with.
+TEST(SoftFold, OfAPleatKeepsSomeOfBeingStraight) { expect_opening("pleat", 5, 65, 120); }
+
+TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
+  CreaseChoice choice;
+  choice.pleat = 60;
+  const Crease crease = pleated(small_scene(), choice);
+  EXPECT_NEAR(crease.opening(crease.cloth.start), 60, 1e-6);
+}
+
+CommandLine naming(std::vector<Flag> flags) { return {"crease", "hysteron crease", std::move(flags), {}}; }
+
+TEST(LawPage, HasAVariantForEveryPairOfFabricAndLaw) {
+  const auto names = [](const CommandLine& line) {
+    std::vector<std::string> result;
+    for (const LawVariant& variant : variants_of(line)) result.push_back(variant.name);
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(naming({})).size(), 1u);
+  EXPECT_EQ(names(naming({{"law", "dahl"}, {"fabric", "wool-tropical"}})), Names{"dahl"});
+  EXPECT_EQ(names(naming({{"law", "linear,prandtl"}})), (Names{"linear", "prandtl"}));
+  EXPECT_EQ(names(naming({{"fabric", "cotton-broad,wool-tropical"}, {"law", "dahl"}})),
+            (Names{"cotton-broad", "wool-tropical"}));
+  EXPECT_EQ(
+      names(naming({{"fabric", "cotton-broad,wool-tropical"}, {"law", "linear,dahl"}})),
+      (Names{"cotton-broad-linear", "cotton-broad-dahl", "wool-tropical-linear", "wool-tropical-dahl"}));
+  EXPECT_GT(names(naming({{"fabric", "all"}})).size(), 10u);
+  EXPECT_EQ(without_lists(naming({{"law", "all"}, {"fabric", "wool-tropical"}})).flags.size(), 1u);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,39 @@
+// Crumpling by its own command: what stays under a law with hysteresis and does not under an elastic one.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/experiment.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  CommandLine line{
+      "crumple",
+      "hysteron crumple",
+      {{"scene", "crumple-tube"}, {"law", "linear,prandtl"}, {"triangles", "300"}, {"out", out.string()}},
+      {}};
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  EXPECT_EQ(experiment_named("crumple").run(line), 0);
+  const auto manifest_of = [&](const char* law) {
+    return nlohmann::json::parse(text_of(out / law / "manifest.json"));
+  };
+  const auto elastic = manifest_of("linear"), hysteretic = manifest_of("prandtl");
+  for (const auto& manifest : {elastic, hysteretic}) {
+    EXPECT_EQ(manifest["metrics"]["intersections"], 0);
+    EXPECT_EQ(manifest["complete"], true);
+    EXPECT_LT(manifest["metrics"]["energy_remainder_relative"], 1e-6);
+    EXPECT_NEAR(manifest["seconds_simulated"].get<double>(), 1.5, 1e-9);
+  }
+  EXPECT_LT(elastic["metrics"]["residual_curvature_rms_per_m"], 1e-9);
+  EXPECT_GT(hysteretic["metrics"]["residual_curvature_rms_per_m"], 5);
+  EXPECT_GT(hysteretic["metrics"]["ridge_length_m"], 0.05);
+  EXPECT_NE(text_of(out / "table.csv").find("prandtl,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,267 @@
+// `hysteron diff` as a script meets it.
+#include "experiments/diff/diff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "render/color_map.h"
+#include "render/compare.h"
+#include "render/ssim.h"
+#include "sim/base/csv.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+render::Image ramp(int width = 64, int height = 48) {
+  render::Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>(40 + 2 * x + y + 10 * c);
+  return image;
+}
+
+// The ramp with a square of `side` pixels that is `steps` brighter.
+render::Image marked(int side, int steps) {
+  render::Image image = ramp();
+  for (int y = 10; y < 10 + side; ++y)
+    for (int x = 20; x < 20 + side; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>(image.at(x, y)[c] + steps);
+  return image;
+}
+
+bool one_line(const std::string& text) { return std::count(text.begin(), text.end(), '\n') == 1; }
+
+// Two pictures that differ in 8 x 8 of 64 x 48 pixels by 20 steps.
+class Diff : public testing::Test {
+ protected:
+  Diff() {
+    render::write_png(a_, ramp());
+    render::write_png(b_, marked(8, 20));
+  }
+  Outcome diff(const std::string& more = "") const { return program("diff " + a_ + " " + b_ + " " + more); }
+
+  Folder folder_;
+  std::string a_ = folder_.path() / "a.png", b_ = folder_.path() / "b.png";
+};
+
+TEST_F(Diff, PrintsEveryMeasureByItsName) {
+  const Outcome outcome = diff();
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  std::istringstream lines(outcome.out);
+  std::string name;
+  double value = 0;
+  std::vector<std::string> names;
+  std::vector<double> values;
+  while (lines >> name >> value) names.push_back(name), values.push_back(value);
+  EXPECT_EQ(names, (std::vector<std::string>{"mean_abs", "rmse", "psnr_db", "ssim", "flip",
+                                             "pixels_over_8_percent"}));
+  const double share = 64.0 / (64 * 48), digits = 1e-5;  // six significant ones are printed
+  ASSERT_EQ(values.size(), 6u);
+  EXPECT_NEAR(values[0], 20 * share, digits);
+  EXPECT_NEAR(values[1], 20 * std::sqrt(share), digits * 10);
+  EXPECT_NEAR(values[2], 20 * std::log10(255 / (20 * std::sqrt(share))), digits * 10);
+  EXPECT_NEAR(values[3], render::ssim(ramp(), marked(8, 20)), digits);
+  EXPECT_NEAR(values[4], render::flip(ramp(), marked(8, 20)), digits);
+  EXPECT_NEAR(values[5], 100 * share, digits * 10);
+}
+
+TEST_F(Diff, OfEqualPicturesBreaksNoLimit) {
+  const Outcome outcome = program("diff " + a_ + " " + a_ +
+                                  " --max-mean 0 --max-rmse 0 --min-psnr 1000 --min-ssim 1 --max-flip 0 "
+                                  "--max-pixels-over-8 0");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "mean_abs 0\nrmse 0\npsnr_db inf\nssim 1\nflip 0\npixels_over_8_percent 0\n");
+}
+
+// Each limit by itself, on both sides of what is found.
+TEST_F(Diff, ExitsWithFourBeyondEachLimitAndNamesItTheValueAndBothFiles) {
+  const Measures found = compare_files(a_, b_, {}).measures;
+  for (const Measure& m : all_measures()) {
+    const double value = found.*m.value, margin = 0.01 * std::abs(value);
+    const auto limited = [&](double limit) {
+      return diff(std::string("--") + m.limit + " " + std::to_string(limit));
+    };
+    EXPECT_EQ(limited(m.least ? value - margin : value + margin).exit_code, 0) << m.name;
+    const Outcome outcome =
+        limited(m.least ? std::min(value + margin, m.value == &Measures::ssim ? 1 : 1e9) : value - margin);
+    EXPECT_EQ(outcome.exit_code, 4) << m.name;
+    EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+    for (const std::string& part : {a_, b_, std::string("--") + m.limit, std::string(m.name) + " = "})
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
+    EXPECT_NE(outcome.out.find("pixels_over_8_percent "), std::string::npos) << "results are printed anyway";
+  }
+}
+
+TEST_F(Diff, NamesAllLimitsThatAreBrokenInOneLine) {
+  const Outcome outcome = diff("--max-mean 0.1 --min-ssim 0.5 --max-pixels-over-8 1");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+  EXPECT_NE(outcome.err.find("must be <= 0.1 (--max-mean); pixels_over_8_percent = 2.08"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("ssim"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Diff, WritesAHeatMapOfStepsOrOfFlip) {
+  const fs::path heat = folder_.path() / "new" / "heat.png";
+  EXPECT_EQ(diff("--max-mean 0 --out " + heat.string()).exit_code, 4);
+  EXPECT_EQ(render::read_png(heat), render::heat_map(ramp(), marked(8, 20)));
+  EXPECT_EQ(diff("--map flip --out " + heat.string()).exit_code, 0);
+  EXPECT_EQ(render::read_png(heat), render::heat_map(render::flip_map(ramp(), marked(8, 20))));
+}
+
+TEST_F(Diff, PrintsOneJsonObject) {
+  const Json json = Json::parse(diff("--json --max-mean 0.1").out);
+  EXPECT_EQ(json["a"], a_);
+  EXPECT_DOUBLE_EQ(json["mean_abs"], 20 * 64.0 / (64 * 48));
+  EXPECT_EQ(json["broken"].size(), 1u);
+  const Json equal = Json::parse(program("diff --json " + a_ + " " + a_).out);
+  EXPECT_TRUE(equal["psnr_db"].is_null());
+  EXPECT_EQ(equal["ssim"], 1);
+}
+
+TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
+  const fs::path root = folder_.path();
+  render::write_png(root / "small.png", ramp(30, 20));
+  std::ofstream(root / "text.png") << "no picture";
+  std::ofstream(root / "cut.png", std::ios::binary) << text_of(a_).substr(0, 300);
+  fs::create_directories(root / "empty");
+  const auto refused = [&](const std::string& arguments, const std::vector<std::string>& parts) {
+    const Outcome outcome = program("diff " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+    for (const std::string& part : parts)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in " << outcome.err;
+  };
+  const auto in = [&](const char* name) { return (root / name).string(); };
+  refused(a_ + " " + in("small.png"), {a_, "64 x 48", in("small.png"), "30 x 20"});
+  refused(a_ + " " + in("nowhere.png"), {in("nowhere.png")});
+  refused(a_ + " " + in("text.png"), {in("text.png"), "not a PNG"});
+  refused(a_ + " " + in("cut.png"), {in("cut.png")});
+  refused(a_ + " " + in("empty"), {in("empty"), "is a folder", a_});
+  refused(in("empty") + " " + in("empty"), {"no *.png"});
+  refused(a_, {"needs two pictures", "1 given"});
+  refused(a_ + " " + b_ + " --min-ssim 1.5", {"min-ssim = 1.5", "in [-1, 1]"});
+  refused(a_ + " " + b_ + " --max-mean few", {"max-mean"});
+  refused(a_ + " " + b_ + " --out " + in("empty"), {"*.png"});
+}
+
+TEST_F(Diff, WritesOntoNeitherPicture) {
+  for (const std::string& picture : {a_, b_}) {
+    const std::string before = text_of(picture);
+    const Outcome outcome =
+        diff("--out " + folder_.path().string() + "/./" + fs::path(picture).filename().string());
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("which is compared: give another name"), std::string::npos) << outcome.err;
+    EXPECT_EQ(text_of(picture), before);
+  }
+}
+
+// Two folders with pictures in two places; the second picture differs.
+class DiffOfFolders : public testing::Test {
+ protected:
+  DiffOfFolders() {
+    for (const fs::path& side : {a_, b_}) {
+      fs::create_directories(side / "frames");
+      render::write_png(side / "sheet.png", ramp());
+      std::ofstream(side / "notes.txt") << "no picture";
+    }
+    render::write_png(a_ / "frames/0000.png", ramp());
+    render::write_png(b_ / "frames/0000.png", marked(8, 20));
+  }
+  Outcome diff(const std::string& more = "") const {
+    return program("diff " + a_.string() + " " + b_.string() + " " + more);
+  }
+  Folder folder_;
+  fs::path a_ = folder_.path() / "a", b_ = folder_.path() / "b", out_ = folder_.path() / "out";
+};
+
+TEST_F(DiffOfFolders, HasARowForEachPictureAndTheWorst) {
+  const Outcome outcome = diff();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  std::vector<std::string> names;
+  std::vector<double> means;
+  std::string line;
+  std::getline(lines, line);
+  for (std::string name; std::getline(lines, line);) {
+    double mean = 0;
+    std::istringstream(line) >> name >> mean;
+    names.push_back(name);
+    means.push_back(mean);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"frames/0000.png", "sheet.png", "worst"}));
+  ASSERT_EQ(means.size(), 3u);
+  EXPECT_GT(means[0], 0);
+  EXPECT_EQ(means[1], 0);
+  EXPECT_EQ(means[2], means[0]);
+}
+
+TEST_F(DiffOfFolders, HoldsEachPictureToTheLimits) {
+  const Outcome outcome = diff("--max-mean 0.1");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+  EXPECT_NE(outcome.err.find((b_ / "frames/0000.png").string()), std::string::npos) << outcome.err;
+  EXPECT_EQ(diff("--max-mean 1").exit_code, 0);
+}
+
+TEST_F(DiffOfFolders, MustHoldTheSamePictures) {
+  fs::remove(a_ / "sheet.png");
+  render::write_png(a_ / "frames/0001.png", ramp());
+  const Outcome outcome = diff("--out " + out_.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, "hysteron diff: every picture must be in both folders; missing in " + b_.string() +
+                             ": frames/0001.png; missing in " + a_.string() + ": sheet.png\n");
+  EXPECT_FALSE(fs::exists(out_));
+}
+
+TEST_F(DiffOfFolders, WritesHeatMapsATableAndAPageThatNeedsNoOtherFile) {
+  EXPECT_EQ(diff("--max-flip 0.001 --out " + out_.string()).exit_code, 4);
+  EXPECT_EQ(render::read_png(out_ / "heat/frames/0000.png"), render::heat_map(ramp(), marked(8, 20)));
+  const std::string csv = text_of(out_ / "diff.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "picture,mean_abs [steps],rmse [steps],psnr [dB],ssim,flip,pixels_over_8 [%]");
+  EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0\n"), std::string::npos) << csv;
+  const std::string page = text_of(out_ / "diff.html");
+  for (const char* part : {"1 beyond limits", "frames/0000.png", "(--max-flip)", "flip ≤ 0.001"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("src=\"heat"), std::string::npos);
+  EXPECT_NE(page.find("src=\"data:image/png"), std::string::npos);
+}
+
+TEST_F(DiffOfFolders, RefusesToWriteWhereItReads) {
+  const Outcome outcome = diff("--out " + (b_ / "difference").string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("must not be in"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(b_ / "difference"));
+  fs::rename(b_, folder_.path() / "heat");
+  const std::string heat = folder_.path() / "heat", before = text_of(heat + "/sheet.png");
+  EXPECT_EQ(program("diff " + a_.string() + " " + heat + " --out " + folder_.path().string()).exit_code, 2);
+  EXPECT_EQ(text_of(heat + "/sheet.png"), before);
+}
+
+TEST_F(DiffOfFolders, PrintsOneJsonObject) {
+  const Json json = Json::parse(diff("--json").out);
+  ASSERT_EQ(json["pictures"].size(), 2u);
+  EXPECT_EQ(json["pictures"][0]["name"], "frames/0000.png");
+  EXPECT_EQ(json["worst"]["flip"], json["pictures"][0]["flip"]);
+  EXPECT_LT(json["worst"]["ssim"], 1);
+}
+
+TEST(BrokenLimits, CountNotANumberAsBroken) {
+  Measures limits = no_limits(), found;
+  EXPECT_TRUE(broken_limits(found, limits).empty());
+  limits.flip = 0.5;
+  found.flip = std::nan("");
+  EXPECT_EQ(broken_limits(found, limits).size(), 1u);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

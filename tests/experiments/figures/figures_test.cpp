@@ -1,0 +1,120 @@
+#include "experiments/figures/figures.h"
+
+#include <cmath>
+#include <set>
+
+#include "sim/base/error.h"
+#include "sim/scene/fabric_reader.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Points of curves are 1/200 of a leg apart and joined by straight lines: h^2 |M''|/8 of the moment there.
+constexpr double kSampling = 1e-4;  // relative to the largest moment drawn
+
+const std::vector<Figure>& cotton_figures() {
+  static const std::vector<Figure> all = chapter_figures(read_fabric("cotton-broad", "test").fabric);
+  return all;
+}
+
+const render::Mark& mark(const Figure& figure, const std::string& text) {
+  for (const render::Mark& mark : figure.plot.marks)
+    if (mark.text == text) return mark;
+  throw Error::request(figure.name + " has no mark " + text);
+}
+
+// The smallest distance in moment from a point to a labelled curve over the same curvature.
+double distance_to_curves(const Figure& figure, double curvature, double moment) {
+  double nearest = INFINITY;
+  for (const render::Series& series : figure.plot.series) {
+    if (series.label.empty()) continue;
+    for (std::size_t i = 1; i < series.x.size(); ++i) {
+      const double a = series.x[i - 1], b = series.x[i];
+      if (a == b || (curvature - a) * (curvature - b) > 1e-12 * a * a) continue;
+      const double there = series.y[i - 1] + (series.y[i] - series.y[i - 1]) * (curvature - a) / (b - a);
+      nearest = std::min(nearest, std::abs(there - moment));
+    }
+  }
+  return nearest;
+}
+
+TEST(ChapterFigures, AreTheSixWithTheLettersOfTheChapter) {
+  std::vector<std::string> names;
+  std::set<std::string> letters;
+  for (const Figure& figure : cotton_figures()) {
+    names.push_back(figure.name);
+    for (const render::Mark& mark : figure.plot.marks) letters.insert(mark.text);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"figure-4-2b", "figure-4-3", "figure-4-4a", "figure-4-4b",
+                                             "figure-4-4c", "figure-4-4d"}));
+  for (const char* letter : {"a", "a′", "b", "b′", "c", "d", "f", "g", "h", "o", "K₀", "M₀", "Mₐ", "Kₘ"})
+    EXPECT_TRUE(letters.count(letter)) << letter;
+}
+
+TEST(ChapterFigures, HaveTheirPointsOnTheirCurves) {
+  int points = 0;
+  for (const Figure& figure : cotton_figures()) {
+    for (const render::Mark& mark : figure.plot.marks) {
+      const bool letter = std::string("abcdfgh").find(mark.text[0]) != std::string::npos;
+      if (!mark.dot || !letter || (figure.name == "figure-4-4b" && mark.text == "a")) continue;
+      EXPECT_LT(distance_to_curves(figure, mark.x, mark.y), kSampling * figure.plot.y.high)
+          << figure.name << " " << mark.text;
+      ++points;
+    }
+  }
+  EXPECT_GE(points, 22);
+}
+
+// Wong 4.3.2: from c to a' and from d to b' twice K0, and in moment twice Ma; a and b are the elastic limits.
+TEST(ChapterFigures, HaveTheChaptersDistancesBetweenPoints) {
+  const VirginCurve curve = read_fabric("cotton-broad", "test").fabric.virgin_curve();
+  const double k0 = curve.k0, ma = 1e3 * curve.elastic_limit_moment();
+  for (const Figure& figure : cotton_figures()) {
+    if (figure.name != "figure-4-3" && figure.name != "figure-4-4a") continue;
+    EXPECT_DOUBLE_EQ(mark(figure, "a").x, k0);
+    EXPECT_DOUBLE_EQ(mark(figure, "a").y, ma);
+    EXPECT_DOUBLE_EQ(mark(figure, "b").x, -k0);
+    EXPECT_NEAR(mark(figure, "c").x - mark(figure, "a′").x, 2 * k0, 1e-12 * k0);
+    EXPECT_NEAR(mark(figure, "c").y - mark(figure, "a′").y, 2 * ma, 1e-12 * ma);
+    EXPECT_NEAR(mark(figure, "b′").x - mark(figure, "d").x, 2 * k0, 1e-12 * k0);
+    EXPECT_GT(mark(figure, "c").y, 2 * ma) << "the third case";
+  }
+}
+
+TEST(ChapterFigures, SayWhereTheChapterCannotHoldAsPrinted) {
+  EXPECT_NE(cotton_figures()[0].caption.find("b1 ≥ b2"), std::string::npos);
+  EXPECT_NE(cotton_figures()[3].caption.find("disagree"), std::string::npos);
+}
+
+TEST(ChapterFigures, OfAFabricWithoutFrictionAreRefused) {
+  Fabric fabric = read_fabric("cotton-broad", "test").fabric;
+  fabric.b1 = fabric.b2;
+  try {
+    chapter_figures(fabric);
+    FAIL() << "drawn";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+  }
+}
+
+TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
+  const Folder folder;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(experiment_named("figures").run(
+                {"figures",
+                 "hysteron figures",
+                 {{"out", folder.path().string()}, {"no-images", "true"}, {"fabric", "wool-tropical"}},
+                 {}}),
+            0);
+  testing::internal::GetCapturedStdout();
+  const std::string captions = text_of(folder.path() / "README.md");
+  for (const Figure& figure : cotton_figures()) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / (figure.name + ".csv"))) << figure.name;
+    EXPECT_NE(captions.find(figure.name + ".png"), std::string::npos) << figure.name;
+  }
+  EXPECT_NE(captions.find("wool-tropical"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

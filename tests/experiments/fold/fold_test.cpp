@@ -1,0 +1,222 @@
+// Repeated folding: the flexed specimen, what is read from it, and what many bends make of a material.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "experiments/fold/material.h"
+#include "experiments/workbench/compare/law_page.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_parameters.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kRounding = 1e-9;  // relative, of sums over many steps
+constexpr double kReleased = 1e-4;  // of M0: fatigue finds what weakening itself releases in two rounds
+
+Scene small_scene() {
+  Scene scene;
+  scene.cloth.length = 0.06;
+  scene.cloth.width = 0.03;
+  scene.triangles = 200;
+  scene.mesh = "unionjack";
+  return scene;
+}
+
+double friction_moment(const Fabric& fabric) { return fabric.virgin_curve().friction_moment(); }
+
+TEST(FoldSpecimen, IsClosedByItsStrokeAndNeverStretched) {
+  FoldChoice choice;
+  choice.cycles = 3;
+  choice.stroke = 0.35;
+  const Fold fold = folded(small_scene(), choice, 40);
+  EXPECT_NEAR(fold.free_length, 0.048, 1e-12);
+  EXPECT_NEAR(fold.distance(0), 0.048, 1e-12);
+  EXPECT_NEAR(fold.distance(1.5), 0.65 * 0.048, 1e-12);
+  EXPECT_NEAR(fold.distance(3), 0.98 * 0.048, 1e-12);
+  for (double t = 0; t <= 3; t += 0.01) EXPECT_LE(fold.distance(t), 0.048);
+  EXPECT_EQ(fold.scene.phase_at(1.5), "cycle 2, folded");
+  EXPECT_EQ(fold.scene.phase_at(3), "cycle 3, returned");
+  EXPECT_EQ(fold.scene.phase_at(3.5), "let go");
+}
+
+TEST(FoldSpecimen, HasAWholeNumberOfStepsAndMomentsInHalfACycle) {
+  Scene scene = small_scene();
+  scene.step = 1.0 / 77;
+  FoldChoice choice;
+  choice.period = 0.9;
+  const Fold fold = folded(scene, choice, 33);
+  EXPECT_NEAR(fold.half / fold.fps, 0.45, 1e-12);
+  const double steps = 1 / (fold.fps * fold.scene.step);
+  EXPECT_NEAR(steps, std::round(steps), 1e-9);
+}
+
+// Half of it bent to K one way, half of it the other way.
+TEST(FoldGauge, ReadsTheBendOfTheLimbsInAnyWarpDirection) {
+  for (double warp_angle : {0.0, 90.0, 30.0}) {
+    Scene scene = small_scene();
+    scene.cloth.warp_angle = warp_angle;
+    const Fold fold = folded(scene, {}, 40);
+    const ClothMesh& mesh = fold.cloth.mesh;
+    const double a = -warp_angle * std::numbers::pi / 180, k = 20;
+    std::vector<double> tensor;
+    double bent = 0;
+    for (int f = 0; f < mesh.faces(); ++f) {
+      const auto& c = mesh.face[f];
+      const double x = (mesh.rest[c[0]] + mesh.rest[c[1]] + mesh.rest[c[2]]).x() / 3;
+      const double here = x > 0.015 ? k : -k;
+      if (here > 0) bent += k * mesh.face_area[f] / scene.cloth.width;
+      for (double part :
+           {std::cos(a) * std::cos(a), std::sin(a) * std::sin(a), std::sqrt(2.0) * std::sin(a) * std::cos(a)})
+        tensor.push_back(here * part);
+    }
+    const FoldGauge gauge(fold);
+    EXPECT_NEAR(gauge.crown(tensor), k, 1e-9) << warp_angle;
+    // The column in which the bend changes its sense counts in part.
+    EXPECT_NEAR(gauge.largest_turn(tensor), bent, 0.05 * bent) << warp_angle;
+  }
+}
+
+FoldChoice many(int cycles) {
+  FoldChoice choice;
+  choice.cycles = cycles;
+  choice.curvature = 150;
+  return choice;
+}
+
+// A cycle between 0 and A, A/2 >= K0, is one of amplitude A/2 about A/2: it costs 4 M0 (A/2 - 2 K0/3).
+TEST(BentRepeatedly, CostsTheClosedFormInEveryCycleWithoutFatigue) {
+  const Scene scene = small_scene();
+  const double m0 = friction_moment(scene.fabric), cost = 4 * m0 * (75 - 2 * scene.fabric.k0 / 3);
+  const auto cycles = bend_repeatedly(scene, many(50));
+  ASSERT_EQ(cycles.size(), 6u);  // 1, 2, 5, 10, 20, 50
+  for (const BendingCycle& c : cycles) {
+    if (c.cycle > 1) {
+      EXPECT_NEAR(c.dissipated, cost, kRounding * cost);
+    }
+    EXPECT_NEAR(c.material.loop_width, 2 * m0, kRounding * m0);
+    EXPECT_NEAR(c.material.friction, m0, kRounding * m0);
+    EXPECT_NEAR(c.set, cycles[0].set, kRounding * c.set);
+    EXPECT_EQ(c.material.permanent_set, 0);
+  }
+}
+
+TEST(BentRepeatedly, LosesItsFrictionByTheEnergyItHasLostAndSetsWithinTheBound) {
+  Scene scene = small_scene();
+  const double m0 = friction_moment(scene.fabric), least = m0 / 10;
+  scene.param = {{"fatigue.dc", "0.5"}, {"fatigue.m-inf", number_text(least)}};
+  for (const char* law : {"prandtl", "wong", "bilinear"}) {
+    scene.law = law;
+    const auto cycles = bend_repeatedly(scene, many(1000));
+    double set = 0;
+    for (const BendingCycle& c : cycles) {
+      const double left = least + (m0 - least) * std::exp(-c.total / 0.5);
+      // The work of `wong`'s friction is not all lost, and what it gives back does not count.
+      if (scene.law != "wong") {
+        EXPECT_NEAR(c.material.friction, left, kReleased * m0) << law << " " << c.cycle;
+      }
+      EXPECT_GT(c.dissipated, 0);
+      EXPECT_GE(c.material.permanent_set, set);
+      set = c.material.permanent_set;
+    }
+    EXPECT_NEAR(cycles.back().material.loop_width, 2 * least, kReleased * m0) << law;
+    EXPECT_GT(set, 0);
+    EXPECT_LE(set, (m0 - least) / scene.fabric.b2);
+  }
+}
+
+// Each cycle costs q M0/M0(0), so that dD = q exp(-D/Dc) dn: M0 falls as 1/(1 + n q/Dc).
+TEST(BentRepeatedly, WeakensInInverseProportionToTheCycles) {
+  Scene scene = small_scene();
+  scene.param = {{"fatigue.dc", "5"}, {"fatigue.set", "0"}};
+  const double m0 = friction_moment(scene.fabric), q = 4 * m0 * (75 - 2 * scene.fabric.k0 / 3);
+  for (const BendingCycle& c : bend_repeatedly(scene, many(10000))) {
+    const double expected = m0 / (1 + c.cycle * q / 5);
+    EXPECT_NEAR(c.material.friction / expected, 1, 0.02) << c.cycle;
+  }
+}
+
+CommandLine fold_line(const std::filesystem::path& out, std::vector<Flag> flags) {
+  CommandLine line{"fold", "hysteron fold", std::move(flags), {}};
+  line.flags.push_back({"out", out.string()});
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  return line;
+}
+
+nlohmann::json metrics_of(const std::filesystem::path& run) {
+  return nlohmann::json::parse(text_of(run / "manifest.json"))["metrics"];
+}
+
+// An elastic law, and a hysteretic one without and with fatigue, by one command.
+TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  EXPECT_EQ(experiment_named("fold").run(fold_line(out, {{"law", "linear,prandtl"},
+                                                         {"triangles", "150"},
+                                                         {"fold.cycles", "3"},
+                                                         {"fold.fatigue", "1"},
+                                                         {"threads", "1"}})),
+            0);
+  const std::string table = text_of(out / "table.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+  const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
+             tired = metrics_of(out / "prandtl-fatigue");
+  for (const auto& run : {elastic, sound, tired}) {
+    EXPECT_EQ(run["intersections"], 0);
+    EXPECT_LT(run["energy_remainder_relative"], 1e-6);
+    EXPECT_LT(run["max_stretch_percent"], 0.1);
+  }
+  EXPECT_NEAR(elastic["recovery_angle_deg"].get<double>(), 180, 1e-6);
+  EXPECT_NEAR(elastic["2HB_N"].get<double>(), 0, 1e-12);
+  EXPECT_LT(sound["recovery_angle_deg"], 165);
+  EXPECT_GT(sound["recovery_angle_deg"], 90);
+  EXPECT_LT(tired["M0_N"], 0.9 * sound["M0_N"].get<double>());
+  EXPECT_LT(tired["2HB_N"], 0.9 * sound["2HB_N"].get<double>());
+  EXPECT_EQ(sound["permanent_set_per_m"], 0);
+  EXPECT_GT(tired["permanent_set_per_m"], 1);
+
+  const Table repeats = read_csv(out / "prandtl" / "cycles.csv",
+                                 {"cycle", "set_curvature [1/m]", "bending_friction [J]"}, {}, "test");
+  ASSERT_EQ(repeats.columns[0].values.size(), 3u);
+  for (int column : {1, 2}) {
+    const auto& values = repeats.columns[column].values;
+    EXPECT_NEAR(values[2] / values[1], 1, 0.01) << repeats.columns[column].name;
+  }
+  const Table wears =
+      read_csv(out / "prandtl-fatigue" / "material.csv", {"M0 [N]", "permanent_set [1/m]"}, {}, "test");
+  EXPECT_TRUE(std::is_sorted(wears.columns[0].values.rbegin(), wears.columns[0].values.rend()));
+  EXPECT_TRUE(std::is_sorted(wears.columns[1].values.begin(), wears.columns[1].values.end()));
+}
+
+TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  EXPECT_EQ(
+      experiment_named("fold").run(fold_line(out, {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}})), 0);
+  const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
+  EXPECT_EQ(cycles.columns[0].values.back(), 1000);
+  EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.columns[1].values.back());
+}
+
+TEST(Fold, RefusesWhatCannotBeFolded) {
+  const Folder folder;
+  const std::vector<Flag> wrong = {{"fold.stroke", "1.2"}, {"fold.stroke", "0"},   {"fold.cycles", "0"},
+                                   {"fold.period", "0"},   {"fold.fatigue", "-1"}, {"fold.curvature", "0"},
+                                   {"element", "hinge"},   {"param", "stops=4"},   {"fold.tension", "1"}};
+  for (const Flag& flag : wrong) {
+    try {
+      experiment_named("fold").run(fold_line(folder.path() / "run", {flag}));
+      ADD_FAILURE() << flag.path << " = " << flag.text << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

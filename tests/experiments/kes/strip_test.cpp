@@ -1,0 +1,230 @@
+#include "experiments/kes/strip.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "experiments/kes/strip_output.h"
+#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kAgreement = 0.01;  // relative: what law and strip may differ by
+// Relative, of a uniform bend on squares: what Newton's method leaves, 1e-6 of the clamps' forces, which are
+// moments over the spacing.
+constexpr double kExact = 1e-4;
+
+// At 2 per cm a column of 1 mm bends by 0.2, where the element errs by 0.4 %.
+KesProtocol protocol() {
+  KesProtocol p;
+  p.amplitude = 200;
+  p.cycles = 1;
+  p.minor_loops = false;
+  return p;
+}
+
+StripShape small(const std::string& mesh) {
+  StripShape shape;
+  shape.mesh = mesh;
+  shape.triangles = 150;
+  shape.steps = 16;
+  return shape;
+}
+
+StripTest tested(const StripShape& shape, const LawRequest& law, const KesProtocol& p) {
+  Fabric fabric;
+  fabric.b1 = law.curve.b1, fabric.b2 = law.curve.b2, fabric.k0 = law.curve.k0;
+  return test_strip(clamped_strip(shape, law, fabric, p), law, p);
+}
+
+LawRequest cotton(const std::string& law) { return {law, Fabric{}.virgin_curve(), {}}; }
+
+TEST(Strip, ShowsAWrongRigidity) {
+  const KesProtocol p = protocol();
+  const LawRequest law = cotton("prandtl");
+  for (const double wrong : {0.95, 1.05}) {
+    Fabric fabric;
+    fabric.b1 *= wrong, fabric.b2 *= wrong;
+    const StripTest test = test_strip(clamped_strip(small("aligned"), law, fabric, p), law, p);
+    EXPECT_GT(std::abs(test.reading.rigidity / test.law_reading.rigidity - 1), 2 * kAgreement);
+    EXPECT_GT(std::abs(test.reading.loop_width / test.law_reading.loop_width - 1), 2 * kAgreement);
+    EXPECT_GT(std::abs(test.reading.loop_area / test.law_reading.loop_area - 1), 2 * kAgreement);
+  }
+}
+
+// Strips cut along warp, bias and weft of a fabric measured so: along a direction of rigidity q the law has q
+// times its rigidities and bends 1/sqrt(q) times as far before friction slides.
+TEST(StripOfAFabric, FollowsTheLawOfItsDirection) {
+  constexpr double kWeft = 0.6, kBias = 0.7;
+  Fabric fabric;
+  fabric.weft_bending = kWeft, fabric.bias_bending = kBias;
+  const KesProtocol p = protocol();
+  StripShape shape = small("random");
+  for (const auto& [angle, q] : {std::pair{0.0, 1.0}, {45.0, kBias}, {90.0, kWeft}}) {
+    shape.warp_angle = angle;
+    const LawRequest along{"prandtl", {q * fabric.b1, q * fabric.b2, fabric.k0 / std::sqrt(q)}, {}};
+    const ClampedStrip strip = clamped_strip(shape, cotton("prandtl"), fabric, p);
+    const StripTest test = test_strip(strip, along, p);
+    EXPECT_NEAR(test.reading.rigidity / test.law_reading.rigidity, 1, kAgreement) << angle;
+    EXPECT_NEAR(test.reading.loop_width / test.law_reading.loop_width, 1, kAgreement) << angle;
+    EXPECT_NEAR(test.reading.loop_area / test.law_reading.loop_area, 1, kAgreement) << angle;
+  }
+}
+
+// Laws of scalar form run along four directions of the fabric: 0.4 % along and across them, 6 % in the worst
+// case.
+TEST(StripOfAFabric, FollowsALawOfFourDirectionsWithinSixPercentWhateverItsWarp) {
+  const KesProtocol p = protocol();
+  const LawRequest law = cotton("wong");
+  Fabric fabric;
+  StripShape shape = small("aligned");
+  for (const double angle : {0.0, 11.25, 22.5, 45.0}) {
+    shape.warp_angle = angle;
+    const StripTest strip = test_strip(clamped_strip(shape, law, fabric, p), law, p);
+    EXPECT_NEAR(strip.reading.rigidity / strip.law_reading.rigidity, 1, 0.06) << angle;
+    EXPECT_NEAR(strip.reading.loop_area / strip.law_reading.loop_area, 1, 0.06) << angle;
+  }
+}
+
+class AnyMesh : public testing::TestWithParam<std::string> {};
+
+TEST_P(AnyMesh, GivesTheLawsRigidityWidthAndArea) {
+  const LawRequest law = cotton("prandtl");
+  const KesProtocol p = protocol();
+  const StripTest strip = tested(small(GetParam()), law, p);
+  const KesReading& alone = strip.law_reading;
+  EXPECT_NEAR(strip.reading.rigidity, alone.rigidity, kAgreement * alone.rigidity);
+  EXPECT_NEAR(strip.reading.loop_width, alone.loop_width, kAgreement * alone.loop_width);
+  EXPECT_NEAR(strip.reading.loop_area, alone.loop_area, kAgreement * alone.loop_area);
+  EXPECT_LT(largest_difference(strip), kAgreement);
+  EXPECT_EQ(strip.retried_steps, 0);
+}
+
+TEST_P(AnyMesh, BendsAsTheClampsSayWhereNoClampTouchesIt) {
+  const KesProtocol p = protocol();
+  const StripTest strip = tested(small(GetParam()), cotton("pabst"), p);
+  const KesWalk walk = strip_walk(p, small(GetParam()).steps);
+  ASSERT_EQ(strip.free_curvature.size(), walk.rows.size());
+  for (std::size_t turn : walk.start) {
+    const double curvature = walk.rows[turn].curvature;
+    EXPECT_NEAR(strip.free_curvature[turn], curvature, kAgreement * std::abs(curvature));
+  }
+}
+
+std::string mesh_name(const testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(KesStrip, AnyMesh, testing::ValuesIn(strip_meshes()), mesh_name);
+
+class RadialLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(RadialLaw, IsReadOffARandomMesh) {
+  const StripTest strip = tested(small("random"), cotton(GetParam()), protocol());
+  EXPECT_LT(largest_difference(strip), kAgreement);
+  EXPECT_GT(strip.moment[strip_walk(protocol(), small("random").steps).start[1]], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(KesStrip, RadialLaw,
+                         testing::Values("linear", "bilinear", "prandtl", "pabst", "dahl", "obrien"));
+
+// M = b2 K, in sign as well: a bend towards the cloth's front is positive and is held by a positive moment.
+TEST(KesStrip, OfALinearLawOnSquaresTakesTheMomentOfItsRigidity) {
+  const LawRequest law = cotton("linear");
+  const KesProtocol p = protocol();
+  const StripTest strip = tested(small("aligned"), law, p);
+  const KesWalk walk = strip_walk(p, small("aligned").steps);
+  for (std::size_t i = 0; i < walk.rows.size(); ++i)
+    EXPECT_NEAR(strip.moment[i], law.curve.b2 * walk.rows[i].curvature, kExact * law.curve.b2 * p.amplitude);
+  EXPECT_LT(strip.largest_force, kExact * law.curve.b2 * p.amplitude / kGauge);
+}
+
+// The work that the clamps do in a cycle is what friction takes: 4 M0 (A - 2 K0/3), all strip over.
+TEST(KesStrip, DissipatesTheClosedForm) {
+  const LawRequest law = cotton("prandtl");
+  const KesProtocol p = protocol();
+  StripShape shape = small("aligned");
+  shape.steps = 40;
+  const double area = 4 * law.curve.friction_moment() * (p.amplitude - 2 * law.curve.k0 / 3);
+  EXPECT_NEAR(tested(shape, law, p).reading.loop_area, area, kAgreement * area);
+}
+
+// The chapter's element takes part of the twist for bending: on rows of equilateral triangles it is no plate.
+TEST(KesStrip, OfHingesOnEquilateralTrianglesIsNotTheLaw) {
+  StripShape shape = small("equilateral");
+  shape.element = "hinge";
+  EXPECT_GT(largest_difference(tested(shape, cotton("prandtl"), protocol())), kAgreement);
+}
+
+TEST(KesStripWalk, IsEvenPassesNoZeroAndReachesEveryTurn) {
+  KesProtocol p = protocol();
+  p.cycles = 2;
+  const KesWalk walk = strip_walk(p, 10);
+  const double step = 2 * p.amplitude / 19;
+  ASSERT_EQ(walk.start.size(), 6u);
+  EXPECT_EQ(walk.rows.size(), 1u + 10 + 4 * 19);
+  for (std::size_t i = 1; i < walk.rows.size(); ++i) {
+    EXPECT_GT(std::abs(walk.rows[i].curvature), 0.4 * step);
+    EXPECT_NEAR(std::abs(walk.rows[i].curvature - walk.rows[i - 1].curvature), i == 1 ? step / 2 : step,
+                1e-9 * step);
+    EXPECT_DOUBLE_EQ(walk.rows[i].seconds, step / p.rate);
+  }
+  for (std::size_t turn = 1; turn < walk.start.size(); ++turn)
+    EXPECT_DOUBLE_EQ(walk.rows[walk.start[turn]].curvature, turn % 2 ? p.amplitude : -p.amplitude);
+}
+
+TEST(KesStrip, ThatCannotBeTestedIsRefusedInASentence) {
+  StripShape odd = small("brick");
+  KesProtocol round = protocol();
+  round.amplitude = 700;
+  const Fabric fabric;
+  EXPECT_THROW(clamped_strip(odd, cotton("prandtl"), fabric, protocol()), Error);
+  EXPECT_THROW(clamped_strip(small("aligned"), cotton("prandtl"), fabric, round), Error);
+  try {
+    clamped_strip(small("aligned"), cotton("grinspun-edit"), fabric, protocol());
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("--on law"), std::string::npos) << error.what();
+  }
+}
+
+class KesStripCommand : public testing::Test {
+ protected:
+  int run(std::vector<Flag> flags) {
+    for (const char* flag : {"no-images", "quick", "quiet"}) flags.push_back({flag, "true"});
+    flags.push_back({"out", folder_.path().string()});
+    testing::internal::CaptureStdout();
+    const int exit_code = experiment_named("kes").run({"kes", "hysteron kes", flags, {}});
+    printed_ = testing::internal::GetCapturedStdout();
+    return exit_code;
+  }
+  Folder folder_;
+  std::string printed_;
+};
+
+TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
+  ASSERT_EQ(run({{"on", "strip"}, {"mesh", "aligned,random"}, {"triangles", "100"}}), 0);
+  const Json metrics = Json::parse(text_of(folder_.path() / "manifest.json"))["metrics"];
+  for (const char* key : {"B_N_m", "aligned.strip_B_N_m", "random.strip_2HB_N", "random.strip_solve_s",
+                          "aligned.strip_loop_area_difference_percent"})
+    EXPECT_TRUE(metrics[key].is_number()) << key;
+  EXPECT_NE(printed_.find("strip random"), std::string::npos) << printed_;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "strip.csv"));
+}
+
+TEST(KesStrip, FlagsOfStripsAreRefusedForALawAlone) {
+  try {
+    experiment_named("kes").run({"kes", "hysteron kes", {{"mesh", "random"}}, {}});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("--on strip"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

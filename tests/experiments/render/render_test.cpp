@@ -1,0 +1,288 @@
+// Meshes from files in the look of a run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/workbench/pictures/mesh_sequence.h"
+#include "render/compare.h"
+#include "render/image.h"
+#include "sim/base/error.h"
+#include "sim/mesh/cloth_mesh.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+using FlagList = std::vector<Flag>;
+
+Json manifest_of(const fs::path& folder) { return Json::parse(text_of(folder / "manifest.json")); }
+
+int rendered(const fs::path& out, const std::vector<std::string>& names, FlagList flags) {
+  flags.push_back({"out", out.string()});
+  flags.push_back({"quiet", "true"});
+  if (std::none_of(flags.begin(), flags.end(), [](const Flag& f) { return f.path == "size"; }))
+    flags.push_back({"size", "160x120"});
+  return experiment_named("render").run({"render", "hysteron render", flags, names});
+}
+
+// The message of a refusal; fails the test if there is none or it is no request's.
+std::string refusal(const std::vector<std::string>& names, const FlagList& flags = {}) {
+  const Folder folder;
+  try {
+    rendered(folder.path() / "out", names, flags);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder.path() / "out")) << "refused before anything is written";
+    return error.what();
+  }
+  ADD_FAILURE() << "not refused";
+  return "";
+}
+
+std::string write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+// A quick swing and what `render` makes of its exported meshes, with the same box, camera and caption.
+struct Twins {
+  Folder folder;
+  fs::path run = folder.path() / "run", files = folder.path() / "files";
+
+  Twins(const std::string& format, const std::string& look, FlagList further = {}) {
+    const FlagList common = {{"size", "480x270"}, {"look", look}, {"fps", "10"}};
+    FlagList flags = {
+        {"out", run.string()}, {"quiet", "true"}, {"quick", "true"}, {"export", format}, {"seconds", "0.3"}};
+    flags.insert(flags.end(), common.begin(), common.end());
+    experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
+    // Of swing's own: its strip is 90 x 30 mm.
+    flags = {
+        {"camera.direction", "0.25 -1 0.25"},
+        {"camera.fov", "24"},
+        {"render.low", "-0.063 0 -0.09"},
+        {"render.high", "0.09 0.03 0.0135"},
+        {"render.title", manifest_of(run)["scene"]["fabric"]["name"].get<std::string>() + ", law prandtl"}};
+    flags.insert(flags.end(), common.begin(), common.end());
+    flags.insert(flags.end(), further.begin(), further.end());
+    rendered(files, {run.string()}, flags);
+  }
+
+  render::Difference difference(const std::string& frame) const {
+    return render::compare(render::read_png(run / "frames" / frame),
+                           render::read_png(files / "frames" / frame));
+  }
+};
+
+constexpr double kPixels = 0.1;  // [%] that may differ by more than 8 of 255
+
+TEST(RenderedFiles, LookLikeTheRunThatWroteThem) {
+  const Twins obj("obj", "cloth");
+  for (const char* frame : {"0000.png", "0001.png", "0003.png"})
+    EXPECT_LE(obj.difference(frame).pixels_over_8_percent, kPixels) << frame;
+  EXPECT_FALSE(fs::exists(obj.files / "frames" / "0004.png"));
+}
+
+TEST(RenderedFiles, ShowTheCurvatureThatTheRunWroteIntoThem) {
+  const Twins ply("ply", "curvature", {{"render.curvature", "file"}});
+  for (const char* frame : {"0001.png", "0003.png"})
+    EXPECT_LE(ply.difference(frame).pixels_over_8_percent, kPixels) << frame;
+}
+
+TEST(RenderedFiles, ShowTheRunsCurvatureFromPositionsAlone) {
+  const Twins obj("obj", "curvature");
+  for (const char* frame : {"0001.png", "0003.png"})
+    EXPECT_LE(obj.difference(frame).pixels_over_8_percent, kPixels) << frame;
+}
+
+// Coordinates as a file has them.
+using Axes = std::string (*)(double x, double y, double z);
+
+std::string metres(double x, double y, double z) {
+  return "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+}
+std::string millimetres_y_up(double x, double y, double z) { return metres(1000 * x, 1000 * z, -1000 * y); }
+
+// Quads of an upright sheet of n x n that sways; another n from time to time.
+std::string swaying(double time, Axes vertex) {
+  std::string text;
+  const int n = 4 + static_cast<int>(time / 0.1 + 0.01) % 2;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double across = 0.1 * i / n, height = 0.1 * j / n;
+      text += vertex(across, 0.02 * std::sin(10 * time + 20 * height), height);
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i + 1, above = a + n + 1;
+      for (const int v : {a, a + 1, above + 1, above}) text += (v == a ? "f " : " ") + std::to_string(v);
+      text += "\n";
+    }
+  return text;
+}
+
+std::string sequence(const fs::path& folder, int frames, double fps, Axes vertex) {
+  for (int k = 0; k < frames; ++k)
+    write(folder / ("frame" + std::to_string(k) + ".obj"), swaying(k / fps, vertex));
+  return folder.string();
+}
+
+// Without the line of the caption that names the sequence.
+render::Image without_name(const fs::path& file) {
+  const render::Image image = render::read_png(file);
+  const int cut = image.height() / 5;
+  render::Image rest(image.width(), image.height() - cut);
+  render::paste(rest, image, 0, -cut);
+  return rest;
+}
+
+TEST(RenderedFiles, OfSeveralFoldersStandInColumnsEachInItsUnitAxesAndRate) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string ours = sequence(folder.path() / "ours/mesh", 3, 10, metres),
+                    theirs = sequence(folder.path() / "theirs", 6, 20, millimetres_y_up);
+  ASSERT_EQ(rendered(out, {fs::path(ours).parent_path().string(), theirs},
+                     {{"render.unit", "metre,millimetre"},
+                      {"render.up", "z,y"},
+                      {"fps", "10,20"},
+                      {"look", "curvature"},
+                      {"render.ground", "0"},
+                      {"size", "320x240"}}),
+            0);
+  for (const char* file : {"theirs/0005.png", "sheet.png", "report.html"})
+    EXPECT_TRUE(fs::exists(out / file));
+  EXPECT_FALSE(fs::exists(out / "ours/0003.png"));
+  const auto difference = [&](const char* mine, const char* yours) {
+    return render::compare(without_name(out / mine), without_name(out / yours)).pixels_over_8_percent;
+  };
+  EXPECT_LE(difference("ours/0001.png", "theirs/0002.png"), kPixels);
+  EXPECT_LE(difference("ours/0002.png", "theirs/0004.png"), kPixels);
+  EXPECT_GT(difference("ours/0002.png", "theirs/0002.png"), 1) << "other times look different";
+  const Json manifest = manifest_of(out);
+  EXPECT_EQ(manifest["complete"], true);
+  EXPECT_EQ(manifest["metrics"]["ours.frames_count"], 3);
+  EXPECT_EQ(manifest["metrics"]["theirs.triangles_count"], 32);  // of the last frame
+  EXPECT_GT(manifest["metrics"]["ours.curvature_rms_per_m"], 1.0);
+  EXPECT_EQ(manifest["scene"]["render"]["up"], "z,y");
+}
+
+// Two columns of pictures of 320 x 240, one row for each of ours, of the same times.
+TEST(RenderedFiles, OfSeveralFoldersShareASheetAsLongAsAllLast) {
+  const Folder folder;
+  const std::string ours = sequence(folder.path() / "ours", 3, 10, metres),
+                    theirs = sequence(folder.path() / "theirs", 6, 20, metres);
+  rendered(folder.path() / "timed", {ours, theirs}, {{"fps", "10,20"}, {"size", "320x240"}});
+  rendered(folder.path() / "short", {ours, write(folder.path() / "one.obj", swaying(0, metres))},
+           {{"fps", "10"}, {"size", "320x240"}});
+  const render::Image timed = render::read_png(folder.path() / "timed/sheet.png"),
+                      brief = render::read_png(folder.path() / "short/sheet.png");
+  EXPECT_EQ(timed.width(), brief.width());
+  const int row = (timed.height() - brief.height()) / 2;
+  EXPECT_GT(row, timed.width() / 2 * 0.7);
+  EXPECT_LT(row, timed.width() / 2 * 0.85);
+}
+
+TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
+  const Folder folder;
+  const ClothMesh mesh = make_rectangle(1, 1, 100000, MeshFamily::unionjack, 1);
+  std::vector<Eigen::Vector3d> x = mesh.rest;
+  for (Eigen::Vector3d& p : x) p.z() = 0.05 * std::sin(2 * std::numbers::pi * p.x() / 0.5);
+  write_ply(folder.path() / "large.ply", mesh, x, {});
+  EXPECT_EQ(
+      rendered(folder.path() / "out", {(folder.path() / "large.ply").string()}, {{"look", "curvature"}}), 0);
+  // Of z = a sin(qx) along its length: a q^2/sqrt(2) if it were shallow; the arc of a steep one bends less.
+  const double rms = manifest_of(folder.path() / "out")["metrics"]["large.curvature_rms_per_m"];
+  EXPECT_GT(rms, 3);
+  EXPECT_LT(rms, 0.05 * std::pow(2 * std::numbers::pi / 0.5, 2) / std::sqrt(2));
+}
+
+TEST(RenderedFiles, WhatIsNoSequenceIsRefusedInOneLine) {
+  const Folder folder;
+  const std::string here = folder.path().string();
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string good = write(folder.path() / "good.obj", triangle);
+  const std::string ply =
+      write(folder.path() / "other.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+            "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  fs::create_directories(folder.path() / "empty");
+  EXPECT_EQ(refusal({}), "needs mesh files or folders: hysteron render FILES...");
+  EXPECT_EQ(refusal({here + "/none.obj"}), "no such file or folder: " + here + "/none.obj");
+  EXPECT_EQ(refusal({here + "/empty"}), "the folder " + here + "/empty holds no .obj and no .ply");
+  EXPECT_EQ(refusal({good, ply}), "one sequence of two formats: " + good + " and " + ply);
+  const std::string text = write(folder.path() / "note.txt", "");
+  EXPECT_EQ(refusal({text}), "mesh " + text + ": its name must end in .obj or .ply");
+  const std::string bare = write(folder.path() / "bare/a.obj", "v 0 0 0\n");
+  EXPECT_EQ(refusal({good, bare}), "mesh " + bare + ": no faces");
+  const std::string nan = write(folder.path() / "nan/a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(refusal({here + "/nan"}), "mesh " + nan + ": line 2: coordinate \"nan\" must be a finite number");
+}
+
+TEST(RenderedFiles, OptionsOutOfRangeAreRefused) {
+  const Folder folder;
+  const std::string good = write(folder.path() / "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(refusal({good}, {{"render.ground", "low"}}),
+            "render.ground = low must be a height [m] or none (--render.ground)");
+  EXPECT_EQ(refusal({good}, {{"render.low", "1 0 0"}, {"render.high", "0 1 1"}}),
+            "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
+  EXPECT_EQ(refusal({good}, {{"look", "friction"}}),
+            "look = friction must be cloth | curvature | wireframe | silhouette (--look)");
+  EXPECT_EQ(refusal({good}, {{"render.unit", "inch"}}),
+            "render.unit = inch must be metre | centimetre | millimetre (--render.unit)");
+  EXPECT_EQ(refusal({good}, {{"render.up", "z,y"}}),
+            "render.up = z,y must be one value, or as many as sequences: 1 (--render.up)");
+  EXPECT_EQ(refusal({good}, {{"fps", "0"}}), "fps = 0 must be a number in (0, 10000] [1/s] (--fps)");
+  EXPECT_EQ(refusal({good}, {{"render.body", (folder.path() / "no.obj").string()}}),
+            "no such file or folder: " + (folder.path() / "no.obj").string());
+  EXPECT_EQ(refusal({good}, {{"look", "curvature"}, {"render.curvature", "file"}}),
+            "mesh " + good + ": no property curvature of its vertices (--render.curvature file)");
+}
+
+TEST(MeshSequences, FoldersAreInNaturalOrderAndNamedApart) {
+  const Folder folder;
+  for (const char* name :
+       {"a/mesh/f10.obj", "a/mesh/f9.obj", "a/mesh/f0100.obj", "a/mesh/readme.txt", "b/a/x.PLY"})
+    write(folder.path() / name, "");
+  const auto sequences = mesh_sequences({(folder.path() / "a/").string(), (folder.path() / "a/mesh").string(),
+                                         (folder.path() / "b/a").string()});
+  ASSERT_EQ(sequences.size(), 3u);
+  EXPECT_EQ(sequences[0].name, "a");
+  EXPECT_EQ(sequences[1].name, "a-2");
+  EXPECT_EQ(sequences[2].name, "a-3");
+  std::vector<std::string> names;
+  for (const auto& file : sequences[0].files) names.push_back(file.filename());
+  EXPECT_EQ(names, (std::vector<std::string>{"f9.obj", "f10.obj", "f0100.obj"}));
+}
+
+TEST(MeshSequences, FilesAreOneSequenceInTheOrderGiven) {
+  const Folder folder;
+  const std::string a = write(folder.path() / "set/a.obj", ""), b = write(folder.path() / "set/b.obj", "");
+  const auto sequences = mesh_sequences({b, a});
+  ASSERT_EQ(sequences.size(), 1u);
+  EXPECT_EQ(sequences[0].name, "set");
+  EXPECT_EQ(sequences[0].files, (std::vector<fs::path>{b, a}));
+  EXPECT_EQ(mesh_sequences({a})[0].name, "a");
+}
+
+TEST(Threads, FollowTheTextureOrTheAxesAlongWhichTheSurfaceExtends) {
+  Surface upright;
+  upright.vertex = {{0, 0, 0}, {0.2, 0.01, 0}, {0, 0, 0.3}};
+  upright.face = {{0, 1, 2}};
+  EXPECT_EQ(thread_coordinates(upright), (std::vector<float>{0, 0, 0.2f, 0, 0, 0.3f}));
+  // A texture in lengths is taken as it is, one that runs from 0 to 1 is scaled to the surface's area.
+  Surface flat;
+  flat.vertex = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}};
+  flat.face = {{0, 1, 2}};
+  flat.pattern = {{0, 0}, {0.51, 0}, {0, 0.51}};
+  EXPECT_EQ(thread_coordinates(flat)[2], 0.51f);
+  flat.pattern = {{0, 0}, {1, 0}, {0, 1}};
+  EXPECT_EQ(thread_coordinates(flat), (std::vector<float>{0, 0, 0.5f, 0, 0, 0.5f}));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,234 @@
+#include "experiments/stability/stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "experiments/stability/limit.h"
+#include "sim/base/error.h"
+#include "sim/scene/scene_reader.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+const CellEffort kShort{0.05, 200};
+
+// A small square that hangs by an edge.
+Attempt hanging() {
+  Attempt attempt{default_scene()};
+  attempt.scene.cloth.length = 0.1;
+  attempt.scene.triangles = 32;
+  attempt.scene.device = "cpu";
+  attempt.scene.threads = 1;
+  Pin edge;
+  edge.low = {0, -1, -1};
+  edge.high = {1e-6, 1, 1};
+  attempt.scene.pin = {edge};
+  return attempt;
+}
+
+TEST(Attempt, OfAQuietSceneEndsWithinTheEnergyThatWasPutIn) {
+  const Finding f = find_out(hanging(), kShort);
+  EXPECT_EQ(f.outcome, Outcome::ended) << f.message;
+  EXPECT_GT(f.energy_growth, 0);
+  constexpr double kNothingCreated = 1 + 1e-6;  // the integrator's share in a swing of a few mm
+  EXPECT_LE(f.energy_growth, kNothingCreated);
+  EXPECT_GT(f.largest_stretch, 0) << "it hangs";
+  EXPECT_NEAR(f.seconds_simulated, kShort.seconds, hanging().scene.step);
+  EXPECT_EQ(f.retried_steps, 0);
+}
+
+TEST(Attempt, ThatTheProgramRefusesKeepsItsReason) {
+  Attempt attempt = hanging();
+  attempt.scene.fabric.k0 = 0;
+  const Finding f = find_out(attempt, kShort);
+  EXPECT_EQ(f.outcome, Outcome::refused);
+  EXPECT_NE(f.message.find("fabric.k0 = 0"), std::string::npos) << f.message;
+  EXPECT_EQ(f.steps, 0);
+}
+
+TEST(Attempt, WithAMeshThatCannotBeIsRefused) {
+  Attempt attempt = hanging();
+  attempt.mesh = [] { return make_grid(1, 1e-9, 1, 1, MeshFamily::aligned, 1); };
+  EXPECT_EQ(find_out(attempt, kShort).outcome, Outcome::refused);
+}
+
+// The bound on the explicit step is that of the cloth at rest; stretched to many times its length the
+// membrane is stiffer, as the square of the stretch.
+TEST(Attempt, ThatOverstretchesAnExplicitMembraneDiverges) {
+  Attempt attempt = hanging();
+  attempt.scene.integrator = "explicit";
+  attempt.scene.fabric.damping = 0;
+  attempt.scene.fabric.warp = attempt.scene.fabric.weft = 1;
+  attempt.scene.fabric.shear = 0.1;
+  attempt.scene.gravity *= 1000;
+  const Finding f = find_out(attempt, {0.5, 5000});
+  EXPECT_EQ(f.outcome, Outcome::diverged);
+  EXPECT_FALSE(f.message.empty());
+  EXPECT_FALSE(f.energy_growth <= kLargestGrowth);
+}
+
+TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
+  Attempt attempt = hanging();
+  attempt.scene.integrator = "semi-implicit";
+  attempt.scene.step = 1e-3;
+  attempt.scene.substeps = 10;
+  const Finding f = find_out(attempt, {1, 200});
+  EXPECT_EQ(f.steps, 20);
+  EXPECT_EQ(f.seconds_asked, 1);
+  EXPECT_NEAR(f.seconds_simulated, 20 * attempt.scene.step, 1e-12);
+}
+
+TEST(Attempt, TakesAtLeastOneStep) {
+  Attempt attempt = hanging();
+  attempt.scene.substeps = 10;
+  EXPECT_EQ(find_out(attempt, {1, 1}).steps, 1);
+}
+
+TEST(Sweeps, CoverWhatTheProgramPromises) {
+  const SweepChoice all;
+  const std::vector<Sweep> sweeps = make_sweeps(sweep_names(), all);
+  const std::vector<Cell> cells = cells_of(sweeps, all);
+  EXPECT_GE(cells.size(), 600u);
+  double softest = 1, stiffest = 0, shortest = 1, longest = 0;
+  for (const Cell& cell : cells) {
+    const Scene& s = cell.attempt.scene;
+    if (sweeps[cell.sweep].name != "bending-step") continue;
+    softest = std::min(softest, s.fabric.b2), stiffest = std::max(stiffest, s.fabric.b2);
+    shortest = std::min(shortest, s.step), longest = std::max(longest, s.step);
+    EXPECT_GE(s.fabric.b1, s.fabric.b2);
+  }
+  EXPECT_DOUBLE_EQ(softest, 1e-8);
+  EXPECT_DOUBLE_EQ(stiffest, 1e-1);
+  EXPECT_DOUBLE_EQ(shortest, 1e-5);
+  EXPECT_DOUBLE_EQ(longest, 1.0 / 24);
+}
+
+TEST(Sweeps, HaveMeshesOfTheQualityThatTheyName) {
+  const Sweep sweep = make_sweeps({"mesh"}, {}).front();
+  const auto flattest = [](const ClothMesh& mesh) {  // smallest height over longest edge
+    double least = 1;
+    for (int f = 0; f < mesh.faces(); ++f) {
+      double longest = 0;
+      for (int i = 0; i < 3; ++i)
+        longest =
+            std::max(longest, (mesh.rest[mesh.face[f][i]] - mesh.rest[mesh.face[f][(i + 1) % 3]]).norm());
+      least = std::min(least, 2 * mesh.face_area[f] / (longest * longest));
+    }
+    return least;
+  };
+  for (std::size_t row = 0; row < sweep.y.ticks.size(); ++row) {
+    const ClothMesh mesh = sweep.at(0, 0, static_cast<int>(row)).mesh();
+    const auto [small, large] = std::minmax_element(mesh.face_area.begin(), mesh.face_area.end());
+    const std::string& name = sweep.y.ticks[row];
+    if (name == "aspect 1000") {
+      EXPECT_NEAR(flattest(mesh), 1e-3, 1e-5);
+    }
+    if (name == "slivers 1:1000") {
+      EXPECT_NEAR(flattest(mesh), 1e-3 / std::sqrt(2), 5e-4);
+    }
+    if (name == "sizes 1:100") {
+      EXPECT_NEAR(std::sqrt(*large / *small), 100, 1);
+    }
+  }
+}
+
+TEST(Sweeps, RefuseUnknownNames) {
+  try {
+    make_sweeps({"bending"}, {});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("bending-step"), std::string::npos);
+  }
+}
+
+TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
+  const SweepChoice quick{{"semi-implicit"}, {"linear"}, "cpu", true};
+  const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
+  std::vector<Cell> one = cells_of(sweeps, quick), three = one;
+  std::size_t calls = 0;
+  try_all(one, {0.1, 50}, 1, [&](std::size_t) { ++calls; });
+  try_all(three, {0.1, 50}, 3, [](std::size_t) {});
+  EXPECT_EQ(calls, one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_GT(one[i].finding.steps, 0) << i;
+    EXPECT_EQ(one[i].finding.energy_growth, three[i].finding.energy_growth) << i;
+  }
+}
+
+constexpr int kLimitSteps = 600;
+
+class ExplicitLimit : public testing::TestWithParam<LimitCase> {};
+INSTANTIATE_TEST_SUITE_P(Bending, ExplicitLimit, testing::ValuesIn(limit_cases(true)), [](const auto& of) {
+  return of.param.mesh + "_" + of.param.element + (of.param.held ? "_held" : "_free");
+});
+
+// Linear waves without damping: the limit is 2/omega, of which the program keeps 0.75.
+TEST_P(ExplicitLimit, LiesAboveTheBoundByItsMargin) {
+  const MeasuredLimit limit = measure_limit(GetParam(), kLimitSteps);
+  constexpr double kMargin = 0.75;      // sim/solve/simulation.cpp
+  constexpr double kResolution = 0.02;  // of the search, and of the power iteration behind the bound
+  EXPECT_NEAR(limit.ratio(), 1 / kMargin, kResolution / kMargin);
+}
+
+class StabilityCommand : public testing::Test {
+ protected:
+  int run(std::vector<Flag> flags) {
+    for (const char* bare : {"quick", "quiet", "no-images"}) flags.push_back({bare, "true"});
+    flags.push_back({"out", folder_.path().string()});
+    testing::internal::CaptureStdout();
+    const int exit_code =
+        experiment_named("stability").run({"stability", "hysteron stability --quick", flags, {}});
+    printed_ = testing::internal::GetCapturedStdout();
+    return exit_code;
+  }
+  Json manifest() const { return Json::parse(text_of(folder_.path() / "manifest.json")); }
+  std::vector<std::string> lines(const char* file) const {
+    std::istringstream stream(text_of(folder_.path() / file));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(stream, line);) all.push_back(line);
+    return all;
+  }
+  Folder folder_;
+  std::string printed_;
+};
+
+TEST_F(StabilityCommand, WritesARowForEachCellAndCountsThem) {
+  ASSERT_EQ(run({{"sweep", "bending-step,scenes"}, {"integrator", "semi-implicit"}}), 0);
+  const std::vector<std::string> rows = lines("cells.csv");
+  EXPECT_TRUE(
+      rows.front().starts_with("sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,"))
+      << rows.front();
+  const Json metrics = manifest()["metrics"];
+  EXPECT_EQ(metrics["cells"], rows.size() - 1);
+  EXPECT_EQ(metrics["cells"], metrics["semi-implicit.cells"]);
+  int sum = 0;
+  for (const char* outcome : {"ended", "retried", "refused", "diverged"}) sum += metrics[outcome].get<int>();
+  EXPECT_EQ(metrics["cells"], sum);
+  EXPECT_GT(metrics["ended"], 0);
+  EXPECT_GT(metrics["refused"], 0) << "k0 = 0 among the scenes";
+  EXPECT_EQ(metrics["diverged_default"], 0) << "no cell of the default integrator was tried";
+  const auto refused = std::find_if(rows.begin(), rows.end(),
+                                    [](const std::string& row) { return row.find(",refused,") != row.npos; });
+  ASSERT_NE(refused, rows.end());
+  EXPECT_NE(refused->find("fabric.k0 = 0"), std::string::npos) << "the message stands in the last column";
+}
+
+TEST_F(StabilityCommand, CallsTheIntegratorByItsNameAndKeepsItsRefusal) {
+  ASSERT_EQ(run({{"sweep", "density-step"}, {"integrator", "leapfrog"}}), 0);
+  EXPECT_EQ(manifest()["metrics"]["leapfrog.refused"], manifest()["metrics"]["cells"]);
+  EXPECT_NE(text_of(folder_.path() / "cells.csv").find("leapfrog"), std::string::npos);
+}
+
+TEST_F(StabilityCommand, MeasuresTheExplicitLimitOnEveryMesh) {
+  ASSERT_EQ(run({{"sweep", "explicit-limit"}}), 0);
+  EXPECT_EQ(lines("limit.csv").size(), 1 + limit_cases(true).size());
+  const Json metrics = manifest()["metrics"];
+  EXPECT_GE(metrics["limit_smallest_ratio"], 1) << "the bound is never exceeded";
+  EXPECT_LE(metrics["limit_largest_ratio"], 2) << "and never twice too careful";
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

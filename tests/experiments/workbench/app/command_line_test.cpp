@@ -1,0 +1,122 @@
+#include "experiments/workbench/app/command_line.h"
+
+#include "gtest/gtest.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+int nothing(const CommandLine&) { return 0; }
+
+const std::vector<Experiment> kKnown = {
+    {.name = "drape", .question = "simulates", .run = nothing, .simulates = true},
+    {.name = "report", .question = "takes names", .run = nothing, .names = "DIR"},
+    {.name = "crease", .question = "announced"}};
+
+std::optional<CommandLine> parsed(std::vector<const char*> words) {
+  words.insert(words.begin(), "/somewhere/hysteron");
+  return parse_command_line(static_cast<int>(words.size()), words.data(), kKnown);
+}
+
+std::string text_of_flag(const CommandLine& line, const std::string& path) {
+  for (const Flag& flag : line.flags) {
+    if (flag.path == path) return flag.text;
+  }
+  return "(none)";
+}
+
+std::string refusal(std::vector<const char*> words) {
+  try {
+    parsed(std::move(words));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+TEST(CommandLine, TakesEveryKeyOfASceneAsAFlag) {
+  for (const KeyDescription& key : scene_keys()) {
+    if (key.path == "fabric.name") continue;
+    const std::string flag = "--" + key.path;
+    const bool bare = key.type == "flag";
+    const auto line = bare ? parsed({"drape", flag.c_str()}) : parsed({"drape", flag.c_str(), "x=1"});
+    EXPECT_EQ(text_of_flag(*line, key.path), bare ? "true" : "x=1");
+  }
+}
+
+TEST(CommandLine, TakesABareFlagBack) {
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--self-contact=false"}), "self-contact"), "false");
+}
+
+TEST(CommandLine, TakesNegativeNumbersAndVectorsAsOneWord) {
+  const auto line = parsed({"drape", "--fabric.coupling", "-3e1", "--gravity", "-1 0 -9.81"});
+  EXPECT_EQ(text_of_flag(*line, "fabric.coupling"), "-3e1");
+  EXPECT_EQ(text_of_flag(*line, "gravity"), "-1 0 -9.81");
+}
+
+TEST(CommandLine, KeepsEveryParameterAndTheLastOfAnyOtherFlag) {
+  const auto line =
+      parsed({"drape", "--param", "memory=stops", "--step", "1", "--param", "stops=16", "--step", "2"});
+  std::vector<std::string> parameters, steps;
+  for (const Flag& flag : line->flags) {
+    if (flag.path == "param") parameters.push_back(flag.text);
+    if (flag.path == "step") steps.push_back(flag.text);
+  }
+  EXPECT_EQ(parameters, (std::vector<std::string>{"memory=stops", "stops=16"}));
+  EXPECT_EQ(steps, std::vector<std::string>{"2"});
+}
+
+TEST(CommandLine, TakesBareFlagsAsTrue) {
+  const auto line = parsed({"drape", "--quick"});
+  EXPECT_EQ(text_of_flag(*line, "quick"), "true");
+  EXPECT_EQ(text_of_flag(*line, "quiet"), "(none)");
+}
+
+TEST(CommandLine, NamesAFabricEitherWay) {
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--fabric", "wool-tropical"}), "fabric"), "wool-tropical");
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--fabric.name", "wool-tropical"}), "fabric"), "wool-tropical");
+}
+
+TEST(CommandLine, IsKeptForTheManifestAsTheShellReadsIt) {
+  EXPECT_EQ(parsed({"drape", "--gravity", "0 0 -1", "--out", "it's"})->command,
+            "hysteron drape --gravity '0 0 -1' --out 'it'\\''s'");
+}
+
+TEST(CommandLine, TakesNamesWhereTheExperimentDoes) {
+  EXPECT_EQ(parsed({"report", "a", "drape"})->names, (std::vector<std::string>{"a", "drape"}));
+  EXPECT_EQ(refusal({"drape", "a"}), "drape: unexpected argument \"a\"");
+}
+
+TEST(CommandLine, LeavesTheFlagsOfAnnouncedSubcommandsAlone) {
+  EXPECT_EQ(parsed({"crease", "--angle", "3"})->experiment, "crease");
+}
+
+TEST(CommandLine, RefusesUnknownWordsAndNamesTheNearest) {
+  EXPECT_EQ(refusal({}), "needs a subcommand; see hysteron --help");
+  EXPECT_EQ(refusal({"drap"}), "unknown subcommand drap; did you mean drape?");
+  EXPECT_EQ(refusal({"--quick", "drape"}), "unknown option --quick before the subcommand");
+  EXPECT_EQ(refusal({"drape", "--fabric.b3", "1"}),
+            "drape: unknown option --fabric.b3; did you mean --fabric.b1?");
+  EXPECT_EQ(refusal({"drape", "--fabric.b3=1"}),
+            "drape: unknown option --fabric.b3; did you mean --fabric.b1?");
+  EXPECT_EQ(refusal({"drape", "--zzzzzzzz"}), "drape: unknown option --zzzzzzzz; see hysteron drape --help");
+}
+
+TEST(CommandLine, SaysThatASingleRunCannotBeResumedYet) {
+  EXPECT_EQ(refusal({"drape", "--resume"}),
+            "drape: --resume is not built yet for single runs; compare has it");
+}
+
+TEST(CommandLine, RefusesToWriteToNowhere) {
+  EXPECT_EQ(refusal({"drape", "--out", ""}), "drape: --out is empty: name where to write");
+}
+
+TEST(CommandLine, RefusesAFlagWithoutItsValueInOneLine) {
+  const std::string message = refusal({"drape", "--step"});
+  EXPECT_NE(message.find("drape: --step"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,164 @@
+#include "experiments/workbench/app/run.h"
+
+#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+Json manifest_of(const fs::path& folder) { return Json::parse(text_of(folder / "manifest.json")); }
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  return names;
+}
+
+TEST(Manifest, HoldsEveryEntryThatScriptsRead) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  for (const char* key : {"hysteron", "command", "scene", "device", "renderer", "positions", "precision",
+                          "element", "law", "triangles", "hinges", "steps", "seconds_simulated",
+                          "wall_seconds", "bytes_device", "energy", "state_hash", "metrics", "complete"}) {
+    EXPECT_TRUE(manifest.contains(key)) << key;
+  }
+  for (const char* key : {"version", "commit", "dirty"})
+    EXPECT_TRUE(manifest["hysteron"].contains(key)) << key;
+  for (const char* stage :
+       {"total", "membrane", "bending", "solve", "contact", "history", "render", "encode", "io"}) {
+    EXPECT_TRUE(manifest["wall_seconds"].contains(stage)) << stage;
+  }
+  EXPECT_EQ(manifest["command"], "hysteron drape --quick");
+  EXPECT_EQ(manifest["scene"], to_json(default_scene()));
+}
+
+TEST(Manifest, ReportsWhatTheRunFound) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  run.note("device", "cpu");
+  run.note("triangles", 4608);
+  run.metric("node_count", 5);
+  run.metric("drape_coefficient_percent", 49.8);
+  run.energy({{"kinetic", 0.5}, {"bending_friction", 0.25}});
+  run.add_seconds("solve", 2);
+  run.add_seconds("solve", 3);
+  { const ExperimentRun::Stage stage = run.stage("io"); }
+  run.path("frames/0000.png");
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["device"], "cpu");
+  EXPECT_EQ(manifest["triangles"], 4608);
+  EXPECT_EQ(manifest["metrics"].dump(), R"({"node_count":5,"drape_coefficient_percent":49.8})");
+  EXPECT_EQ(manifest["energy"]["bending_friction"], 0.25);
+  EXPECT_EQ(manifest["wall_seconds"]["solve"], 5.0);
+  EXPECT_GT(manifest["wall_seconds"]["io"], 0.0);
+  EXPECT_EQ(manifest["files"], Json::array({"frames/0000.png"}));
+  EXPECT_TRUE(fs::is_directory(folder.path() / "frames"));
+  EXPECT_EQ(manifest["complete"], true);
+}
+
+TEST(Manifest, OfAnExperimentWithoutASceneHoldsItsOwnKeysAsTheScene) {
+  const Folder folder;
+  const Json keys = {{"law", "wong"}, {"fabric", {{"name", "mine"}}}};
+  ExperimentRun run({"kes", "hysteron kes --law wong", {}, {}}, setup_in(folder.path()).options, keys);
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["scene"], keys);
+  EXPECT_EQ(manifest["law"], "wong");
+  for (const char* key : {"element", "precision", "triangles"}) {
+    EXPECT_TRUE(manifest.contains(key) && manifest[key].is_null()) << key;
+  }
+}
+
+TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  run.plot("plot_a", [](const fs::path&) { throw Error::machine("no gnuplot"); });
+  run.plot("plot_b", [](const fs::path& base) { EXPECT_EQ(base.filename(), "plot_b"); });
+  run.finish();
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
+  EXPECT_EQ(manifest["files"], Json::array({"plot_b.png", "plot_b.svg"}));
+}
+
+TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {
+  const Folder folder;
+  try {
+    ExperimentRun run(drape_line(), setup_in(folder.path()));
+    run.metric("steps_done", 7);
+    throw Error::run("no convergence");
+  } catch (const Error&) {
+  }
+  const Json manifest = manifest_of(folder.path());
+  EXPECT_EQ(manifest["complete"], false);
+  EXPECT_EQ(manifest["metrics"]["steps_done"], 7);
+}
+
+TEST(Run, RemovesTheFilesOfTheRunBeforeItAndNoOthers) {
+  const Folder folder;
+  {
+    ExperimentRun first(drape_line(), setup_in(folder.path()));
+    std::ofstream(first.path("frames/0099.png")) << "old";
+    first.finish();
+  }
+  std::ofstream(folder.path() / "mine.txt") << "not from a run";
+  ExperimentRun second(drape_line(), setup_in(folder.path()));
+  EXPECT_FALSE(fs::exists(folder.path() / "frames/0099.png"));
+  EXPECT_TRUE(fs::exists(folder.path() / "mine.txt"));
+}
+
+TEST(Run, NeverRemovesWhatAManifestNamesOutsideItsFolder) {
+  const Folder folder;
+  const fs::path outside = folder.path() / "outside.txt", run_folder = folder.path() / "run";
+  std::ofstream(outside) << "keep";
+  fs::create_directories(run_folder);
+  std::ofstream(run_folder / "manifest.json")
+      << Json{{"hysteron", {}}, {"files", {"../outside.txt", outside.string()}}}.dump();
+  ExperimentRun run(drape_line(), setup_in(run_folder));
+  EXPECT_TRUE(fs::exists(outside));
+}
+
+TEST(Run, InAFolderThatCannotBeMadeIsAMachineErrorBeforeAnythingElse) {
+  const Folder folder;
+  std::ofstream(folder.path() / "file") << "no folder";
+  try {
+    ExperimentRun run(drape_line(), setup_in(folder.path() / "file" / "out"));
+    FAIL() << "a folder was made inside a file";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 1);
+    EXPECT_NE(std::string(error.what()).find("cannot create the folder"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Run, OnAFullDiskIsAMachineErrorAndLeavesNothingHalfWritten) {
+  const Folder folder;
+  const int exit_code = on_a_disk_with(100, [&] {
+    try {
+      ExperimentRun run(drape_line(), setup_in(folder.path()));
+    } catch (const Error& error) {
+      return error.exit_code();
+    }
+    return 0;
+  });
+  EXPECT_EQ(exit_code, 1);
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{});
+}
+
+TEST(Run, PrintsItsManifestWhenAsked) {
+  const Folder folder;
+  auto setup = setup_in(folder.path());
+  setup.options.json = true;
+  testing::internal::CaptureStdout();
+  ExperimentRun run(drape_line(), setup);
+  run.metric("node_count", 5);
+  run.finish();
+  const Json printed = Json::parse(testing::internal::GetCapturedStdout());
+  EXPECT_EQ(printed["metrics"]["node_count"], 5);
+  EXPECT_EQ(printed["complete"], true);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

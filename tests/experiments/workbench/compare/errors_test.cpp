@@ -1,0 +1,311 @@
+// Headline numbers with their errors: what is repeated, what is made of it, how it is written.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/compare/errors.h"
+#include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/metrics.h"
+#include "experiments/workbench/pages/word_table.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+Scene scene_on(const std::string& mesh, const std::string& shape) {
+  Scene scene = default_scene();
+  scene.mesh = mesh;
+  scene.cloth.shape = shape;
+  scene.triangles = 1000;
+  scene.step = 0.01;
+  scene.seed = 7;
+  return scene;
+}
+
+// "mesh: triangles=4000; step: step=0.005; ...".
+std::string words(const std::vector<Repeat>& repeats) {
+  std::string text;
+  for (const Repeat& repeat : repeats) {
+    text += (text.empty() ? "" : "; ") + repeat.name + ":";
+    for (const Flag& flag : repeat.changes) text += " " + flag.path + "=" + flag.text;
+  }
+  return text;
+}
+
+TEST(Repeats, OfARandomMeshAreFinerShorterAndOfOtherSeeds) {
+  EXPECT_EQ(words(repeats_of("swing", scene_on("random", "strip"), "", 3)),
+            "mesh: triangles=4000; step: step=0.005; draw-1: mesh=random seed=8; draw-2: mesh=random seed=9; "
+            "draw-3: mesh=random seed=10");
+}
+
+TEST(Repeats, OfAStructuredMeshAreOfOtherFamiliesFirst) {
+  EXPECT_EQ(words(repeats_of("cantilever", scene_on("unionjack", "strip"), "", 2)),
+            "mesh: triangles=4000; step: step=0.005; draw-1: mesh=equilateral; draw-2: mesh=random seed=8");
+}
+
+TEST(Repeats, OfASpecimenThatCutsItsOwnMeshHaveOtherNumbersOfTriangles) {
+  EXPECT_EQ(words(repeats_of("crease", scene_on("random", "strip"), "", 2)),
+            "mesh: triangles=4000; step: step=0.005; draw-1: triangles=1500; draw-2: triangles=666");
+}
+
+TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
+  const Scene scene = scene_on("random", "disc");
+  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 1).back()}), "path: drape.release=dropped");
+  EXPECT_EQ(words({repeats_of("drape", scene, "dropped", 1).back()}), "path: drape.release=lowered");
+}
+
+TEST(Repeats, OfAClothFromAFileHaveNoOtherMesh) {
+  EXPECT_EQ(words(repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2)), "step: step=0.005");
+  const Json metrics = {{"curvature_rms_per_m", 5.0}};
+  const Errors errors = errors_of("crumple", metrics, {{{"step", {}}, {{"curvature_rms_per_m", 6.0}}}});
+  EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"], 1);
+  EXPECT_TRUE(errors.metrics["curvature_rms_per_m_mesh_error"].is_null());
+  ASSERT_EQ(errors.missing.size(), 1);
+  EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
+}
+
+Repeated bent(const std::string& name, double length) {
+  return {{name, {{"seed", "2"}}}, {{"bending_length_m", length}}};
+}
+
+TEST(Repeats, OfEquilibriaHaveNoStep) {
+  EXPECT_EQ(words(repeats_of("buckle", scene_on("random", "strip"), "", 1)),
+            "mesh: triangles=4000; draw-1: mesh=random seed=8");
+  const Errors errors =
+      errors_of("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});
+  EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"], 1);
+  EXPECT_TRUE(errors.metrics["critical_gamma_step_error"].is_null());
+  EXPECT_EQ(errors.missing,
+            std::vector<std::string>{"step: buckle finds equilibria at loads that --step does not set"});
+}
+
+TEST(Errors, AreDifferencesToTheRunAndTheDeviationOverDraws) {
+  const Json metrics = {{"bending_length_m", 8.0}};
+  const Errors errors = errors_of(
+      "cantilever", metrics,
+      {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 7), bent("draw-2", 9), bent("path", 7)});
+  EXPECT_EQ(errors.metrics["bending_length_m_step_error"], 0.25);
+  EXPECT_EQ(errors.metrics["bending_length_m_mesh_error"], 0.5);
+  EXPECT_EQ(errors.metrics["bending_length_m_draw_error"], 1);  // of 7, 8, 9
+  EXPECT_EQ(errors.metrics["bending_length_m_path_difference"], -1);
+  EXPECT_FALSE(errors.metrics.contains("bending_length_m_mean"));
+  EXPECT_TRUE(errors.missing.empty());
+}
+
+TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
+  const Json metrics = {{"bending_length_m", 6.0}};
+  const Errors errors = errors_of(
+      "cantilever", metrics,
+      {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 6), bent("draw-2", 8), bent("draw-3", 8)});
+  EXPECT_EQ(errors.metrics["bending_length_m_mean"], 7);
+  EXPECT_NEAR(errors.metrics["bending_length_m_draw_error"].get<double>(), std::sqrt(4.0 / 3), 1e-15);
+  EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].get<double>(), std::sqrt(1.0 / 3), 1e-15);
+}
+
+TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
+  Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
+  stopped.stopped = "no convergence";
+  same.unchanged = true;
+  without.metrics = Json::object();
+  const Errors errors = errors_of("cantilever", {{"bending_length_m", 8.0}}, {stopped, same, without});
+  for (const char* ending : {kStepError, kMeshError, kDrawError})
+    EXPECT_TRUE(errors.metrics.at(std::string("bending_length_m") + ending).is_null()) << ending;
+  ASSERT_EQ(errors.missing.size(), 3);
+  EXPECT_EQ(errors.missing[0], "mesh (--seed=2) is not complete: no convergence");
+  EXPECT_NE(errors.missing[1].find("changes no bit"), std::string::npos);
+  EXPECT_EQ(errors.missing[2], "draw-1 has no bending_length_m");
+}
+
+const Json kDrape = {{"drape_coefficient_percent", 86.0213},
+                     {"node_count", 8},
+                     {"drape_coefficient_percent_step_error", 0.1042},
+                     {"drape_coefficient_percent_mesh_error", 0.612},
+                     {"drape_coefficient_percent_draw_error", 0.83},
+                     {"node_count_step_error", 0},
+                     {"node_count_mesh_error", nullptr},
+                     {"node_count_draw_error", 0.577},
+                     {"max_stretch_percent", 0.25}};
+
+TEST(HeadlineWords, EndWhereTheErrorsDo) {
+  EXPECT_EQ(with_errors(kDrape, "drape_coefficient_percent"),
+            "drape coefficient 86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw");
+  EXPECT_EQ(with_errors(kDrape, "node_count"), "node count 8 ± 0 step ± 0.6 draw, mesh error unknown");
+  EXPECT_EQ(with_errors(kDrape, "max_stretch_percent"), "max stretch 0.25 %");
+}
+
+TEST(HeadlineWords, WriteSmallNumbersInPowersOfTen) {
+  const Json swing = {{"bending_friction_J", 1.2345e-5},
+                      {"bending_friction_J_step_error", 3.4e-8},
+                      {"bending_friction_J_mesh_error", 1.2e-7},
+                      {"bending_friction_J_draw_error", 2e-7},
+                      {"bending_friction_J_mean", 1.25e-5},
+                      {"bending_friction_J_mean_stderr", 1e-7},
+                      {"bending_friction_J_path_difference", -4e-7}};
+  EXPECT_EQ(
+      with_errors(swing, "bending_friction_J"),
+      "bending friction 1.23e-05 J ± 3e-08 step ± 1.2e-07 mesh ± 2e-07 draw, other path -4e-07, mean of "
+      "draws 1.250e-05 ± 1.0e-07");
+}
+
+TEST(MetricCards, ShowErrorsBesideTheirHeadline) {
+  const std::string html = metric_cards(kDrape);
+  EXPECT_NE(html.find("<b>86.0 <small>% ± 0.10 step ± 0.6 mesh ± 0.8 draw</small></b>"), std::string::npos)
+      << html;
+  EXPECT_EQ(html.find("step error"), std::string::npos) << html;
+  EXPECT_NE(html.find("<b>0.25 <small>%</small></b>"), std::string::npos) << html;
+}
+
+TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
+  Json all = Json::object();
+  for (const auto& [key, value] : kDrape.items()) all["prandtl." + key] = value;
+  all["linear.drape_coefficient_percent"] = 72.0;
+  const std::string html = metric_table(all);
+  EXPECT_NE(html.find(">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"), std::string::npos) << html;
+  EXPECT_NE(html.find(">72<"), std::string::npos) << html;
+  EXPECT_EQ(html.find("step error"), std::string::npos) << html;
+}
+
+const std::string kSmall = " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images --quiet";
+
+Json manifest_in(const fs::path& folder) { return Json::parse(text_of(folder / "manifest.json")); }
+
+double friction_in(const fs::path& folder) {
+  return manifest_in(folder)["metrics"]["bending_friction_J"].get<double>();
+}
+
+// The working folder of the program while it exists.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~WorkingFolder() { fs::current_path(before_); }
+
+ private:
+  fs::path before_ = fs::current_path();
+};
+
+TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
+  const Folder folder;
+  const WorkingFolder working(folder.path());
+  ASSERT_EQ(program("swing --errors --out run" + kSmall).exit_code, 0);
+  const std::string swing = "swing --no-images --quiet --device cpu --seconds 0.05 --fps 30 ";
+  ASSERT_EQ(program(swing + "--triangles 60 --step 0.0020833333333333333 --out step").exit_code, 0);
+  ASSERT_EQ(program(swing + "--triangles 240 --out mesh").exit_code, 0);
+  ASSERT_EQ(program(swing + "--triangles 60 --mesh equilateral --out one").exit_code, 0);
+  ASSERT_EQ(program(swing + "--triangles 60 --mesh random --seed 2 --out two").exit_code, 0);
+
+  const Json manifest = manifest_in("run"), metrics = manifest["metrics"];
+  const double run = metrics["bending_friction_J"].get<double>();
+  ASSERT_GT(run, 0);
+  EXPECT_EQ(metrics["bending_friction_J_step_error"], std::abs(friction_in("step") - run));
+  EXPECT_EQ(metrics["bending_friction_J_mesh_error"], std::abs(friction_in("mesh") - run));
+  const double one = friction_in("one"), two = friction_in("two"), mean = (run + one + two) / 3;
+  EXPECT_NE(one, run);
+  EXPECT_NE(two, run);
+  const double squares = std::pow(run - mean, 2) + std::pow(one - mean, 2) + std::pow(two - mean, 2);
+  EXPECT_NEAR(metrics["bending_friction_J_draw_error"].get<double>() / std::sqrt(squares / 2), 1, 1e-9);
+  EXPECT_TRUE(manifest["complete"].get<bool>());
+  EXPECT_FALSE(manifest.contains("errors_missing"));
+  EXPECT_GT(manifest["wall_seconds"]["errors"].get<double>(), 0);
+
+  const WordTable table = read_words("run/errors.csv");
+  ASSERT_EQ(table.rows.size(), 4);
+  EXPECT_EQ(table.head.front(), "repeat");
+  EXPECT_EQ(table.rows[0][1], "triangles=240");
+  EXPECT_NE(text_of("run/report.html").find(" step ± "), std::string::npos);
+}
+
+TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
+  const Folder folder;
+  const std::string out = (folder.path() / "run").string();
+  ASSERT_EQ(program("swing --errors --errors.draws 1 --fabric.b2 4e-6 --mesh random --seed 5 --law prandtl "
+                    "--param stack=8 --json --out " +
+                    out + kSmall)
+                .exit_code,
+            0);
+  for (const char* name : {"mesh", "step", "draw-1"}) {
+    const Json scene = manifest_in(fs::path(out) / "errors" / name)["scene"];
+    EXPECT_EQ(scene["fabric"]["b2"], 4e-6) << name;
+    EXPECT_EQ(scene["param"]["stack"], "8") << name;
+    EXPECT_EQ(scene["seed"], std::string(name) == "draw-1" ? 6 : 5) << name;
+    EXPECT_EQ(scene["triangles"], std::string(name) == "mesh" ? 240 : 60) << name;
+    EXPECT_EQ(scene["step"], std::string(name) == "step" ? 1.0 / 480 : 1.0 / 240) << name;
+  }
+}
+
+// The second mesh's folder cannot be made.
+TEST(SwingWithErrors, SaysWhichRepeatFailed) {
+  const Folder folder;
+  fs::create_directories(folder.path() / "run/errors");
+  std::ofstream(folder.path() / "run/errors/mesh") << "a file";
+  const Outcome outcome = program("swing --errors --out " + (folder.path() / "run").string() +
+                                  " --triangles 60 --seconds 0.05 --fps 30 --device cpu --no-images");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json manifest = manifest_in(folder.path() / "run");
+  EXPECT_TRUE(manifest["metrics"]["bending_friction_J_mesh_error"].is_null());
+  EXPECT_TRUE(manifest["metrics"]["bending_friction_J_step_error"].is_number());
+  ASSERT_EQ(manifest["errors_missing"].size(), 1);
+  EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
+  const WordTable table = read_words(folder.path() / "run/errors.csv");
+  const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
+  EXPECT_EQ(table.rows[0][complete], "0");
+  EXPECT_EQ(table.rows[1][complete], "1");
+  EXPECT_NE(text_of(folder.path() / "run/report.html").find("Errors that are not known: mesh"),
+            std::string::npos);
+  EXPECT_NE(outcome.err.find("mesh error unknown"), std::string::npos) << outcome.err;
+}
+
+// Otherwise every repeat would repeat itself.
+TEST(SwingWithErrors, AsksForNoErrorsOfRepeatsWhereASceneFileDoes) {
+  const Folder folder;
+  std::ofstream(folder.path() / "scene.toml") << "errors = true\nout = \"" +
+                                                     (folder.path() / "run").string() +
+                                                     "\"\ntriangles = 60\nseconds = 0.05\n";
+  ASSERT_EQ(
+      program("swing --no-images --quiet --device cpu --scene " + (folder.path() / "scene.toml").string())
+          .exit_code,
+      0);
+  EXPECT_TRUE(manifest_in(folder.path() / "run")["metrics"].contains("bending_friction_J_draw_error"));
+  EXPECT_TRUE(fs::exists(folder.path() / "run/errors/draw-2/manifest.json"));
+  EXPECT_FALSE(fs::exists(folder.path() / "run/errors/draw-2/errors"));
+}
+
+TEST(Compare, GivesEachColumnItsErrors) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(program("compare swing --laws linear,prandtl --errors --errors.draws 1 --out " + out + kSmall)
+                .exit_code,
+            0);
+  const Json metrics = manifest_in(out)["metrics"];
+  EXPECT_EQ(metrics["linear.bending_friction_J_step_error"], 0);
+  EXPECT_GT(metrics["prandtl.bending_friction_J_step_error"].get<double>(), 0);
+  EXPECT_NE(text_of(fs::path(out) / "report.html").find(" step ± "), std::string::npos);
+}
+
+TEST(RequestForErrors, IsRefusedWhereThereIsNone) {
+  const Folder folder;
+  const std::string out = " --quiet --no-images --out " + (folder.path() / "out").string();
+  const Outcome bench = program("bench --quick --errors" + out),
+                law = program("fold --fold.law-alone --errors" + out);
+  EXPECT_EQ(bench.exit_code, 2);
+  EXPECT_NE(bench.err.find("bench has no headline"), std::string::npos) << bench.err;
+  EXPECT_EQ(law.exit_code, 2);
+  EXPECT_NE(law.err.find("fold.law-alone"), std::string::npos) << law.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "out/manifest.json"));
+}
+
+TEST(RequestForErrors, IsOnlyExplained) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  const Outcome outcome = program("swing --errors --explain --out " + out + kSmall);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("triangles"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

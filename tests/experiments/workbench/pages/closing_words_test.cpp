@@ -1,0 +1,112 @@
+// What a run says first and last: results with their errors, rest, places, time left.
+#include "experiments/workbench/pages/closing_words.h"
+
+#include "experiments/workbench/app/time_left.h"
+#include "experiments/workbench/compare/columns.h"
+#include "gtest/gtest.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Json drape_manifest(const Json& metrics) {
+  return {{"experiment", "drape"}, {"complete", true}, {"scene", Json::object()}, {"metrics", metrics}};
+}
+
+void expect_in(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+}
+
+TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
+  const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
+                                                         {"drape_coefficient_percent_step_error", -0.8},
+                                                         {"drape_coefficient_percent_mesh_error", 0.61},
+                                                         {"node_count", 8},
+                                                         {"settled", true}}));
+  expect_in(words, "drape coefficient             86.0 ± 0.8 (step) ± 0.61 (mesh) %\n");
+  expect_in(words, "folds                         8\n");
+  expect_in(words, "at rest\n");
+  EXPECT_EQ(words.find("NOT"), std::string::npos);
+}
+
+TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {
+  expect_in(result_words(drape_manifest({{"drape_coefficient_percent", 86.04}})), " 86.0 %\n");
+}
+
+TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
+  const Json metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
+  expect_in(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n");
+  EXPECT_EQ(unrest_words({{"settled", true}}), "");
+  EXPECT_EQ(unrest_words(Json::object()), "") << "where no rest is asked for";
+}
+
+TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
+  const Json manifest = {{"experiment", "compare"},
+                         {"complete", true},
+                         {"scene", {{"compared", "drape"}}},
+                         {"metrics",
+                          {{"linear.drape_coefficient_percent", 72.2},
+                           {"linear.settled", false},
+                           {"prandtl.drape_coefficient_percent", 86.0}}}};
+  const std::string words = result_words(manifest);
+  expect_in(words, "  linear                        drape coefficient 72.2 %; NOT at rest\n");
+  expect_in(words, "  prandtl                       drape coefficient 86.0 %\n");
+}
+
+TEST(ResultWords, OfARunThatWasCutShortSaySo) {
+  Json manifest = drape_manifest(Json::object());
+  manifest["complete"] = false;
+  expect_in(result_words(manifest), "INCOMPLETE");
+}
+
+TEST(LastWords, AreTheResultAndItsPlacesOnStdoutEvenIfQuiet) {
+  const Folder folder;
+  const std::string out = folder.path() / "c";
+  const Outcome outcome = program("cantilever --quick --no-images --quiet --triangles 32 --out " + out);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const std::string part : {"cantilever: cotton-broad, law prandtl\n", "tip drop over length",
+                                 "bending length", " mm\n", "/c/report.html\n"})
+    expect_in(outcome.out, part);
+  EXPECT_EQ(outcome.out.find("sheet.png"), std::string::npos) << "there is none";
+}
+
+TEST(LastWords, LeaveStdoutToTheManifestWithJson) {
+  const Folder folder;
+  const std::string out = folder.path() / "s";
+  const Outcome outcome =
+      program("swing --quick --no-images --seconds 0.05 --triangles 60 --json --out " + out);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(Json::parse(outcome.out).at("experiment"), "swing");
+  expect_in(outcome.err, "cotton-broad, law prandtl, ");
+}
+
+TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
+  EXPECT_EQ(time_left(10, 40, 4, false), "  12 s left");
+  EXPECT_EQ(time_left(10, 40, 4, true), "  at most 12 s left");
+  EXPECT_EQ(time_left(100, 200, 180, false), "  3 min left");
+  EXPECT_EQ(time_left(100, 200, 3900, false), "  1 h 5 min left");
+  EXPECT_EQ(time_left(4, 40, 4, false), "") << "too early to tell";
+  EXPECT_EQ(time_left(40, 40, 4, false), "");
+}
+
+TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
+  const Folder folder;
+  EXPECT_EQ(progress_in(folder.path()), "");
+  std::ofstream(folder.path() / "manifest.json") << R"({"scene": {"seconds": 4}})";
+  std::ofstream(folder.path() / "metrics.csv.part") << "time [s],x\n0,1\n1.2,3\n2.";
+  EXPECT_EQ(progress_in(folder.path()), "1.20/4 s");
+}
+
+TEST(ReportOfMotion, SaysAtItsTopThatTheClothDidNotComeToRest) {
+  const Folder folder;
+  const Outcome outcome = program("drape --quick --no-images --quiet --triangles 100 --seconds 0.1 --out " +
+                                  folder.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_in(outcome.out, "NOT at rest: fastest vertex ");
+  expect_in(text_of(folder.path() / "report.html"), "NOT at rest: fastest vertex ");
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,369 @@
+#include "experiments/workbench/pages/gallery.h"
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/check.h"
+#include "experiments/workbench/pages/gallery_about.h"
+#include "experiments/workbench/pages/gallery_folders.h"
+#include "experiments/workbench/pages/page.h"
+#include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/session/record.h"
+#include "render/image.h"
+#include "sim/base/error.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+void write_picture(const fs::path& file, int width, int height) {
+  fs::create_directories(file.parent_path());
+  render::Image picture(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) picture.at(x, y)[0] = static_cast<std::uint8_t>(255 * x / width);
+  render::write_png(file, picture);
+}
+
+// A finished run of `experiment` with one metric.
+void write_run(const fs::path& folder, const std::string& experiment, double metric = 49.8) {
+  ExperimentRun run({experiment, "hysteron " + experiment + " --quick", {}, {}}, setup_in(folder));
+  run.note("device", "cpu: CPU, 2 threads");
+  run.metric("recovery_angle_deg", metric);
+  run.metric("newton_iterations_per_step", 3);
+  run.finish();
+}
+
+class Gallery : public testing::Test {
+ protected:
+  Gallery() {
+    write_run(results_ / "a-kes", "kes");
+    write_run(results_ / "z-drape", "drape");
+    write_picture(results_ / "z-drape/sheet.png", 1800, 300);
+    write_picture(results_ / "z-drape/plot_energy.png", 400, 100);
+    write_text(results_ / "z-drape/plot_energy.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+    write_run(results_ / "stability/bdf2", "stability");
+    write_text(results_ / "speed/bench.json", R"([{"law":"linear","device":"cpu","ms_per_step":2.5},
+                                                   {"law":"wong","device":"cpu","ms_per_step":2.625}])");
+    write_text(results_ / "README.md", "# Results\n");
+  }
+  std::string page() const { return gallery_page(results_); }
+  // The message of the error that the page ends in.
+  std::string refusal() const {
+    try {
+      page();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      return error.what();
+    }
+    return "";
+  }
+
+  Folder folder_;
+  fs::path results_ = folder_.path() / "results";
+};
+
+TEST_F(Gallery, GroupsRunsByExperimentInTheOrderOfAReader) {
+  std::vector<std::string> experiments, names;
+  for (const ExhibitGroup& group : exhibits_in(results_)) {
+    experiments.push_back(group.experiment);
+    for (const Exhibit& exhibit : group.exhibits) names.push_back(exhibit.name);
+  }
+  EXPECT_EQ(experiments, (std::vector<std::string>{"drape", "kes", "stability", "speed"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"z-drape", "a-kes", "stability/bdf2", "speed"}));
+}
+
+TEST_F(Gallery, PutsRunsWithPicturesFirst) {
+  write_run(results_ / "b-drape", "drape");
+  const auto drapes = exhibits_in(results_)[0].exhibits;
+  ASSERT_EQ(drapes.size(), 2u);
+  EXPECT_EQ(drapes[0].name, "z-drape");
+  EXPECT_EQ(drapes[1].name, "b-drape");
+}
+
+TEST_F(Gallery, ListsEveryExhibitInItsContentsAndLeadsThere) {
+  const std::string html = page();
+  for (const char* anchor : {"z-drape", "a-kes", "stability-bdf2", "speed"}) {
+    EXPECT_EQ(count_of(html, "id=\"" + std::string(anchor) + "\""), 1) << anchor;
+    EXPECT_GE(count_of(html, "href=\"#" + std::string(anchor) + "\""), 2) << anchor;
+  }
+}
+
+TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
+  const std::string html = page();
+  for (const char* part : {"hysteron drape --quick", "cpu: CPU, 2 threads", "49.8", "recovery angle",
+                           "href=\"z-drape/manifest.json\"", "Cusick"}) {
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
+  EXPECT_EQ(count_of(page(), ">incomplete<"), 0);
+  { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }
+  EXPECT_EQ(count_of(page(), ">incomplete<"), 1);
+}
+
+TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
+  const auto subject = [](const char* scene) { return subject_of({{"scene", Json::parse(scene)}}); };
+  EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
+  EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
+  EXPECT_EQ(subject(R"({"fabrics": "wool", "laws": ["a", "b", "c", "d", "e"]})"), "wool, 5 laws");
+  EXPECT_EQ(subject(R"({"fabrics": "a,b,c,d,e", "laws": "linear"})"), "5 fabrics, law linear");
+  EXPECT_EQ(subject("{}"), "");
+}
+
+TEST_F(Gallery, EmbedsPicturesShrunkAndLeadsToTheFiles) {
+  const std::string html = page(), begin = "data:image/png;base64,";
+  EXPECT_EQ(count_of(html, begin), 1);
+  const std::size_t at = html.find(begin) + begin.size();
+  const render::Image sheet =
+      render::decode_png(from_base64(html.substr(at, html.find('"', at) - at)), "the sheet");
+  EXPECT_EQ(sheet.width(), 900);
+  EXPECT_EQ(sheet.height(), 150);
+  EXPECT_EQ(count_of(html, "href=\"z-drape/sheet.png\""), 1);
+}
+
+TEST_F(Gallery, ShowsADrawingInsteadOfThePictureOfIt) {
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "data:image/svg+xml"), 1);
+  EXPECT_EQ(count_of(html, "href=\"z-drape/plot_energy.svg\""), 1);
+  write_text(results_ / "z-drape/plot_energy.svg", "<svg>" + std::string(100000, ' ') + "</svg>");
+  const std::string heavy = page();
+  EXPECT_EQ(count_of(heavy, "data:image/svg+xml"), 0);
+  EXPECT_EQ(count_of(heavy, "href=\"z-drape/plot_energy.svg\""), 1) << "linked";
+}
+
+TEST_F(Gallery, NeedsNoNetworkAndNoOtherFileToBeSeen) {
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "<img "), count_of(html, "src=\"data:image/"));
+  EXPECT_EQ(count_of(html, "<link"), 0);
+  EXPECT_EQ(count_of(html, "<script src"), 0);
+  EXPECT_EQ(count_of(html, "href=\"http"), 0);
+}
+
+TEST_F(Gallery, ShowsSmallTablesAndLeadsToLargeOnes) {
+  write_text(results_ / "tables/small.csv", "law,2HB_N,note\nwong,0.5,\"a, b\"\npabst,0.123456789,\n");
+  std::string rows = "x\n";
+  for (int i = 0; i < 500; ++i) rows += std::to_string(7000 + i) + "\n";
+  write_text(results_ / "tables/large.csv", rows);
+  const std::string html = page();
+  for (const char* part :
+       {"2HB [N]", "a, b", "0.123457", "small.csv</a> (2 rows)", "large.csv</a> (500 rows)"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(count_of(html, "7123"), 0);
+}
+
+TEST_F(Gallery, SaysOnceWhatIsTheSameInAllRowsOfAList) {
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "<td>linear"), 1);
+  EXPECT_EQ(count_of(html, "2.625"), 1);
+  EXPECT_NE(html.find("In all rows device: cpu"), std::string::npos);
+  EXPECT_EQ(count_of(html, "<td>cpu"), 0);
+}
+
+TEST_F(Gallery, ShowsManifestsWithoutAFolderAsRows) {
+  write_run(folder_.path() / "elsewhere", "swing", 31.25);
+  fs::create_directories(results_ / "scenes");
+  fs::copy(folder_.path() / "elsewhere/manifest.json", results_ / "scenes/square-half.json");
+  const std::string html = page();
+  for (const char* part : {"href=\"scenes/square-half.json\"", "hysteron swing --quick", "31.25"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+}
+
+TEST_F(Gallery, TakesTheRunsBelowARunAsItsParts) {
+  write_run(results_ / "z-drape/wong", "drape", 12.5);
+  write_picture(results_ / "z-drape/wong/sheet.png", 60, 40);
+  EXPECT_EQ(exhibits_in(results_)[0].exhibits.size(), 1u);
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "href=\"z-drape/wong/manifest.json\""), 1);
+  EXPECT_EQ(count_of(html, "href=\"z-drape/wong/sheet.png\""), 1);
+  EXPECT_NE(html.find("Wong: contact sheet: "), std::string::npos);
+}
+
+TEST_F(Gallery, PlaysFramesThatAreThere) {
+  EXPECT_EQ(count_of(page(), "class=\"player\""), 0);
+  for (int i = 0; i < 30; ++i)
+    write_picture(results_ / "z-drape/frames" / (std::to_string(1000 + i) + ".png"), 32, 18);
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "class=\"player\""), 1);
+  EXPECT_EQ(count_of(html, "alt=\"frames/"), 12);
+  EXPECT_EQ(count_of(html, "alt=\"frames/1000.png\""), 1);
+  EXPECT_EQ(count_of(html, "alt=\"frames/1029.png\""), 1);
+}
+
+// Sequences in other looks, and a comparison's film, are no exhibits.
+TEST_F(Gallery, PassesOverOtherSequences) {
+  const int before = count_of(page(), "<figure>");
+  for (const char* folder : {"frames-silhouette", "film"})
+    write_picture(results_ / "z-drape" / folder / "0000.png", 32, 18);
+  EXPECT_EQ(count_of(page(), "<figure>"), before);
+}
+
+TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
+  write_text(results_ / "z-drape/README.md",
+             "# Drape\n\n![The sheet](sheet.png)\n\n**The sheet.** Let down by `a plate`.\n");
+  EXPECT_NE(page().find("<figcaption>The sheet. Let down by a plate.</figcaption>"), std::string::npos);
+}
+
+TEST_F(Gallery, IsTheSameWhereverItLies) {
+  const std::string html = page();
+  EXPECT_EQ(page(), html);
+  fs::copy(results_, folder_.path() / "copy", fs::copy_options::recursive);
+  EXPECT_EQ(gallery_page(folder_.path() / "copy"), html);
+}
+
+TEST_F(Gallery, IsNotBrokenByOddNames) {
+  write_run(results_ / "a <b> & \"c\" #1", "drape");
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "<b> &"), 0);
+  EXPECT_NE(html.find("a &lt;b&gt; &amp; &quot;c&quot; #1"), std::string::npos);
+  EXPECT_NE(html.find("href=\"a%20%3Cb%3E%20%26%20%22c%22%20%231/manifest.json\""), std::string::npos);
+}
+
+TEST_F(Gallery, NamesABrokenPicture) {
+  write_text(results_ / "a-kes/plot_loops.png", "\x89PNG\r\n\x1a\nhalf");
+  EXPECT_NE(refusal().find("results/a-kes/plot_loops.png: not a PNG picture"), std::string::npos)
+      << refusal();
+}
+
+TEST_F(Gallery, NamesABrokenManifest) {
+  const std::string whole = text_of(results_ / "a-kes/manifest.json");
+  write_text(results_ / "a-kes/manifest.json", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
+  write_text(results_ / "a-kes/manifest.json",
+             R"({"hysteron":{"version":"0","commit":"0"},"scene":{},"experiment":"kes","started":7})");
+  EXPECT_NE(refusal().find("results/a-kes/manifest.json is no manifest"), std::string::npos) << refusal();
+}
+
+// A manifest that lacks a key, or has one of another type, is named with the key and in words.
+TEST_F(Gallery, SaysWhatIsWrongWithAManifest) {
+  const fs::path file = results_ / "a-kes/manifest.json";
+  const Json whole = Json::parse(text_of(file));
+  const auto says = [&](const char* path, const Json& value, const std::string& problem) {
+    Json changed = whole;
+    changed[Json::json_pointer(path)] = value;
+    for (const fs::path& place : {file, results_ / "speed/again.json"}) {
+      write_text(place, changed.dump());
+      EXPECT_EQ(refusal(), place.string() + " is no manifest of hysteron: " + problem);
+      if (place == file) write_text(place, whole.dump());
+    }
+    fs::remove(results_ / "speed/again.json");
+  };
+  says("/metrics", "many", "metrics is a text, must be an object");
+  says("/wall_seconds", nullptr, "wall_seconds is null, must be an object");
+  says("/wall_seconds/total", "long", "wall_seconds.total is a text, must be a number");
+  says("/seconds_simulated", Json::array(), "seconds_simulated is a list, must be a number");
+  says("/complete", 1, "complete is a number, must be true or false");
+  says("/scene/fabric", "cotton", "scene.fabric is a text, must be an object");
+  says("/scene/laws", {"linear", 7}, "scene.laws holds a number where a name must be");
+  says("/scene/fabric/provenance", {{"b1", {{"source", "kes"}}}},
+       "scene.fabric.provenance has an entry without confidence");
+  says("/frames", {{"moments", {{{"s", "now"}}}}}, "frames.moments has a time s that is no number");
+  write_text(file, R"({"hysteron":{"version":"0"}})");
+  EXPECT_EQ(refusal(), file.string() + " is no manifest of hysteron: it has no hysteron.commit");
+  write_text(file, std::string(100000, '['));
+  EXPECT_EQ(refusal(), file.string() + " is no manifest of hysteron: it nests more than 64 deep");
+}
+
+TEST_F(Gallery, PassesOverLinksThatLeadNowhereAndRefusesThoseThatLeadBack) {
+  const std::string before = page();
+  for (const char* name :
+       {"loop", "a-kes/loop", "a-kes/loop.png", "z-drape/README.md", "z-drape/metrics.csv"})
+    fs::create_symlink(fs::path(name).filename(), results_ / name);
+  EXPECT_EQ(page(), before);
+  fs::create_directory_symlink("../..", results_ / "z-drape/above");
+  EXPECT_EQ(refusal(), (results_ / "z-drape/above").string() + " is a link back to " +
+                           folder_.path().string() + ": remove it");
+  fs::remove(results_ / "z-drape/above");
+  fs::remove(results_ / "a-kes/manifest.json");
+  fs::create_symlink("manifest.json", results_ / "a-kes/manifest.json");
+  EXPECT_EQ(page().find("a-kes/manifest.json"), std::string::npos);
+}
+
+TEST_F(Gallery, NamesABrokenListAndABrokenTable) {
+  write_text(results_ / "speed/bench.json", "[{\"law\":");
+  EXPECT_NE(refusal().find("results/speed/bench.json is no JSON"), std::string::npos) << refusal();
+  write_text(results_ / "speed/bench.json", "[]");
+  write_text(results_ / "speed/table.csv", "a,b\n1,2\n3\n");
+  EXPECT_NE(refusal().find("results/speed/table.csv:3: 1 fields, must be 2"), std::string::npos) << refusal();
+}
+
+TEST_F(Gallery, OfNothingIsAWrongRequest) {
+  fs::remove_all(results_);
+  fs::create_directories(results_ / "empty/frames");
+  EXPECT_NE(refusal().find("nothing to show in"), std::string::npos) << refusal();
+}
+
+std::vector<std::string> stale_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const StalePage& page : stale_pages(folder))
+    names.push_back(fs::relative(page.page, folder).string() + (page.missing ? " missing" : ""));
+  return names;
+}
+
+TEST_F(Gallery, IsStaleOnceARunSaysSomethingElse) {
+  EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"index.html missing"}));
+  EXPECT_EQ(write_gallery(results_), results_ / "index.html");
+  EXPECT_EQ(stale_names(results_), std::vector<std::string>{});
+  write_run(results_ / "a-kes", "kes", 50.0);
+  EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"index.html"}));
+}
+
+TEST_F(Gallery, ChecksThePagesOfItsRunsToo) {
+  write_report(results_ / "a-kes");
+  write_gallery(results_);
+  EXPECT_EQ(stale_names(results_), std::vector<std::string>{});
+  std::ofstream(results_ / "a-kes/report.html", std::ios::app) << " ";
+  EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"a-kes/report.html"}));
+}
+
+std::string page_with(const std::vector<std::uint8_t>& picture) {
+  return "<p>" + embedded_image(picture, "image/png", "sheet") + "</p>";
+}
+
+// Other versions of zlib, and `fast`, pack the same pixels into other bytes.
+TEST(SamePage, LooksAtPixelsNotAtHowTheyArePacked) {
+  render::Image picture(300, 200, render::Rgb8{20, 40, 60});
+  const std::string page = page_with(encode_png(picture, render::PngEffort::best));
+  const std::string packed = page_with(encode_png(picture, render::PngEffort::fast));
+  ASSERT_NE(page, packed);
+  EXPECT_TRUE(same_page(page, packed));
+  picture.at(299, 199)[2] = 61;
+  EXPECT_FALSE(same_page(page, page_with(encode_png(picture))));
+  EXPECT_FALSE(same_page(page, packed + " "));
+  EXPECT_FALSE(same_page(page, "<p><img alt=\"sheet\" src=\"data:image/png;base64,AAAA\"></p>"));
+  EXPECT_FALSE(same_page(page, ""));
+}
+
+// Exit code and stderr of the program.
+std::pair<int, std::string> outcome(const std::string& arguments, const fs::path& folder) {
+  const fs::path err = folder / "err";
+  const int status =
+      std::system((HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string()).c_str());
+  return {WEXITSTATUS(status), text_of(err)};
+}
+
+TEST_F(Gallery, OfTheProgramSaysHowToRefreshAStalePage) {
+  const std::string results = results_.string();
+  EXPECT_EQ(outcome("report " + results + "/", folder_.path()), std::pair(0, std::string()));
+  EXPECT_EQ(outcome("report --check " + results, folder_.path()), std::pair(0, std::string()));
+  write_run(results_ / "a-kes", "kes", 50.0);
+  EXPECT_EQ(
+      outcome("report --check " + results, folder_.path()),
+      std::pair(4, "hysteron report: " + results + "/index.html is not what its folder says now; write " +
+                       "it again: hysteron report " + results + "\n"));
+  EXPECT_EQ(outcome("report " + results + "/nowhere", folder_.path()).first, 2);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,120 @@
+#include "sim/base/atomic_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
+
+namespace hysteron {
+namespace {
+
+using test::Folder;
+
+TEST(AtomicFile, AppearsOnlyOnCommit) {
+  const Folder folder;
+  AtomicFile file(folder.file("a.txt"));
+  file.stream() << "whole";
+  EXPECT_NE(folder.names(), std::vector<std::string>{"a.txt"});
+  file.commit();
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+  EXPECT_EQ(test::content_of(folder.file("a.txt")), "whole");
+}
+
+TEST(AtomicFile, LeavesTheOldContentWithoutCommit) {
+  const Folder folder;
+  folder.write("a.txt", "old");
+  { AtomicFile(folder.file("a.txt")).stream() << "half"; }
+  EXPECT_EQ(test::content_of(folder.file("a.txt")), "old");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, ReplacesWhatALinkLeadsToAndNotTheLink) {
+  const Folder folder;
+  folder.write("a.txt", "old");
+  std::filesystem::create_symlink("a.txt", folder.file("link"));
+  AtomicFile file(folder.file("link"));
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link")));
+  EXPECT_EQ(test::content_of(folder.file("a.txt")), "new");
+}
+
+TEST(AtomicFile, ReplacesNoFileThatIsStandardOutput) {
+  EXPECT_THROW(AtomicFile("/dev/stdout"), Error);
+  EXPECT_THROW(AtomicFile("/dev/fd/1"), Error);
+}
+
+TEST(AtomicFile, ReplacesNoPipe) {
+  const Folder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  try {
+    AtomicFile file(folder.file("pipe"));
+    FAIL() << "a pipe was taken for a file";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_EQ(error.what(),
+              "cannot write " + folder.file("pipe") + ": it is no plain file; give another name");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
+}
+
+TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
+  const Folder folder;
+  AtomicFile a(folder.file("a.txt")), b(folder.file("a.txt"));
+  a.stream() << "first";
+  b.stream() << "second";
+  a.commit();
+  b.commit();
+  EXPECT_EQ(test::content_of(folder.file("a.txt")), "second");
+}
+
+TEST(AtomicFile, FolderInTheWayIsTheMachinesFailure) {
+  const Folder folder;
+  folder.write("taken", "");
+  const Error below = test::error_of([&] { AtomicFile(folder.file("taken/a.txt")); });
+  EXPECT_EQ(below.exit_code(), 1);
+  EXPECT_EQ(std::string(below.what()), "cannot create " + folder.file("taken/a.txt") + ": Not a directory");
+}
+
+// Writes beyond `bytes` fail in this process, as on a full disk, until this goes out of scope.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
+  const Folder folder;
+  folder.write("a.txt", "old");
+  for (const std::size_t size : {2000, 2000000}) {  // fails when flushed, and while writing
+    const Error error = test::error_of([&] {
+      const SmallDisk disk(1000);
+      AtomicFile file(folder.file("a.txt"));
+      file.stream() << std::string(size, 'x');
+      file.commit();
+    });
+    EXPECT_EQ(error.exit_code(), 1);
+    EXPECT_EQ(std::string(error.what()).find("cannot write " + folder.file("a.txt") + ": "), 0u);
+    EXPECT_EQ(test::content_of(folder.file("a.txt")), "old");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,79 @@
+// Tables on disk: what is read, what is refused, what is written.
+#include "sim/base/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+class Csv : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) / "hysteron_csv_test";
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& text) {
+    const std::filesystem::path path = folder_ / "in.csv";
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  std::string refusal(const std::string& text, int exit_code = 2) {
+    try {
+      read_csv(file(text), {"curvature [1/m]"}, {"time [s]"}, "law");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), exit_code);
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      return error.what();
+    }
+    return "";
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
+  const Table table =
+      read_csv(file("\xEF\xBB\xBFnote, time [s] ,curvature [1/m]\r\n7,0,+1.5e1\r\n\r\n8,1,-2\r\n"),
+               {"curvature [1/m]"}, {"time [s]", "edit"}, "law");
+  EXPECT_EQ(table.find("curvature [1/m]")->values, (std::vector<double>{15, -2}));
+  EXPECT_EQ(table.find("time [s]")->values, (std::vector<double>{0, 1}));
+  EXPECT_EQ(table.find("edit"), nullptr);
+  EXPECT_EQ(table.lines, (std::vector<int>{2, 4}));
+}
+
+TEST_F(Csv, RefusesBadInputWithFileAndLine) {
+  EXPECT_NE(refusal("").find("in.csv:1: column 'curvature [1/m]' is missing"), std::string::npos);
+  EXPECT_NE(refusal("curvature [1/cm]\n1\n").find("'curvature [1/cm]' must be called"), std::string::npos);
+  EXPECT_NE(refusal("curvature [1/m],curvature [1/m]\n1,2\n").find("stands twice"), std::string::npos);
+  EXPECT_NE(refusal("curvature [1/m]\n1\ntwo\n").find("in.csv:3: curvature [1/m] = 'two'"),
+            std::string::npos);
+  EXPECT_NE(refusal("curvature [1/m]\nnan\n").find("must be a finite number"), std::string::npos);
+  EXPECT_NE(refusal("curvature [1/m],time [s]\n1\n").find("in.csv:2: 1 fields, must be 2"),
+            std::string::npos);
+  EXPECT_NE(refusal("curvature [1/m]\n").find("no rows"), std::string::npos);
+}
+
+TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
+  for (const std::filesystem::path& path : {folder_ / "missing.csv", folder_}) {
+    try {
+      read_csv(path, {"curvature [1/m]"}, {}, "law");
+      ADD_FAILURE() << path << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 1);
+    }
+  }
+}
+
+TEST_F(Csv, ReadsBackTheSameDoublesThatWereWritten) {
+  const std::vector<double> values = {1. / 3, -2e-300, 6.02214076e23, 0};
+  write_csv(folder_ / "out.csv", {{{"curvature [1/m]", values}}, {}});
+  EXPECT_EQ(read_csv(folder_ / "out.csv", {"curvature [1/m]"}, {}, "law").columns[0].values, values);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,32 @@
+// A folder of its own for each test, and the error that a call throws.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/base/error.h"
+
+namespace hysteron::test {
+
+// A folder of this test and process alone, removed with all it holds.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  std::string write(const std::string& name, const std::string& content) const;  // returns the file's path
+  std::vector<std::string> names() const;
+
+ private:
+  std::string path_;
+};
+
+std::string content_of(const std::string& file);
+
+// The Error that the call throws; fails the test if there is none.
+Error error_of(const std::function<void()>& call);
+
+}  // namespace hysteron::test

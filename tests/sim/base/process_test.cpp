@@ -1,0 +1,48 @@
+// Programs that are run without a shell.
+#include "sim/base/process.h"
+
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace hysteron::render {
+namespace {
+
+TEST(Process, GetsItsInputAndGivesItsExitCodeAndFirstLineOfErrors) {
+  const ProcessResult result = run_process({"sh", "-c", "read word; echo \"$word!\"; exit 7"}, "said\n");
+  EXPECT_TRUE(result.started);
+  EXPECT_EQ(result.exit_code, 7);
+  EXPECT_EQ(result.first_error_line, "said!");
+}
+
+TEST(Process, ThatDoesNotExistIsNotStarted) { EXPECT_FALSE(run_process({"/no/such/program"}, "").started); }
+
+// The one in the middle runs a program that says its number and would last longer than a test may.
+TEST(Process, EndsWhenTheOneThatRunsItIsKilled) {
+  ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // orphans come to this process
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const std::string say = "echo $$ >&" + std::to_string(ends[1]) + "; exec sleep 60";
+  const pid_t middle = fork();
+  if (middle == 0) {
+    run_process({"sh", "-c", say}, "");
+    _exit(0);
+  }
+  close(ends[1]);
+  char text[32] = {};
+  ASSERT_GT(read(ends[0], text, sizeof text - 1), 0);
+  const pid_t last = static_cast<pid_t>(std::atoi(text));
+  kill(middle, SIGKILL);
+  ASSERT_EQ(waitpid(middle, nullptr, 0), middle);
+  int status = 0;
+  ASSERT_EQ(waitpid(last, &status, 0), last);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+  close(ends[0]);
+}
+
+}  // namespace
+}  // namespace hysteron::render

@@ -1,0 +1,107 @@
+// Closed forms of the laws without memory, and of the bilinear one.
+#include <gtest/gtest.h>
+
+#include "sim/bending/laws/bridson.h"
+#include "sim/bending/laws/flexion_spring.h"
+#include "sim/bending/laws/prandtl_stops.h"
+#include "sim/bending/laws/recovery.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+constexpr double kRounding = 1e-15;  // of moments of about 1e-3 N
+constexpr double kPi = 3.14159265358979323846;
+
+TEST(Bridson, IsLinearAtFirstAndVanishesWhenFoldedAllTheWayRound) {
+  const VirginCurve c = cotton_broad();
+  const double h = 5e-3;
+  const auto law = Bridson<double, 1>::make(c, h);
+  const auto moment = [&](double k) { return law.step(Vec<double, 1>(k), {}).moment[0]; };
+  EXPECT_NEAR(moment(1) / c.b2, 1, 2e-6);  // (K h/2)^2/6
+  EXPECT_NEAR(moment(100), 2 * c.b2 / h * std::sin(0.25), kRounding);
+  EXPECT_NEAR(moment(kPi / h), 2 * c.b2 / h, kRounding);  // folded flat: the largest moment
+  EXPECT_NEAR(moment(2 * kPi / h), 0, 10 * kRounding);
+  EXPECT_NEAR(law.step(Vec<double, 1>(kPi / h), {}).stored, 4 * c.b2 / (h * h), kRounding);
+}
+
+// A spring of length 2 h between the tips: E = q (2 h cos(theta/2) - 2 h)^2/2, M = dE/dK.
+TEST(FlexionSpring, IsTheSpringBetweenTheTipsOfAHinge) {
+  const VirginCurve c = cotton_broad();
+  const double h = 5e-3, step = 1e-4;
+  const auto law = FlexionSpring<double, 1>::make(c, h);
+  const auto at = [&](double k) { return law.step(Vec<double, 1>(k), {}); };
+  EXPECT_NEAR(at(c.k0).moment[0], c.b2 * c.k0, kRounding);
+  const auto stretch = [&](double k) { return 2 * h * (std::cos(k * h / 2) - 1); };
+  const double q = 2 * at(100).stored / std::pow(stretch(100), 2);
+  for (double k : {20., 77., 300.}) {
+    EXPECT_NEAR(at(k).stored, q * std::pow(stretch(k), 2) / 2, 1e-12 * at(k).stored);
+    EXPECT_NEAR(at(k).moment[0], (at(k + step).stored - at(k - step).stored) / (2 * step),
+                1e-6 * at(k).moment[0]);
+  }
+  EXPECT_NEAR(at(0.2).moment[0] / at(0.1).moment[0], 8, 1e-5);  // cubic: nothing holds flat cloth flat
+}
+
+TEST(Bilinear, HasTwoSlopesAndUnloadsWithTheFirst) {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(c));
+  const double ma = c.elastic_limit_moment(), first = ma / c.k0, km = 4 * c.k0;
+  EXPECT_NEAR(cloth.moment(c.k0 / 2), ma / 2, kRounding);
+  EXPECT_NEAR(cloth.moment(c.k0), ma, kRounding);
+  const double mm = cloth.moment(km);
+  EXPECT_NEAR(mm, c.friction_moment() + c.b2 * km, kRounding);
+  EXPECT_NEAR(cloth.moment(km - c.k0), mm - first * c.k0, kRounding);
+  EXPECT_NEAR(cloth.moment(km - 2 * c.k0), mm - 2 * first * c.k0, 10 * kRounding);
+  EXPECT_NEAR(cloth.moment(km - 3 * c.k0), mm - 2 * first * c.k0 - c.b2 * c.k0, 10 * kRounding);
+}
+
+TEST(Bilinear, LoopAreaIsThatOfItsStop) {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStops<double, 1, 1>> cloth(make_bilinear<double, 1>(c));
+  for (double k : {150., -150.}) cloth.moment(k);
+  const double before = cloth.dissipated, m = c.friction_moment(), stiffness = m / c.k0;
+  for (double k : {150., -150.}) cloth.moment(k);
+  EXPECT_NEAR(cloth.dissipated - before, 4 * m * (150 - m / stiffness), 1e-13);
+}
+
+struct RecoveryLaw {
+  const char* name;
+  LawParameters parameters;
+};
+
+// The closed forms against the law itself, over all three cases and both signs.
+TEST(RecoveryFormula, EqualsTheRootOnTheLaw) {
+  const VirginCurve c = cotton_broad();
+  for (const RecoveryLaw& law :
+       {RecoveryLaw{"bilinear", {}}, RecoveryLaw{"wong", {}}, RecoveryLaw{"prandtl", {}},
+        RecoveryLaw{"wong", {{"recovery", "reversible"}}}, RecoveryLaw{"pabst", {}}}) {
+    const LawRequest request{law.name, c, law.parameters};
+    const LawChoice choice = choose_law(law.name, c, law.parameters, LawUse::alone);
+    ASSERT_TRUE(has_residual_formula(choice));
+    for (double k : {0.2, 0.7, 0.99, 1.01, 1.5, 2.2, 3.0, 4.0, 9.0})
+      for (double sign : {1., -1.}) {
+        const std::vector<LawRow> path = {{sign * k * c.k0}};
+        const double moment = run_law(request, path).moment[0];
+        EXPECT_NEAR(residual_by_formula(choice, path[0].curvature, moment), residual_after(request, path),
+                    1e-10 * c.k0)
+            << law.name << " from " << sign * k << " K0";
+      }
+  }
+}
+
+TEST(RecoveryCases, AreDecidedByTheMomentAtTheReversalAndCountedThere) {
+  const VirginCurve c = cotton_broad();
+  const double ma = c.elastic_limit_moment();
+  EXPECT_EQ(recovery_case(c, -ma), RecoveryCase::elastic);
+  EXPECT_EQ(recovery_case(c, 1.5 * ma), RecoveryCase::partial);
+  EXPECT_EQ(recovery_case(c, 2.01 * ma), RecoveryCase::full_slip);
+  // linear: Ma is reached at Ma/b2 = 102.6/m.
+  const std::vector<LawRow> rows = {{100}, {50}, {-200}, {-100}, {-100}, {400}, {0}, {10}};
+  const RecoveryCounts counts = count_recoveries(c, rows, run_law({"linear", c, {}}, rows));
+  EXPECT_EQ(counts.of[0], 1);  // at 100/m; at 0/m nothing is unloaded
+  EXPECT_EQ(counts.of[1], 1);  // at -200/m
+  EXPECT_EQ(counts.of[2], 1);  // at 400/m
+}
+
+}  // namespace
+}  // namespace hysteron::testing

@@ -1,0 +1,80 @@
+// Fabrics, histories and small drivers shared by the tests of the bending laws.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "sim/bending/laws/law_commands.h"
+
+namespace hysteron::testing {
+
+// Cotton broad (Matsudaira et al. 2015: B = 1.157e-5 N m, 2HB = 1.216e-3 N), K0 = 50/m assumed.
+inline VirginCurve cotton_broad() {
+  const double b2 = 1.157e-5, m0 = 1.216e-3 / 2, k0 = 50;
+  return {b2 + 2 * m0 / k0, b2, k0};
+}
+
+template <class Real, int D>
+using Path = std::vector<Vec<Real, D>>;
+
+// Corners of a random walk: uniformly drawn turns within +-`amplitude` [1/m], of widely different sizes.
+inline std::vector<double> random_turns(int count, double amplitude, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> turns;
+  for (int i = 0; i < count; ++i)
+    turns.push_back(amplitude * uniform(generator) * std::abs(uniform(generator)));
+  return turns;
+}
+
+inline Path<double, 3> random_tensors(int count, double amplitude, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Path<double, 3> path;
+  for (int i = 0; i < count; ++i)
+    path.push_back(amplitude * Vec<double, 3>(uniform(generator), uniform(generator), uniform(generator)));
+  return path;
+}
+
+// A law with its memory, stepped along a path; sums what is dissipated.
+template <class Law>
+struct Driven {
+  using Real = typename Law::Scalar;
+  static constexpr int D = Law::kDimension;
+  Law law;
+  History<Real, Law::kHistory> history{};
+  LawStep<Real, D, Law::kHistory> last{};
+  double dissipated = 0;
+
+  explicit Driven(const Law& l) : law(l) { last.moment.setZero(); }
+  const LawStep<Real, D, Law::kHistory>& to(const Vec<Real, D>& curvature) {
+    last = law.step(curvature, history);
+    history = last.history;
+    dissipated += last.dissipated;
+    return last;
+  }
+  double moment(double curvature) requires(D == 1) { return to(Vec<Real, 1>(Real(curvature))).moment[0]; }
+};
+
+// |int M dK - stored - dissipated| along straight pieces by the trapezium rule; the whole way takes 10 s.
+template <class Law>
+double balance_error(Law law, const Path<double, Law::kDimension>& corners, int pieces) {
+  constexpr double kWholeWay = 10;
+  set_step_time(law, kWholeWay / (static_cast<double>(corners.size()) * pieces));
+  Driven<Law> cloth(law);
+  Vec<double, Law::kDimension> at = Vec<double, Law::kDimension>::Zero(), moment = at;
+  double work = 0;
+  for (const auto& corner : corners) {
+    const Vec<double, Law::kDimension> way = (corner - at) / pieces;
+    for (int i = 1; i <= pieces; ++i) {
+      cloth.to(Vec<double, Law::kDimension>(at + way * i));
+      work += (moment + cloth.last.moment).dot(way) / 2;
+      moment = cloth.last.moment;
+    }
+    at = corner;
+  }
+  return std::abs(work - cloth.last.stored - cloth.dissipated);
+}
+
+}  // namespace hysteron::testing

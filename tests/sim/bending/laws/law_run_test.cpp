@@ -1,0 +1,132 @@
+// One law driven through a list of curvatures: names, parameters, rows.
+#include "sim/bending/laws/law_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/bending/laws/prandtl_stack.h"
+#include "sim/bending/laws/recovery.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+std::vector<LawRow> rows(const std::vector<double>& curvatures) {
+  std::vector<LawRow> result;
+  for (double k : curvatures) result.push_back({k});
+  return result;
+}
+
+std::string refusal(const LawRequest& request) {
+  try {
+    run_law(request, rows({1.0}));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LawRun, KnowsTheFourteenNames) {
+  std::vector<std::string> names;
+  for (const LawEntry& law : law_catalogue()) {
+    names.push_back(law.name);
+    EXPECT_FALSE(law.description.empty());
+    EXPECT_EQ(run_law({law.name, cotton_broad(), {}}, rows({1.0, 2.0})).moment.size(), 2u);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"linear", "bridson", "spring", "pabst", "bilinear", "wong",
+                                             "prandtl", "grinspun-edit", "terzopoulos", "obrien", "kim",
+                                             "narain", "dahl", "gong"}));
+}
+
+TEST(LawRun, RefusesWhatIsUnknownOrOutOfRangeInOneLine) {
+  const VirginCurve c = cotton_broad();
+  EXPECT_NE(refusal({"dhal", c, {}}).find("unknown law 'dhal'"), std::string::npos);
+  EXPECT_NE(refusal({"wong", c, {{"stops", "8"}}}).find("unknown parameter stops = 8"), std::string::npos);
+  EXPECT_NE(refusal({"prandtl", c, {{"stack", "7"}}}).find("stack = 7 must be"), std::string::npos);
+  EXPECT_NE(refusal({"prandtl", c, {{"memory", "tape"}}}).find("memory = tape"), std::string::npos);
+  EXPECT_NE(refusal({"wong", c, {{"recovery", "1"}}}).find("recovery = 1"), std::string::npos);
+  EXPECT_NE(refusal({"kim", c, {{"tau", "0"}}}).find("tau = 0 must be > 0 s"), std::string::npos);
+  EXPECT_NE(refusal({"narain", {1e-5, 1e-5, 0}, {}}).find("yield must be given"), std::string::npos);
+  EXPECT_NE(refusal({"spring", c, {{"height", "0.2"}}}).find("height = 0.2 m"), std::string::npos);
+  EXPECT_NE(refusal({"spring", c, {{"height", "1e-5"}}}).find("crush the triangles"), std::string::npos);
+  EXPECT_NE(
+      refusal({"wong", c, {{"fatigue.m-inf", "1"}}}).find("fatigue.m-inf = 1 N must be in [0, 0.000608]"),
+      std::string::npos);
+  EXPECT_NE(refusal({"dahl", c, {{"fatigue.dc", "1"}}}).find("allowed: none"), std::string::npos);
+}
+
+TEST(LawRun, PrandtlMeansAStackOfSixtyFourAndAccumulatesWhatIsLost) {
+  const VirginCurve c = cotton_broad();
+  const auto turns = random_turns(100, 2 * c.k0, 71);
+  const LawRun run = run_law({"prandtl", c, {}}, rows(turns));
+  Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
+  for (size_t i = 0; i < turns.size(); ++i) {
+    const double slope = cloth.law.tangent(Vec<double, 1>(turns[i]), cloth.history)(0, 0);
+    ASSERT_EQ(run.moment[i], cloth.moment(turns[i]));
+    ASSERT_EQ(run.tangent[i], slope);
+    ASSERT_EQ(run.stored[i], cloth.last.stored);
+    ASSERT_EQ(run.dissipated[i], cloth.dissipated);
+  }
+}
+
+TEST(LawRun, TheFirstRowIsTheFirstCurvatureVisitedFromRest) {
+  const VirginCurve c = cotton_broad();
+  const LawRun run = run_law({"wong", c, {}}, rows({c.k0}));
+  constexpr double kRounding = 1e-15;
+  EXPECT_NEAR(run.moment[0], c.elastic_limit_moment(), kRounding);
+  EXPECT_NEAR(run.dissipated[0], 2. / 3 * c.friction_moment() * c.k0, kRounding);  // work of friction
+}
+
+TEST(LawRun, ParametersChooseTheMemoryAndTheRecovery) {
+  const VirginCurve c = cotton_broad();
+  const auto path = rows({0.5 * c.k0, 0.0});
+  const double m0 = c.friction_moment();
+  const LawRun stack = run_law({"prandtl", c, {}}, path);
+  const LawRun stops = run_law({"prandtl", c, {{"memory", "stops"}, {"stops", "32"}}}, path);
+  EXPECT_NE(stack.moment[1], stops.moment[1]);
+  EXPECT_NEAR(stack.moment[1], stops.moment[1], 4 * m0 / (4 * 32 * 32));
+  constexpr double kRounding = 1e-16;
+  EXPECT_NEAR(run_law({"wong", c, {{"recovery", "reversible"}}}, path).moment[1], 0, kRounding);
+  EXPECT_LT(run_law({"wong", c, {}}, path).moment[1], -0.1 * m0);
+}
+
+TEST(LawWalk, TakesTheStepsOfARunAndItsCopiesGoOnByThemselves) {
+  const VirginCurve c = cotton_broad();
+  const auto path = rows({c.k0, 3 * c.k0, -0.5 * c.k0, c.k0, 0.0});
+  for (const LawRequest& request :
+       {LawRequest{"wong", c, {}}, LawRequest{"prandtl", c, {{"fatigue.dc", "0.1"}}}}) {
+    const LawRun run = run_law(request, path);
+    LawWalk walk(request);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      LawWalk copy = walk;
+      copy.to({-5 * c.k0});
+      const LawPoint point = walk.to(path[i]);
+      ASSERT_EQ(point.moment, run.moment[i]);
+      ASSERT_EQ(point.stored, run.stored[i]);
+      ASSERT_EQ(point.dissipated, run.dissipated[i]);
+    }
+    EXPECT_EQ(walk.residual(), residual_after(request, path));
+  }
+}
+
+TEST(LawWalk, KnowsWhatFatigueHasLeft) {
+  const VirginCurve c = cotton_broad();
+  const double m0 = c.friction_moment();
+  LawWalk walk({"prandtl", c, {{"fatigue.dc", "0.1"}}}), sound({"prandtl", c, {}});
+  EXPECT_EQ(walk.friction_moment(), m0);
+  EXPECT_TRUE(std::isnan(sound.friction_moment()));
+  for (const LawRow& row : rows({3 * c.k0, 0.5 * c.k0, 3 * c.k0, 0.5 * c.k0})) {
+    walk.to(row);
+    sound.to(row);
+  }
+  EXPECT_LT(walk.friction_moment(), m0);
+  EXPECT_GT(walk.permanent_set(), 0);
+  EXPECT_LE(walk.permanent_set(), (m0 - walk.friction_moment()) / c.b2);
+  EXPECT_EQ(sound.permanent_set(), 0);
+}
+
+}  // namespace
+}  // namespace hysteron::testing

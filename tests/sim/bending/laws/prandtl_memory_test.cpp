@@ -1,0 +1,229 @@
+// What the two memories of `prandtl` remember: against very many stops, return points, the bounded stack.
+#include <gtest/gtest.h>
+
+#include "sim/bending/laws/prandtl_stack.h"
+#include "sim/bending/laws/prandtl_stops.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+// The law by its definition, with any number of stops, written plainly and apart from the law under test.
+class ManyStops {
+ public:
+  ManyStops(const VirginCurve& curve, int count) : curve_(curve), slip_(size_t(count)) {}
+
+  struct Outcome {
+    double moment, stored, dissipated;
+  };
+  Outcome to(double k) {
+    const double n = double(slip_.size()), p = (curve_.b1 - curve_.b2) / n;
+    Outcome result{curve_.b2 * k, curve_.b2 * k * k / 2, 0};
+    for (size_t j = 0; j < slip_.size(); ++j) {
+      const double r = (double(j) + 0.5) * curve_.k0 / n, u = k - slip_[j];
+      const double e = std::abs(u) < r ? u : std::copysign(r, u);
+      result.moment += p * e;
+      result.stored += p * e * e / 2;
+      result.dissipated += p * std::abs(e) * (std::abs(u) - std::abs(e));
+      slip_[j] = k - e;
+    }
+    return result;
+  }
+
+ private:
+  VirginCurve curve_;
+  std::vector<double> slip_;
+};
+
+constexpr int kManyStops = 10000;
+// A stop's threshold stands for an interval K0/N: 1/(4 N^2) on the virgin curve, twice that per branch.
+constexpr double kDiscretisation = 40 / (4. * kManyStops * kManyStops);  // up to 20 branches on the stack
+
+TEST(PrandtlStack, EqualsTenThousandStopsOnRandomHistories) {
+  const VirginCurve c = cotton_broad();
+  const double m0 = c.friction_moment();
+  Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
+  ManyStops reference(c, kManyStops);
+  for (double k : random_turns(400, 2 * c.k0, 5)) {
+    const auto expected = reference.to(k);
+    ASSERT_NEAR(cloth.moment(k), expected.moment, kDiscretisation * m0);
+    ASSERT_NEAR(cloth.last.stored, expected.stored, kDiscretisation * m0 * c.k0);
+    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kDiscretisation * m0 * c.k0);
+  }
+  EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 0);
+}
+
+TEST(PrandtlStack, EqualsAThousandStopsOnAThousandRandomHistories) {
+  const VirginCurve c = cotton_broad();
+  constexpr int kStops = 1000;
+  const double near = 40 / (4. * kStops * kStops) * c.friction_moment();  // as above
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    Driven<PrandtlStack<double, 64>> cloth(PrandtlStack<double, 64>::make(c));
+    ManyStops reference(c, kStops);
+    for (double k : random_turns(40, 2 * c.k0, seed))
+      ASSERT_NEAR(cloth.moment(k), reference.to(k).moment, near);
+  }
+}
+
+TEST(PrandtlStops, EqualsItsDefinitionOnRandomHistories) {
+  const VirginCurve c = cotton_broad();
+  constexpr double kRounding = 1e-13;
+  Driven<PrandtlStops<double, 1, 16>> cloth(PrandtlStops<double, 1, 16>::make(c));
+  ManyStops reference(c, 16);
+  for (double k : random_turns(400, 2 * c.k0, 6)) {
+    const auto expected = reference.to(k);
+    ASSERT_NEAR(cloth.moment(k), expected.moment, kRounding * c.b1 * c.k0);
+    ASSERT_NEAR(cloth.last.stored, expected.stored, kRounding * c.b1 * c.k0 * c.k0);
+    ASSERT_NEAR(cloth.last.dissipated, expected.dissipated, kRounding * c.b1 * c.k0 * c.k0);
+  }
+}
+
+TEST(PrandtlStops, ComeWithinTwiceTheirVirginErrorPerBranchOfTenThousand) {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStops<double, 1, 8>> cloth(PrandtlStops<double, 1, 8>::make(c));
+  ManyStops reference(c, kManyStops);
+  constexpr double kTurnsOfThisHistory = 5;
+  const double bound = 2 * kTurnsOfThisHistory * c.friction_moment() / (4 * 8 * 8);
+  for (double k : {1.7, -0.4, 0.9, 0.1, 0.7, 1.9})
+    EXPECT_NEAR(cloth.moment(k * c.k0), reference.to(k * c.k0).moment, bound);
+}
+
+template <class Law>
+void expect_return_points(const Law& law, double tolerance) {
+  const double k0 = cotton_broad().k0;
+  Driven<Law> looped(law), direct(law);
+  const double outer = looped.moment(1.5 * k0);
+  looped.moment(-0.3 * k0);
+  const double inner = looped.moment(0.8 * k0);
+  looped.moment(0.2 * k0);
+  EXPECT_NEAR(looped.moment(0.8 * k0), inner, tolerance);  // the inner loop closes
+  for (double k : {1.5, -0.3}) direct.moment(k * k0);
+  for (double k : {0.9, 1.2, 1.4}) EXPECT_NEAR(looped.moment(k * k0), direct.moment(k * k0), tolerance);
+  EXPECT_NEAR(looped.moment(1.5 * k0), outer, tolerance);  // and so does the outer one
+}
+
+TEST(Prandtl, RemembersItsReturnPoints) {
+  const VirginCurve c = cotton_broad();
+  constexpr double kRounding = 1e-13;
+  expect_return_points(PrandtlStack<double, 8>::make(c), kRounding * c.b1 * c.k0);
+  expect_return_points(PrandtlStops<double, 1, 8>::make(c), kRounding * c.b1 * c.k0);
+}
+
+TEST(Prandtl, PassingTheMirrorImageOfTheFirstReversalReturnsToTheVirginCurve) {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStack<double, 8>> bent(PrandtlStack<double, 8>::make(c)), fresh(bent.law);
+  bent.moment(0.5 * c.k0);
+  const double k = -0.7 * c.k0;
+  EXPECT_DOUBLE_EQ(bent.moment(k), fresh.moment(k));
+  EXPECT_DOUBLE_EQ(bent.last.stored, fresh.last.stored);
+}
+
+TEST(Prandtl, AStepInOnePieceEqualsManySmallOnes) {
+  const VirginCurve c = cotton_broad();
+  constexpr double kRounding = 1e-12;  // a thousand sums
+  Driven<PrandtlStack<double, 16>> coarse(PrandtlStack<double, 16>::make(c)), fine(coarse.law);
+  double at = 0;
+  for (double target : random_turns(50, 1.5 * c.k0, 8)) {
+    coarse.moment(target);
+    for (int i = 1; i <= 20; ++i) fine.moment(at + (target - at) * i / 20);
+    at = target;
+    ASSERT_NEAR(coarse.last.moment[0], fine.last.moment[0], kRounding * c.b1 * c.k0);
+    ASSERT_NEAR(coarse.dissipated, fine.dissipated, kRounding * c.b1 * c.k0 * c.k0 * 50);
+  }
+}
+
+template <int Depth>
+void expect_no_jumps(unsigned seed) {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStack<double, Depth>> cloth(PrandtlStack<double, Depth>::make(c));
+  constexpr double kRounding = 1e-12;
+  double at = 0, moment = 0;
+  for (double target : random_turns(3000, 2 * c.k0, seed)) {
+    for (int i = 1; i <= 10; ++i) {
+      const double way = (target - at) / 10, k = i < 10 ? at + way * i : target, before = moment;
+      moment = cloth.moment(k);
+      // Increasing, never steeper than b1: no jump, at any step size.
+      ASSERT_LE(std::abs(moment - before), c.b1 * std::abs(way) + kRounding * c.friction_moment());
+      ASSERT_GE((moment - before) * way,
+                (c.b2 * way * way) - kRounding * c.friction_moment() * std::abs(way));
+      ASSERT_LE(std::abs(moment - c.b2 * k), c.friction_moment() * (1 + kRounding));
+    }
+    at = target;
+  }
+  EXPECT_GT(cloth.law.dropped_pairs(cloth.history), 0);  // otherwise nothing was tested
+}
+
+TEST(PrandtlStack, BoundedStackNeverLetsTheMomentJump) {
+  expect_no_jumps<4>(1);
+  expect_no_jumps<5>(2);
+  expect_no_jumps<8>(3);
+}
+
+TEST(PrandtlStack, CountsThePairsItDrops) {
+  const double k0 = cotton_broad().k0;
+  Driven<PrandtlStack<double, 4>> cloth(PrandtlStack<double, 4>::make(cotton_broad()));
+  for (double k : {0.9, -0.8, 0.7, -0.6, 0.5}) cloth.moment(k * k0);
+  EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 0);  // four turns fit
+  cloth.moment(-0.4 * k0);
+  EXPECT_EQ(cloth.law.dropped_pairs(cloth.history), 1);
+}
+
+template <class Law>
+double loop_area(const Law& law, double amplitude) {
+  Driven<Law> cloth(law);
+  for (double side : {1.0, -1.0, 1.0}) cloth.moment(side * amplitude);
+  const double settled = cloth.dissipated;
+  for (double side : {-1.0, 1.0}) cloth.moment(side * amplitude);
+  return cloth.dissipated - settled;
+}
+
+TEST(PrandtlStack, LoopAreaMatchesClosedForm) {
+  const VirginCurve c = cotton_broad();
+  const double m0 = c.friction_moment();
+  const auto law = PrandtlStack<double, 8>::make(c);
+  constexpr double kRounding = 1e-13;
+  for (double a : {0.1, 0.5, 0.9, 1.0}) {
+    const double amplitude = a * c.k0, area = 4. / 3 * -c.c1() * amplitude * amplitude * amplitude;
+    EXPECT_NEAR(loop_area(law, amplitude), area, kRounding * m0 * c.k0);
+  }
+  for (double a : {1.0, 1.5, 4.0})
+    EXPECT_NEAR(loop_area(law, a * c.k0), 4 * m0 * (a * c.k0 - 2 * c.k0 / 3), kRounding * m0 * c.k0 * a);
+}
+
+TEST(PrandtlStops, EachStopEnclosesFourLimitsTimesTheSlippedWay) {
+  const VirginCurve c = cotton_broad();
+  constexpr int kStops = 8;
+  const double stiffness = (c.b1 - c.b2) / kStops, amplitude = 0.7 * c.k0;
+  double area = 0;
+  for (int j = 0; j < kStops; ++j) {
+    const double limit = stiffness * (j + 0.5) * c.k0 / kStops;
+    area += std::max(0.0, 4 * limit * (amplitude - limit / stiffness));
+  }
+  constexpr double kRounding = 1e-13;
+  const auto law = PrandtlStops<double, 1, kStops>::make(c);
+  EXPECT_NEAR(loop_area(law, amplitude), area, kRounding * c.friction_moment() * c.k0);
+}
+
+template <class Law>
+void expect_balance(const Law& law, const Path<double, Law::kDimension>& corners, double order) {
+  const VirginCurve c = cotton_broad();
+  constexpr int kCoarse = 400, kFine = 1600;
+  const double scale = c.friction_moment() * c.k0;
+  const double coarse = balance_error(law, corners, kCoarse), fine = balance_error(law, corners, kFine);
+  EXPECT_LE(coarse, 0.1 * scale);
+  constexpr double kOrderSlack = 0.25, kQuadratureRounding = 1e-11;
+  if (fine > kQuadratureRounding * scale) {
+    EXPECT_GE(std::log2(coarse / fine) / 2, order - kOrderSlack);
+  }
+}
+
+TEST(EnergyBalance, HoldsForABoundedStackThatDropsPairs) {
+  const VirginCurve c = cotton_broad();
+  const auto law = PrandtlStack<double, 4>::make(c);
+  Path<double, 1> corners;
+  for (double k : random_turns(60, 2 * c.k0, 12)) corners.push_back(Vec<double, 1>(k));
+  expect_balance(law, corners, 2);
+}
+
+}  // namespace
+}  // namespace hysteron::testing

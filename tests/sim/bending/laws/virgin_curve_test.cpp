@@ -1,0 +1,163 @@
+// Virgin curve and the numbers a fabric is made of: model of Wong, Eqs. 4.2, 4.4, 4.5, and KES conversions.
+#include <gtest/gtest.h>
+
+#include "sim/bending/laws/linear.h"
+#include "sim/bending/laws/pabst.h"
+#include "sim/bending/laws/prandtl_stack.h"
+#include "sim/bending/laws/prandtl_stops.h"
+#include "sim/bending/laws/wong.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+constexpr double kRounding = 1e-14;  // of the moment at the end of the sweep: a few roundings per step
+
+double virgin_moment(const VirginCurve& c, double k) {
+  return k <= c.k0 ? c.b1 * k + c.c1() * k * k : c.friction_moment() + c.b2 * k;
+}
+
+template <class Law>
+void expect_virgin_curve(const Law& law, double tolerance) {
+  const VirginCurve fabric = cotton_broad();
+  Driven<Law> cloth(law), mirrored(law);
+  for (int i = 1; i <= 60; ++i) {
+    const double k = fabric.k0 * i / 20;
+    EXPECT_NEAR(cloth.moment(k), virgin_moment(fabric, k), tolerance);
+    EXPECT_NEAR(mirrored.moment(-k), -virgin_moment(fabric, k), tolerance);
+  }
+}
+
+TEST(VirginCurve, IsContinuousWithItsSlopeAtTheElasticLimit) {
+  const VirginCurve c = cotton_broad();
+  EXPECT_NEAR(c.b1 * c.k0 + c.c1() * c.k0 * c.k0, c.elastic_limit_moment(),
+              kRounding * c.elastic_limit_moment());
+  EXPECT_NEAR(c.b1 + 2 * c.c1() * c.k0, c.b2, kRounding * c.b1);
+}
+
+TEST(VirginCurve, FrictionMomentIsTheSizeOfTheQuadraticTermAtTheElasticLimit) {
+  const VirginCurve c = cotton_broad();
+  EXPECT_GT(c.b1, c.b2);  // the chapter prints b1 <= b2
+  EXPECT_LT(c.c1(), 0);
+  EXPECT_NEAR((c.b2 - c.b1) / (2 * c.c1()), c.k0, kRounding * c.k0);
+  EXPECT_NEAR((c.b1 - c.b2) * c.k0 + c.c1() * c.k0 * c.k0, c.friction_moment(),
+              kRounding);  // Wong, under 4.2
+  EXPECT_NEAR(-c.c1() * c.k0 * c.k0, c.friction_moment(), kRounding);
+}
+
+TEST(VirginCurve, FollowsFromKesNumbers) {
+  constexpr double kGramForceCm2PerCm = 9.80665e-5, kGramForceCmPerCm = 9.80665e-3;  // N m, N
+  const double b = 0.118 * kGramForceCm2PerCm, hb = 0.062 * kGramForceCmPerCm, k0 = 50;
+  const VirginCurve c{b + 2 * hb / k0, b, k0};
+  EXPECT_NEAR(c.friction_moment(), hb, kRounding);
+  EXPECT_NEAR(c.b2, 1.157e-5, 0.0005e-5);  // cotton broad, rounded in its source
+  EXPECT_NEAR(2 * c.friction_moment(), 1.216e-3, 0.0005e-3);
+}
+
+TEST(VirginCurve, IsFollowedByPabstWongAndTheStack) {
+  const VirginCurve c = cotton_broad();
+  const double tolerance = kRounding * c.elastic_limit_moment() * 3;
+  expect_virgin_curve(Pabst<double, 1>::make(c), tolerance);
+  expect_virgin_curve(Wong<double>::make(c), tolerance);
+  expect_virgin_curve(PrandtlStack<double, 8>::make(c), tolerance);
+}
+
+template <int N>
+double worst_virgin_error() {
+  const VirginCurve c = cotton_broad();
+  Driven<PrandtlStops<double, 1, N>> cloth(PrandtlStops<double, 1, N>::make(c));
+  double worst = 0;
+  for (int i = 1; i <= 4 * N * 50; ++i) {
+    const double k = c.k0 * i / (2 * N * 50);  // the worst points, multiples of K0/N, are among them
+    worst = std::max(worst, std::abs(cloth.moment(k) - virgin_moment(c, k)));
+  }
+  return worst;
+}
+
+TEST(VirginCurve, StopsMissItByTheFrictionMomentOverFourTimesTheirNumberSquared) {
+  const double m0 = cotton_broad().friction_moment();
+  constexpr double kExact = 1e-10;  // the worst points are visited, only rounding is left
+  EXPECT_NEAR(worst_virgin_error<4>() / m0, 1. / (4 * 4 * 4), kExact);
+  EXPECT_NEAR(worst_virgin_error<8>() / m0, 1. / (4 * 8 * 8), kExact);
+  EXPECT_NEAR(worst_virgin_error<32>() / m0, 1. / (4 * 32 * 32), kExact);
+}
+
+template <class Law>
+void expect_doubled_branch(const Law& law, double tolerance) {
+  const VirginCurve c = cotton_broad();
+  const double m0 = c.friction_moment(), kr = 4 * c.k0, beta1 = c.b2 + 2 * m0 / c.k0,
+               gamma1 = -m0 / (2 * c.k0 * c.k0);
+  Driven<Law> cloth(law);
+  const double mr = cloth.moment(kr);
+  for (int i = 1; i <= 20; ++i) {
+    const double x = 2 * c.k0 * i / 20;
+    EXPECT_NEAR(cloth.moment(kr - x), mr - (beta1 * x + gamma1 * x * x), tolerance);  // Wong, Eqs. 4.4, 4.5
+  }
+  EXPECT_NEAR(cloth.moment(kr - 3 * c.k0), c.b2 * (kr - 3 * c.k0) - m0, tolerance);
+  EXPECT_NEAR(beta1, c.b1, kRounding);
+}
+
+TEST(VirginCurve, IsDoubledAfterAReversalAsTheChapterPrints) {
+  const VirginCurve c = cotton_broad();
+  const double tolerance = kRounding * c.b2 * 4 * c.k0;
+  expect_doubled_branch(Wong<double>::make(c), tolerance);
+  expect_doubled_branch(PrandtlStack<double, 8>::make(c), tolerance);
+  // A branch over 2 K0 misses by twice the virgin error.
+  expect_doubled_branch(PrandtlStops<double, 1, 32>::make(c),
+                        1.0001 * 2 * c.friction_moment() / (4 * 32 * 32));
+}
+
+template <class Law>
+void expect_straight_line(const VirginCurve& c) {
+  Driven<Law> cloth(Law::make(c));
+  for (double k : {0.0, 10.0, -20.0, 5.0, 5.0, 0.0, -5.0}) {
+    EXPECT_DOUBLE_EQ(cloth.moment(k), c.b2 * k);
+    EXPECT_DOUBLE_EQ(cloth.law.tangent(Vec<double, 1>(k), cloth.history)(0, 0), c.b2);
+    EXPECT_NEAR(cloth.last.dissipated, 0, 0);
+    EXPECT_NEAR(cloth.law.residual(cloth.history)[0], 0, 1e-12);
+  }
+}
+
+TEST(VirginCurve, WithoutFrictionEveryLawIsTheStraightLine) {
+  for (const VirginCurve c : {VirginCurve{1e-5, 1e-5, 50}, VirginCurve{3e-5, 1e-5, 0}}) {
+    expect_straight_line<Linear<double, 1>>(c);
+    expect_straight_line<Pabst<double, 1>>(c);
+    expect_straight_line<PrandtlStops<double, 1, 8>>(c);
+    expect_straight_line<PrandtlStack<double, 8>>(c);
+  }
+}
+
+TEST(VirginCurve, BeginsWithTheInitialRigidityAsTangent) {
+  const VirginCurve c = cotton_broad();
+  const Vec<double, 1> rest(0.0);
+  EXPECT_DOUBLE_EQ((Pabst<double, 1>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStops<double, 1, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ((PrandtlStack<double, 8>::make(c).tangent(rest, {})(0, 0)), c.b1);
+  EXPECT_DOUBLE_EQ(Wong<double>::make(c).tangent(rest, {})(0, 0), c.b1);
+}
+
+// The quadratic branches run into the straight lines with the same moment and the same slope.
+template <class Law>
+void expect_smooth_joins(const Law& law) {
+  const VirginCurve c = cotton_broad();
+  constexpr double kStep = 1e-6;                            // of K0
+  const double bend = 4 * std::abs(c.c1()) * kStep * c.k0;  // change of slope over two steps
+  for (const double turn : {0.0, 1.0, 2.5, 7.0}) {          // in K0; 0: the virgin curve
+    Driven<Law> cloth(law);
+    if (turn > 0) cloth.moment(turn * c.k0);
+    const double join = turn > 0 ? turn - 2 : 1, way = turn > 0 ? -1 : 1;
+    const auto at = [&](double x) { return Vec<double, 1>((join + way * x) * c.k0); };
+    const auto slope = [&](double x) { return law.tangent(at(x), cloth.history)(0, 0); };
+    const auto moment = [&](double x) { return law.step(at(x), cloth.history).moment[0]; };
+    EXPECT_NEAR(slope(-kStep), slope(kStep), bend) << "join at " << join << " K0";
+    EXPECT_NEAR(moment(kStep) - moment(-kStep), way * c.b2 * 2 * kStep * c.k0, 2 * bend * kStep * c.k0);
+  }
+}
+
+TEST(VirginCurve, AndItsBranchesJoinTheStraightLinesWithoutAKink) {
+  expect_smooth_joins(PrandtlStack<double, 8>::make(cotton_broad()));
+  expect_smooth_joins(Wong<double>::make(cotton_broad()));
+}
+
+}  // namespace
+}  // namespace hysteron::testing

@@ -1,0 +1,174 @@
+// Momentum, pins and handles, and invariance of whole steps.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "sim/scene/motion.h"
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kRounding = 1e-12;
+// Two correctly solved steps differ by the solver's tolerance, amplified over tens of steps.
+constexpr double kSolved = 1e-9;
+
+Vector3d momentum(const Trial& trial, Simulation& simulation) {
+  Vector3d sum = Vector3d::Zero();
+  const auto v = simulation.velocities();
+  for (std::size_t i = 0; i < v.size(); ++i) sum += trial.mass(static_cast<int>(i)) * v[i];
+  return sum;
+}
+Vector3d angular_momentum(const Trial& trial, Simulation& simulation) {
+  Vector3d sum = Vector3d::Zero();
+  const auto v = simulation.velocities();
+  const auto x = simulation.positions();
+  for (std::size_t i = 0; i < v.size(); ++i) sum += trial.mass(static_cast<int>(i)) * x[i].cross(v[i]);
+  return sum;
+}
+double momentum_scale(const Trial& trial, Simulation& simulation) {
+  double sum = 0;
+  const auto v = simulation.velocities();
+  for (std::size_t i = 0; i < v.size(); ++i) sum += trial.mass(static_cast<int>(i)) * v[i].norm();
+  return sum;
+}
+double total_mass(const Trial& trial) {
+  double sum = 0;
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) sum += trial.mass(i);
+  return sum;
+}
+
+class Integrator : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Both, Integrator, testing::Values("semi-implicit", "explicit"), [](const auto& i) {
+  return std::string(i.param) == "explicit" ? "explicit" : "semi_implicit";
+});
+
+TEST_P(Integrator, FreeFallGainsExactlyTheWeightsMomentum) {
+  for (const char* law : {"linear", "prandtl", "wong"}) {
+    Scene scene = test::free_square();
+    scene.integrator = GetParam();
+    scene.law = law;
+    Trial trial(scene);
+    test::ripple(trial.cloth, 3e-3);
+    const auto simulation = trial.after(50);
+    const Vector3d expected = total_mass(trial) * scene.gravity * simulation->time();
+    EXPECT_LT((momentum(trial, *simulation) - expected).norm(), kSolved * expected.norm()) << law;
+  }
+}
+
+// v_n = n he g and x_n = x_0 + he sum v_k: the centre falls by g t (t + he)/2.
+TEST_P(Integrator, FlatClothFallsAsAPoint) {
+  Scene scene = test::free_square();
+  scene.integrator = GetParam();
+  const Trial trial(scene);
+  const auto simulation = trial.after(50);
+  const double t = simulation->time(), he = simulation->limits().substep;
+  const Vector3d fall = scene.gravity * t * (t + he) / 2;
+  test::Positions expected;
+  for (const Vector3d& x : trial.cloth.start) expected.push_back(x + fall);
+  EXPECT_LT(test::farthest(simulation->positions(), expected), 10 * kRounding);
+}
+
+TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
+  Scene scene = test::free_square();
+  scene.integrator = "explicit";
+  scene.law = "prandtl";
+  scene.gravity.setZero();
+  Trial trial(scene);
+  test::ripple(trial.cloth, 3e-3);
+  const auto simulation = trial.after(50);
+  const double scale = 0.2 * momentum_scale(trial, *simulation);  // levers of the cloth's size
+  ASSERT_GT(scale, 0);
+  EXPECT_LT(angular_momentum(trial, *simulation).norm(), kRounding * scale * simulation->limits().substeps);
+}
+
+// One linearised implicit solve turns with the cloth only to first order of the step.
+TEST(SemiImplicitIntegrator, AngularMomentumErrorShrinksWithTheStep) {
+  const auto error = [](double step) {
+    Scene scene = test::free_square();
+    scene.gravity.setZero();
+    scene.step = step;
+    Trial trial(scene);
+    test::ripple(trial.cloth, 3e-3);
+    const auto simulation = trial.after(static_cast<int>(std::lround(0.02 / step)));
+    return angular_momentum(trial, *simulation).norm() / (0.2 * momentum_scale(trial, *simulation));
+  };
+  const double coarse = error(1e-3), fine = error(2.5e-4);
+  constexpr double kNoticed = 0.05;
+  EXPECT_LT(coarse, kNoticed);
+  EXPECT_LT(fine, coarse / 2);
+}
+
+TEST_P(Integrator, StepTurnsWithTheWorld) {
+  for (const char* law : {"linear", "prandtl", "wong"}) {
+    Scene scene = test::hanging_square();
+    scene.integrator = GetParam();
+    scene.law = law;
+    Trial trial(scene);
+    test::ripple(trial.cloth, 3e-3);
+    Trial turned = trial;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.9, Vector3d(1, -2, 2).normalized()).toRotationMatrix();
+    const auto move = [&](const Vector3d& x) { return Vector3d(turn * x + Vector3d(0.3, 0.1, -0.5)); };
+    turned.scene.gravity = turn * scene.gravity;
+    for (Vector3d& x : turned.cloth.start) x = move(x);
+    test::Positions expected = trial.after(30)->positions();
+    for (Vector3d& x : expected) x = move(x);
+    EXPECT_GT(test::farthest(expected, turned.cloth.start), 1e-3);
+    EXPECT_LT(test::farthest(turned.after(30)->positions(), expected), kSolved) << law;
+  }
+}
+
+TEST_P(Integrator, PinsStayWhereTheyAreToTheLastBit) {
+  Scene scene = test::hanging_square();
+  scene.integrator = GetParam();
+  const Trial trial(scene);
+  const auto x = trial.after(50)->positions();
+  int pinned = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (trial.cloth.pin[i] >= 0) {
+      EXPECT_EQ(x[i], trial.cloth.start[i]);
+      ++pinned;
+    }
+  EXPECT_EQ(pinned, 2);
+}
+
+TEST_P(Integrator, MovingHandleFollowsItsKeyframes) {
+  Scene scene = test::hanging_square();
+  scene.integrator = GetParam();
+  scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0.01, 0, 0.02}, 10}, {0.05, {0.02, 0.01, 0}, -20}};
+  scene.pin[0].motion.axis = {0, 1, 1};
+  scene.pin[0].motion.center = {0.05, 0.1, 0};
+  const Trial trial(scene);
+  const auto simulation = trial.simulation();
+  double moved = 0;
+  for (int frame = 0; frame < 6; ++frame) {
+    simulation->advance(10);
+    const auto x = simulation->positions();
+    const Placement expected = placement(scene.pin[0].motion, simulation->time());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (trial.cloth.pin[i] != 0) continue;
+      EXPECT_LT((x[i] - expected(trial.cloth.start[i])).norm(), 10 * kRounding) << simulation->time();
+      moved = std::max(moved, (x[i] - trial.cloth.start[i]).norm());
+    }
+  }
+  EXPECT_GT(moved, 0.02);
+}
+
+TEST_P(Integrator, ReleasedPinLetsItsVertexFallFromThenOn) {
+  Scene scene = test::hanging_square();
+  scene.integrator = GetParam();
+  for (Pin& pin : scene.pin) pin.until = 0.02;
+  const Trial trial(scene);
+  const auto simulation = trial.after(20);
+  const int corner = static_cast<int>(std::find(trial.cloth.pin.begin(), trial.cloth.pin.end(), 0) -
+                                      trial.cloth.pin.begin());
+  EXPECT_EQ(simulation->positions()[corner], trial.cloth.start[corner]);
+  simulation->advance(30);
+  EXPECT_LT(simulation->positions()[corner].z(), trial.cloth.start[corner].z() - 1e-3);
+}
+
+}  // namespace
+}  // namespace hysteron

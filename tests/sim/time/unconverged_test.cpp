@@ -1,0 +1,133 @@
+// Steps that are taken before Newton's method has converged, and hands that bring cloth home.
+#include <gtest/gtest.h>
+
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using test::Positions;
+using test::Trial;
+
+constexpr double kRounding = 1e-10;
+
+Scene capped(int iterations) {
+  Scene scene = test::hanging_square();
+  scene.integrator = "implicit";
+  scene.step = 1.0 / 60;
+  scene.newton_iterations = iterations;
+  return scene;
+}
+
+// What the solve leaves unbalanced is a term of its own, so that the ledger closes nevertheless.
+TEST(UnconvergedSteps, CloseTheLedger) {
+  Trial one(capped(1));
+  test::ripple(one.cloth, 3e-3);
+  const auto simulation = one.after(20);
+  const Ledger ledger = simulation->ledger();
+  EXPECT_EQ(simulation->unbalanced_steps(), 20);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+  EXPECT_GT(std::abs(ledger.unbalanced), 1e-9);
+  EXPECT_LT(ledger.remainder_relative, kRounding);
+}
+
+TEST(UnconvergedSteps, AreNoneWhereTheLimitIsNotReached) {
+  Trial many(capped(1000)), free(capped(0));
+  const auto limited = many.after(5), full = free.after(5);
+  EXPECT_EQ(limited->unbalanced_steps(), 0);
+  EXPECT_EQ(limited->state_hash(), full->state_hash());
+  EXPECT_LT(std::abs(full->ledger().unbalanced), 1e-6 * std::abs(full->ledger().gravitational));
+}
+
+// Cloth that falls freely has no equilibrium: the search for one ends, and says so by counting.
+TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
+  Scene scene = test::free_square();
+  scene.integrator = "bdf2";
+  scene.step = 1.0 / 120;
+  const auto simulation = Trial(scene).after(5);
+  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+  simulation->become_static();
+  simulation->advance(1);
+  EXPECT_EQ(simulation->unbalanced_steps(), 1);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+}
+
+// Taken late and far from where it was, a corner is back after the pin's time for that, and the hand's work
+// is booked.
+TEST(HandsThatBringHome, AreThereInTime) {
+  Scene scene = test::hanging_square();
+  scene.integrator = "implicit";
+  scene.step = 1.0 / 120;
+  scene.seconds = 1;
+  scene.air_drag = 1;
+  Pin pin;
+  pin.select = "nearest";
+  pin.point = {scene.cloth.length, 0, 0};
+  pin.from = 0.1;
+  pin.home = 0.2;
+  scene.pin.push_back(pin);
+  const Trial trial(scene);
+  const int corner = trial.cloth.grip.back()[0];
+  const auto simulation = trial.after(12);
+  EXPECT_GT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), 1e-2);
+  simulation->advance(24);
+  EXPECT_LT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), kRounding);
+  const Ledger ledger = simulation->ledger();
+  EXPECT_GT(ledger.handle_work, 0);
+  EXPECT_LT(ledger.remainder_relative, 1e-6);
+}
+
+// Without weight and hands only the cloth's own motion says what is small.
+class FreeCloth : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2"));
+
+Scene weightless(const char* integrator) {
+  Scene scene = test::free_square();
+  scene.gravity.setZero();
+  scene.law = "prandtl";
+  scene.integrator = integrator;
+  scene.step = 1.0 / 120;
+  scene.newton_velocity = 0;
+  return scene;
+}
+
+TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
+  Trial trial(weightless(GetParam()));
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
+    trial.cloth.start[i].z() += 5e-5 * std::sin(20 * trial.cloth.mesh.rest[i].x());
+  const auto simulation = trial.after(100);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+  const Positions v = simulation->velocities();
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
+  double size = 0;
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) {
+    momentum += trial.mass(i) * v[i];
+    size += trial.mass(i) * v[i].norm();
+  }
+  EXPECT_GT(size, 0);
+  EXPECT_LT(momentum.norm(), 1e-5 * size);
+}
+
+// Thrown by a hand that lets go: what rounding makes of forces is all that acts then.
+TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
+  constexpr double kSpeed = 1e-4;  // [m/s]
+  Scene scene = weightless(GetParam());
+  scene.precision = "float";
+  Pin hand;
+  hand.low = {-1, -1, -1};
+  hand.high = {1, 1, 1};
+  hand.until = 5 * scene.step;
+  hand.motion.keys = {{0, {0, 0, 0}, 0, 1}, {2 * hand.until, {0, 0, 2 * hand.until * kSpeed}, 0, 1}};
+  scene.pin = {hand};
+  const Trial trial(scene);
+  auto simulation = trial.after(6);
+  const double before = simulation->positions()[0].z();
+  simulation->advance(50);
+  EXPECT_EQ(simulation->retried_steps(), 0);
+  const double speed = (simulation->positions()[0].z() - before) / (50 * scene.step);
+  EXPECT_GT(speed, kSpeed);
+  EXPECT_LT(speed, 2 * kSpeed);
+}
+
+}  // namespace
+}  // namespace hysteron
