@@ -67,6 +67,14 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
 // A PNG file in memory; `name` stands for it in errors.  Otherwise as read_png.
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name);
 
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+// Of a PNG file, without unpacking its pixels; its chunks are looked at as read_png does, and so are the
+// errors.
+ImageSize png_size(const std::filesystem::path& path);
+
 // RGB or RGBA as in the file (grey becomes RGB).  Error::request if the file is missing or not a picture.
 Image read_png(const std::filesystem::path& path);
 

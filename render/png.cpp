@@ -111,6 +111,33 @@ std::string excess_of(int width, int height, std::size_t bytes) {
   return "";
 }
 
+Error no_picture(const std::string& name) {
+  return Error::request("reading " + name + ": not a PNG picture (" + stbi_failure_reason() + ")");
+}
+
+struct Header {
+  int width = 0, height = 0, channels = 0;
+};
+
+// Throws Error::request unless the header can be true and no chunk is damaged.
+Header header_of(std::span<const std::uint8_t> bytes, const std::string& name) {
+  Header header;
+  if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &header.width, &header.height,
+                             &header.channels))
+    throw no_picture(name);
+  const std::string excess = excess_of(header.width, header.height, bytes.size());
+  if (!excess.empty()) throw Error::request("reading " + name + ": " + excess);
+  const std::string damage = damage_of(bytes);
+  if (!damage.empty()) throw Error::request("reading " + name + ": a broken PNG picture: " + damage);
+  return header;
+}
+
+int channels_kept(int channels) { return channels == 2 || channels == 4 ? 4 : 3; }
+
+std::span<const std::uint8_t> bytes_in(const std::string& file) {
+  return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
+}
+
 std::vector<std::uint8_t> encoded(const Pixels& pixels, PngEffort effort) {
   std::vector<std::uint8_t> out;
   out.reserve(pixels.row_bytes * pixels.height / 4 + 1024);
@@ -146,18 +173,11 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
 }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
-  const int size = static_cast<int>(bytes.size());
+  const int kept = channels_kept(header_of(bytes, name).channels);
   int width = 0, height = 0, channels = 0;
-  const bool known = stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) != 0;
-  const std::string excess = known ? excess_of(width, height, bytes.size()) : "";
-  if (!excess.empty()) throw Error::request("reading " + name + ": " + excess);
-  const std::string damage = known ? damage_of(bytes) : "";
-  if (!damage.empty()) throw Error::request("reading " + name + ": a broken PNG picture: " + damage);
-  const int kept = channels == 2 || channels == 4 ? 4 : 3;
   stbi_uc* pixels =
-      known ? stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, kept) : nullptr;
-  if (!pixels)
-    throw Error::request("reading " + name + ": not a PNG picture (" + stbi_failure_reason() + ")");
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, kept);
+  if (!pixels) throw no_picture(name);
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owner(pixels, &stbi_image_free);
   Image image(width, height, kept);
   std::copy_n(pixels, image.pixels().size(), image.pixels().data());
@@ -166,7 +186,13 @@ Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
 
 Image read_png(const std::filesystem::path& path) {
   const std::string bytes = file_named(path, "reading " + path.string());
-  return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path.string());
+  return decode_png(bytes_in(bytes), path.string());
+}
+
+ImageSize png_size(const std::filesystem::path& path) {
+  const std::string bytes = file_named(path, "reading " + path.string());
+  const Header header = header_of(bytes_in(bytes), path.string());
+  return {header.width, header.height};
 }
 
 }  // namespace hysteron::render

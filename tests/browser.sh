@@ -3,7 +3,8 @@
 # work there: a title, every picture loaded, nothing wider than the window, sequences that play, pictures that
 # enlarge, links that lead to files, and not a word on the console.
 #   tests/browser.sh [--hysteron PROGRAM] PAGE.html...
-# With --hysteron a run with frames is made of the first page's folder, and its report is checked too.
+# With --hysteron a run with frames and a gallery are made of the first page's folder; the run's report and both as
+# self-contained pages, moved away from their folders, are checked too.
 # 77 (skipped) without Chromium.
 set -euo pipefail
 
@@ -36,6 +37,7 @@ async function probe() {
   wrong('no title', !document.title);
   wrong('no viewport', !document.querySelector('meta[name=viewport]'));
   const images = [...document.images];
+  for (const image of images) image.loading = 'eager';  // decode() of a lazy picture waits for a reader to come near
   await Promise.all(images.map(image => image.decode().catch(() => 0)));
   for (const image of images) wrong('not loaded: ' + image.alt, !image.naturalWidth);
   const width = document.documentElement.clientWidth;
@@ -55,11 +57,11 @@ async function probe() {
   }
   const zoom = document.querySelector('a.zoom');
   if (zoom && innerWidth >= 700) {
-    const small = zoom.querySelector('img').src;
+    const full = zoom.href || zoom.querySelector('img').src;
     zoom.querySelector('img').click();
-    for (let i = 0; i < 50 && document.querySelector('dialog[open] img')?.src === small; ++i) await wait(100);
     const large = document.querySelector('dialog[open] img');
-    wrong('does not enlarge', !large || large.src === small || !large.naturalWidth);
+    for (let i = 0; i < 50 && !(large?.src === full && large.naturalWidth); ++i) await wait(100);
+    wrong('does not enlarge', large?.src !== full || !large.naturalWidth);
     document.querySelector('dialog[open]')?.click();
     await wait(100);
     wrong('does not close', document.querySelector('dialog[open]'));
@@ -113,7 +115,7 @@ console_of() {
 missing_files() {
   local folder link
   folder=$(dirname "$1")
-  grep -oE 'href="[^"#]+"' "$1" | sort -u | cut -d'"' -f2 | while read -r link; do
+  grep -oE ' (href|src)="[^"#]+"' "$1" | grep -v 'src="data:' | sort -u | cut -d'"' -f2 | while read -r link; do
     [[ -e $folder/$(printf '%b' "${link//%/\\x}") ]] || echo "FAULT: leads nowhere: $link"
   done
 }
@@ -134,16 +136,25 @@ check() {
 }
 
 # A run's folder with frames: another run's manifest, its pictures as frames.
-report_with_frames() {
-  local program=$1 results=$2 run=$scratch/run picture number=0
+run_with_frames() {
+  local results=$1 run=$scratch/made/run picture number=0 manifests
+  manifests=("$results"/drape-*/manifest.json)
   mkdir -p "$run/frames"
-  cp "$results"/drape-*/manifest.json "$run/"
+  cp "${manifests[0]}" "$run/"
   for picture in "$results"/drape-*/*.png; do
     cp "$picture" "$run/frames/$(printf '%04d' "$number").png"
     number=$((number + 1))
   done
-  "$program" report "$run" >&2
-  echo "$run/report.html"
+}
+
+# made/run/report.html links its frames; alone/ holds self-contained pages and nothing that they were made of.
+make_pages() {
+  local program=$1 results=$2 made=$scratch/made alone=$scratch/alone
+  run_with_frames "$results"
+  mkdir "$alone"
+  "$program" report --self-contained "$made" "$made/run" >&2
+  mv "$made/index.html" "$made/run/report.html" "$alone/"
+  "$program" report "$made/run" >&2
 }
 
 program=
@@ -154,5 +165,8 @@ fi
 [[ $# -gt 0 ]] || { echo "usage: tests/browser.sh [--hysteron PROGRAM] PAGE.html..."; exit 2; }
 failed=0
 for page in "$@"; do check "$page" || failed=1; done
-[[ -z $program ]] || check "$(report_with_frames "$program" "$(dirname "$1")")" || failed=1
+if [[ -n $program ]]; then
+  make_pages "$program" "$(dirname "$1")"
+  for page in made/run/report.html alone/index.html alone/report.html; do check "$scratch/$page" || failed=1; done
+fi
 exit $failed

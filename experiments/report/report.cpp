@@ -16,12 +16,13 @@ namespace fs = std::filesystem;
 constexpr int kStale = 4;
 
 struct ReportFlags {
-  bool check = false;
+  bool check = false, self_contained = false;
 };
 
 // clang-format off
 const KeyRow<ReportFlags> kRows[] = {
     {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page, or a report.html below it, is missing or stale"},
+    {"self-contained", at<&ReportFlags::self_contained>, "", any(), "", "embed pictures instead of linking them: a page that can be sent alone"},
 };
 // clang-format on
 
@@ -53,6 +54,9 @@ int run_report(const CommandLine& line) {
   ReportFlags flags;
   set_keys(line, bind(kRows, flags));
   if (line.names.empty()) throw Error::request("needs the folder of a run or of runs: hysteron report DIR");
+  if (flags.check && flags.self_contained)
+    throw Error::request("--check is of pages that link their pictures: leave out --self-contained");
+  const PageForm form = flags.self_contained ? PageForm::self_contained : PageForm::linked;
   int exit_code = 0;
   for (const std::string& name : line.names) {
     const fs::path folder = folder_of(name);
@@ -60,7 +64,7 @@ int run_report(const CommandLine& line) {
       exit_code = std::max(exit_code, check(folder));
     } else {
       const bool one_run = has_manifest(folder);
-      std::cout << (one_run ? write_report(folder) : write_gallery(folder)).string() << std::endl;
+      std::cout << (one_run ? write_report(folder, form) : write_gallery(folder, form)).string() << std::endl;
     }
   }
   return exit_code;

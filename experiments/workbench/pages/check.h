@@ -7,10 +7,6 @@
 
 namespace hysteron::experiments {
 
-// Whether two pages are the same: byte by byte, embedded PNG pictures pixel by pixel, since other versions of
-// zlib pack the same pixels into other bytes.
-bool same_page(const std::string& a, const std::string& b);
-
 // A page that is missing or stale.
 struct StalePage {
   std::filesystem::path page;
@@ -18,7 +14,8 @@ struct StalePage {
   bool missing = false;
 };
 
-// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares.
+// Makes the page of `folder`, and that of every run below it that has a report.html, again, and compares:
+// linked pages, whose bytes are the same on every machine.
 // Throws what making them throws.
 std::vector<StalePage> stale_pages(const std::filesystem::path& folder);
 

@@ -8,7 +8,6 @@
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
 #include "experiments/workbench/pages/manifest.h"
-#include "experiments/workbench/pages/page.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/parallel.h"
 
@@ -34,7 +33,7 @@ void gather(const Exhibit& exhibit, std::set<std::string>& devices, std::set<std
   for (const Exhibit& part : exhibit.parts) gather(part, devices, dates);
 }
 
-std::string header(const std::vector<ExhibitGroup>& groups) {
+std::string header(const std::vector<ExhibitGroup>& groups, PageForm form) {
   std::set<std::string> devices, dates;
   std::size_t folders = 0;
   for (const ExhibitGroup& group : groups) {
@@ -46,8 +45,12 @@ std::string header(const std::vector<ExhibitGroup>& groups) {
   if (!dates.empty()) facts += ", " + *dates.begin() + (dates.size() > 1 ? " to " + *dates.rbegin() : "");
   if (!devices.empty()) facts += ". Devices: " + joined(devices);
   return "<header><h1>hysteron: results</h1>\n<p class=\"about\">" + escaped(facts) +
-         ". Every number and picture is read from the folders beside this page; a picture leads to its full "
-         "size.</p></header>\n";
+         (form == PageForm::linked
+              ? ". Every number and picture is read from the folders beside this page; a picture leads to "
+                "its "
+                "full size.</p></header>\n"
+              : ". Every number and picture was read from these folders; this page needs no other "
+                "file.</p></header>\n");
 }
 
 // "drape" as "Drape"; names of instruments stay names.
@@ -75,24 +78,24 @@ std::string question_of(const std::string& name) {
   return "";
 }
 
-// Pictures take seconds to shrink: exhibits are made at the same time.
-std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups) {
+// Pictures that are embedded take seconds to shrink: exhibits are made at the same time.
+std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageForm form) {
   std::vector<const Exhibit*> all;
   for (const ExhibitGroup& group : groups) {
     for (const Exhibit& exhibit : group.exhibits) all.push_back(&exhibit);
   }
   std::vector<std::string> html(all.size());
   in_parallel(all.size(), static_cast<int>(std::thread::hardware_concurrency()),
-              [&](std::size_t i) { html[i] = exhibit_html(*all[i]); });
+              [&](std::size_t i) { html[i] = exhibit_html(*all[i], form); });
   return html;
 }
 
 }  // namespace
 
-std::string gallery_page(const std::filesystem::path& folder) {
+std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
   const std::vector<ExhibitGroup> groups = exhibits_in(folder);
-  const std::vector<std::string> exhibits = all_html(groups);
-  std::string body = header(groups) + contents(groups) + "<main>\n";
+  const std::vector<std::string> exhibits = all_html(groups, form);
+  std::string body = header(groups, form) + contents(groups) + "<main>\n";
   std::size_t next = 0;
   for (const ExhibitGroup& group : groups) {
     body += "<section><h2>" + escaped(title_of(group.experiment)) + "</h2>\n" + question_of(group.experiment);
@@ -102,8 +105,8 @@ std::string gallery_page(const std::filesystem::path& folder) {
   return html_page("hysteron: results", body + "</main>\n", "gallery");
 }
 
-std::filesystem::path write_gallery(const std::filesystem::path& folder) {
-  const std::string page = gallery_page(folder);
+std::filesystem::path write_gallery(const std::filesystem::path& folder, PageForm form) {
+  const std::string page = gallery_page(folder, form);
   const std::filesystem::path path = folder / "index.html";
   AtomicFile file(path.string());
   file.stream() << page;

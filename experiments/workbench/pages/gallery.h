@@ -4,15 +4,17 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/workbench/pages/page.h"
+
 namespace hysteron::experiments {
 
 // HTML of all that exhibits_in() finds, grouped by experiment.  The page works from disk without a network:
-// pictures are embedded, shrunk and in few colours, and lead to the files beside the page.  Everything is
-// read from the folders, nothing is computed again, and the same folders give the same bytes.  Throws
-// Error::request, naming the file, if a picture, table or manifest is broken or there is nothing to show.
-std::string gallery_page(const std::filesystem::path& folder);
+// pictures are linked, or embedded, shrunk and in few colours.  Everything is read from the folders, nothing
+// is computed again, and the same folders give the same bytes.  Throws Error::request, naming the file, if a
+// picture, table or manifest is broken or there is nothing to show.
+std::string gallery_page(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
 // Writes it as FOLDER/index.html and returns that path.  Throws Error::machine if it cannot be written.
-std::filesystem::path write_gallery(const std::filesystem::path& folder);
+std::filesystem::path write_gallery(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
 }  // namespace hysteron::experiments

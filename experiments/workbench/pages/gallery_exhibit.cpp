@@ -8,7 +8,6 @@
 #include "experiments/workbench/pages/gallery_pictures.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
-#include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/word_table.h"
 #include "sim/base/error.h"
@@ -70,20 +69,20 @@ struct Tables {
   std::string html, links;
 };
 
-Tables tables_of(const Exhibit& exhibit) {
+Tables tables_of(const Exhibit& exhibit, PageForm form) {
   Tables tables;
   for (const fs::path& file : files_ending(exhibit.folder, ".csv")) {
     const WordTable table = read_words(file);
     const std::string size = counted(table.rows.size(), "row");
     tables.links +=
-        " · " + html_link(exhibit.name + "/" + file_name(file), file_name(file)) + " (" + size + ")";
+        " · " + file_link(exhibit.name + "/" + file_name(file), file_name(file), form) + " (" + size + ")";
     if (file_name(file) != "metrics.csv") tables.html += table_html(file_name(file), table, kMostColumns);
   }
   return tables;
 }
 
 // A row for each run of which there is only the manifest, or that is a part of another.
-std::string runs_table(const std::vector<std::pair<std::string, const Json*>>& runs) {
+std::string runs_table(const std::vector<std::pair<std::string, const Json*>>& runs, PageForm form) {
   if (runs.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [link, manifest] : runs) {
@@ -93,10 +92,10 @@ std::string runs_table(const std::vector<std::pair<std::string, const Json*>>& r
     const bool folder = link.ends_with("/manifest.json");
     const fs::path path = folder ? fs::path(link).parent_path() : fs::path(link);
     const double wall = manifest->value("wall_seconds", Json::object()).value("total", 0.0);
-    rows.push_back(
-        {html_link(link, path.stem().string()) + warning(*manifest) + "<code>" + cell("command") + "</code>",
-         cell("law"), cell("element"), cell("precision"), cell("triangles"), cell("steps"),
-         escaped(seconds_text(wall)), cell("device")});
+    rows.push_back({file_link(link, path.stem().string(), form) + warning(*manifest) + "<code>" +
+                        cell("command") + "</code>",
+                    cell("law"), cell("element"), cell("precision"), cell("triangles"), cell("steps"),
+                    escaped(seconds_text(wall)), cell("device")});
   }
   return html_table_of_html(
       {"run", "law", "element", "precision", "triangles", "steps", "computed in", "device"}, rows, {4, 5, 6});
@@ -107,13 +106,13 @@ bool is_table(const Json& json) {
          std::all_of(json.begin(), json.end(), [](const Json& row) { return row.is_object(); });
 }
 
-Tables lists_of(const Exhibit& exhibit) {
+Tables lists_of(const Exhibit& exhibit, PageForm form) {
   Tables tables;
   std::vector<std::pair<std::string, const Json*>> runs;
   Json metrics = Json::object();
   for (const auto& [file, json] : exhibit.lists) {
     const std::string link = exhibit.name + "/" + file_name(file);
-    tables.links += " · " + html_link(link, file_name(file));
+    tables.links += " · " + file_link(link, file_name(file), form);
     if (is_manifest(json)) {
       runs.emplace_back(link, &json);
       const Json& own = json.value("metrics", Json::object());
@@ -126,36 +125,37 @@ Tables lists_of(const Exhibit& exhibit) {
     }
   }
   const std::string compared = metric_table(metrics);
-  tables.html = runs_table(runs) +
+  tables.html = runs_table(runs, form) +
                 (compared.empty() ? "" : html_details("Metrics", compared, runs.size() > 1)) + tables.html;
   return tables;
 }
 
-std::string parts_table(const Exhibit& exhibit) {
+std::string parts_table(const Exhibit& exhibit, PageForm form) {
   std::vector<std::pair<std::string, const Json*>> runs;
   for (const Exhibit& part : exhibit.parts) {
     if (!part.manifest.is_null()) runs.emplace_back(part.name + "/manifest.json", &part.manifest);
   }
-  return runs.empty() ? "" : html_details(counted(runs.size(), "run"), runs_table(runs), false);
+  return runs.empty() ? "" : html_details(counted(runs.size(), "run"), runs_table(runs, form), false);
 }
 
-std::string body_of(const Exhibit& exhibit) {
-  const Tables tables = tables_of(exhibit), lists = lists_of(exhibit);
+std::string body_of(const Exhibit& exhibit, PageForm form) {
+  const Tables tables = tables_of(exhibit, form), lists = lists_of(exhibit, form);
   std::string links = tables.links + lists.links, html, command;
   const Json& manifest = exhibit.manifest;
   if (!manifest.is_null()) {
     html += about_html(manifest);
     command = "<pre>" + escaped(manifest.value("command", "")) + "</pre>\n";
-    links = " · " + html_link(exhibit.name + "/manifest.json", "manifest.json") + links;
+    links = " · " + file_link(exhibit.name + "/manifest.json", "manifest.json", form) + links;
   }
   for (const char* page : {"report.html", "README.md"}) {
-    if (is_there(exhibit.folder / page)) links += " · " + html_link(exhibit.name + "/" + page, page);
+    if (is_there(exhibit.folder / page)) links += " · " + file_link(exhibit.name + "/" + page, page, form);
   }
-  html += pictures_html(exhibit);
+  html += pictures_html(exhibit, form);
   if (!manifest.is_null())
     html += metrics_html(manifest.value("metrics", Json::object()), !tables.html.empty()) +
             missing_errors(manifest);
-  html += series_charts(exhibit.folder, false) + tables.html + lists.html + parts_table(exhibit) + command;
+  html +=
+      series_charts(exhibit.folder, false) + tables.html + lists.html + parts_table(exhibit, form) + command;
   return html + "<p class=\"files\">" + links.substr(std::min(links.size(), std::string(" · ").size())) +
          "</p>\n";
 }
@@ -170,11 +170,11 @@ std::string anchor_of(const Exhibit& exhibit) {
   return anchor;
 }
 
-std::string exhibit_html(const Exhibit& exhibit) {
+std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const std::string badge = exhibit.manifest.is_null() ? "" : warning(exhibit.manifest);
   try {
     return "<article id=\"" + anchor_of(exhibit) + "\"><h3><a href=\"#" + anchor_of(exhibit) + "\">" +
-           escaped(exhibit.name) + "</a>" + badge + "</h3>\n" + body_of(exhibit) + "</article>\n";
+           escaped(exhibit.name) + "</a>" + badge + "</h3>\n" + body_of(exhibit, form) + "</article>\n";
   } catch (const Json::exception& broken) {
     throw Error::request((exhibit.folder / "manifest.json").string() +
                          " is no manifest of hysteron: " + broken.what());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/workbench/pages/gallery_folders.h"
+#include "experiments/workbench/pages/page.h"
 
 namespace hysteron::experiments {
 
@@ -9,8 +10,8 @@ namespace hysteron::experiments {
 std::string anchor_of(const Exhibit& exhibit);
 
 // Heading, contact sheet, metrics, pictures and plots, series, tables, the command, links to the files.
-// Pictures are embedded shrunk and link to the file, relative to the gallery.  Throws Error::request, naming
-// the file, if a picture, a table or a manifest is broken.
-std::string exhibit_html(const Exhibit& exhibit);
+// Links are relative to the gallery.  Throws Error::request, naming the file, if a picture, a table or a
+// manifest is broken.
+std::string exhibit_html(const Exhibit& exhibit, PageForm form);
 
 }  // namespace hysteron::experiments

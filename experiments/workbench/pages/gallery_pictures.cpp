@@ -6,7 +6,6 @@
 
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
-#include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "sim/base/whole_file.h"
 
@@ -104,31 +103,34 @@ std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& pref
   return pictures;
 }
 
-std::string figure(const Exhibit& exhibit, const Picture& picture) {
+std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form) {
   const fs::path drawing = fs::path(picture.file).replace_extension(".svg");
   const bool drawn = is_there(drawing);
   const bool as_drawing = drawn && (drawing == picture.file || fs::file_size(drawing) <= kLargestDrawing);
   const std::string words = exhibit.name + ": " + picture.caption.substr(0, picture.caption.find(". "));
-  const std::string image = as_drawing ? embedded_image(bytes_of(drawing), "image/svg+xml", words)
-                                       : embedded_image(thumbnail(picture.file, kWidth), "image/png", words);
   const std::string svg = fs::path(picture.link).replace_extension(".svg").string();
-  return "<figure><a class=\"zoom\" href=\"" + url_of(as_drawing ? svg : picture.link) + "\">" + image +
-         "</a><figcaption>" + escaped(picture.caption) +
-         (drawn && !as_drawing ? " (" + html_link(svg, "SVG") + ")" : "") + "</figcaption></figure>\n";
+  const std::string shown = as_drawing ? svg : picture.link;
+  const bool linked = form == PageForm::linked;
+  return "<figure><a class=\"zoom\"" + (linked ? " href=\"" + url_of(shown) + "\"" : "") + ">" +
+         image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form) + "</a><figcaption>" +
+         escaped(picture.caption) +
+         (linked && drawn && !as_drawing ? " (" + html_link(svg, "SVG") + ")" : "") +
+         "</figcaption></figure>\n";
 }
 
 }  // namespace
 
-std::string pictures_html(const Exhibit& exhibit) {
+std::string pictures_html(const Exhibit& exhibit, PageForm form) {
   std::string large, beside, plots;
   for (const Picture& picture : pictures_of(exhibit, "")) {
     const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
-    (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture);
+    (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture, form);
   }
   const auto grid = [](const std::string& kind, const std::string& figures) {
     return figures.empty() ? "" : "<div class=\"" + kind + "\">\n" + figures + "</div>\n";
   };
-  return large + player(exhibit.folder, kMostFrames) + grid("grid", beside) + grid("grid wide", plots);
+  return large + player(exhibit.folder, exhibit.name + "/", kMostFrames, form) + grid("grid", beside) +
+         grid("grid wide", plots);
 }
 
 }  // namespace hysteron::experiments

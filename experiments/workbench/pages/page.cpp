@@ -61,30 +61,26 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-std::vector<std::uint8_t> from_base64(const std::string& text) {
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char c : text) {
-    const std::size_t value = kLetters.find(c);
-    if (value == kLetters.npos) break;
-    group = group << 6 | static_cast<std::uint32_t>(value);
-    if ((bits += 6) < 8) continue;
-    bits -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(group >> bits));
-  }
-  return bytes;
-}
-
 std::string embedded_image(std::span<const std::uint8_t> bytes, const std::string& type,
                            const std::string& words) {
   return "<img alt=\"" + escaped(words) + "\" src=\"data:" + type + ";base64," + base64(bytes) + "\">";
 }
 
+std::string linked_image(const std::string& path, const render::ImageSize& size, const std::string& words) {
+  const std::string place =
+      size == render::ImageSize{}
+          ? ""
+          : " width=\"" + std::to_string(size.width) + "\" height=\"" + std::to_string(size.height) + "\"";
+  return "<img loading=\"lazy\"" + place + " alt=\"" + escaped(words) + "\" src=\"" + url_of(path) + "\">";
+}
+
+std::string html_figure(const std::string& image, const std::string& caption) {
+  return "<figure>" + image + "<figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+}
+
 std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
                              const std::string& caption) {
-  return "<figure>" + embedded_image(bytes, type, caption) + "<figcaption>" + escaped(caption) +
-         "</figcaption></figure>\n";
+  return html_figure(embedded_image(bytes, type, caption), caption);
 }
 
 std::string html_table(const std::vector<std::string>& head,
@@ -102,7 +98,8 @@ std::string html_table_of_html(const std::vector<std::string>& head,
     std::string row = "<tr>";
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const bool right = std::count(numeric.begin(), numeric.end(), i) > 0;
-      row += "<" + tag + (right ? " class=\"n\">" : ">") + cells[i] + "</" + tag + ">";
+      const char* kind = right == (i > 0) ? ">" : right ? " class=\"n\">" : " class=\"t\">";
+      row += "<" + tag + kind + cells[i] + "</" + tag + ">";
     }
     return row + "</tr>\n";
   };
@@ -127,6 +124,10 @@ std::string url_of(const std::string& path) {
 
 std::string html_link(const std::string& target, const std::string& text) {
   return "<a href=\"" + url_of(target) + "\">" + escaped(text) + "</a>";
+}
+
+std::string file_link(const std::string& target, const std::string& text, PageForm form) {
+  return form == PageForm::linked ? html_link(target, text) : escaped(text);
 }
 
 std::string html_details(const std::string& summary, const std::string& body, bool open) {

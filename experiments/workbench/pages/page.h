@@ -1,4 +1,4 @@
-// Pieces of a self-contained HTML page.
+// Pieces of an HTML page that needs no network.
 #pragma once
 
 #include <cstdint>
@@ -6,25 +6,37 @@
 #include <string>
 #include <vector>
 
+#include "render/image.h"
+
 namespace hysteron::experiments {
+
+enum class PageForm {
+  linked,          // pictures are files beside the page
+  self_contained,  // pictures are inside and nothing leads to another file: the page can be sent alone
+};
 
 // Text as HTML: & < > " escaped.
 std::string escaped(const std::string& text);
 
 // RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
-// Its inverse, up to the padding or the first other character.
-std::vector<std::uint8_t> from_base64(const std::string& text);
 
 // An <img> with the picture inside.  `type`: "image/png", "image/svg+xml"; `words` stand for it where it
 // cannot be seen.
 std::string embedded_image(std::span<const std::uint8_t> bytes, const std::string& type,
                            const std::string& words);
-// The same as a <figure> with a caption.
+// An <img> of a file beside the page, read once it comes near the window.  `size`, unless it is 0 x 0, keeps
+// the place until then.
+std::string linked_image(const std::string& path, const render::ImageSize& size, const std::string& words);
+
+// An image, which is HTML, with a caption, which is text.
+std::string html_figure(const std::string& image, const std::string& caption);
+// An embedded image with the same words as its caption.
 std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
                              const std::string& caption);
 
-// Cells are text; columns in `numeric` are set right-aligned with tabular figures.
+// Cells are text; columns in `numeric` are set right-aligned with tabular figures.  Most are, but the first
+// is not: only cells that differ from that carry a class, which makes a page of tables an eighth smaller.
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric);
@@ -37,6 +49,8 @@ std::string html_table_of_html(const std::vector<std::string>& head,
 // A relative path as the target of a link: what is no letter, digit, /, -, _, . or ~ as %XX.
 std::string url_of(const std::string& path);
 std::string html_link(const std::string& target, const std::string& text);
+// The same to a file beside the page; the text alone where the page is self-contained.
+std::string file_link(const std::string& target, const std::string& text, PageForm form);
 
 // Folded away under a line that unfolds it.
 std::string html_details(const std::string& summary, const std::string& body, bool open);

@@ -1,10 +1,10 @@
 #include "experiments/workbench/pages/pictures.h"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <thread>
 
-#include "experiments/workbench/pages/page.h"
 #include "render/contact_sheet.h"
 #include "render/palette.h"
 #include "sim/base/csv.h"
@@ -27,6 +27,18 @@ std::vector<std::string> columns_of(const fs::path& file) {
   std::vector<std::string> columns;
   for (std::istringstream names(header); std::getline(names, name, ',');) columns.push_back(name);
   return columns;
+}
+
+// `name="1200"` of a tag; 0 where it is missing or in another unit.
+int whole_number(const std::string& tag, const std::string& name) {
+  for (std::size_t at = 0; (at = tag.find(name + "=\"", at + 1)) != tag.npos;) {
+    const std::size_t begin = at + name.size() + 2, end = tag.find('"', begin);
+    const std::string value = tag.substr(begin, end - begin);
+    const bool whole = std::isspace(static_cast<unsigned char>(tag[at - 1])) && !value.empty() &&
+                       value.size() < 7 && value.find_first_not_of("0123456789") == value.npos;
+    if (whole) return std::stoi(value);
+  }
+  return 0;
 }
 
 }  // namespace
@@ -59,15 +71,33 @@ std::vector<std::uint8_t> thumbnail(const fs::path& file, int width) {
   return encode_png(render::in_few_colors(shrink(picture, w, h), kColors));
 }
 
-std::string player(const fs::path& folder, int count) {
+render::ImageSize drawing_size(const fs::path& file) {
+  const std::string text = whole_file(file, "cannot read " + file.string());
+  const std::size_t begin = std::min(text.find("<svg"), text.size());
+  const std::string tag = text.substr(begin, text.find('>', begin) - begin);
+  const render::ImageSize size{whole_number(tag, "width"), whole_number(tag, "height")};
+  return size.width > 0 && size.height > 0 ? size : render::ImageSize{};
+}
+
+std::string image_of(const PagePicture& picture, PageForm form) {
+  const bool drawing = picture.file.extension() == ".svg";
+  if (form == PageForm::linked)
+    return linked_image(picture.path, drawing ? drawing_size(picture.file) : render::png_size(picture.file),
+                        picture.words);
+  const bool shrunk = !drawing && picture.width > 0;
+  return embedded_image(shrunk ? thumbnail(picture.file, picture.width) : bytes_of(picture.file),
+                        drawing ? "image/svg+xml" : "image/png", picture.words);
+}
+
+std::string player(const fs::path& folder, const std::string& path, int count, PageForm form) {
   const std::vector<fs::path> frames = files_ending(folder / "frames", ".png");
   if (frames.empty()) return "";
   const std::vector<int> chosen = render::spread(static_cast<int>(frames.size()), count);
   std::vector<std::string> figures(chosen.size());
   in_parallel(chosen.size(), static_cast<int>(std::thread::hardware_concurrency()), [&](std::size_t i) {
     const fs::path& file = frames[static_cast<std::size_t>(chosen[i])];
-    figures[i] =
-        embedded_picture(thumbnail(file, kFrameWidth), "image/png", "frames/" + file.filename().string());
+    const std::string name = "frames/" + file.filename().string();
+    figures[i] = html_figure(image_of({file, path + name, name, kFrameWidth}, form), name);
   });
   std::string html;
   for (const std::string& figure : figures) html += figure;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/pages/page.h"
+
 namespace hysteron::experiments {
 
 // Not a link that leads nowhere, or to itself.
@@ -24,9 +26,22 @@ bool is_plot(const std::filesystem::path& file);
 // the file, if it is no picture.
 std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width);
 
-// FOLDER/frames as a sequence that plays; at most `count` of them, spread over the whole of it.  "" if there
-// are none.
-std::string player(const std::filesystem::path& folder, int count);
+// Of an SVG file; 0 x 0 where its first tag does not say it in numbers alone.
+render::ImageSize drawing_size(const std::filesystem::path& file);
+
+// An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page; where the page is
+// self-contained, a PNG picture is shrunk to `width` pixels, 0: embedded as it is.  Throws Error::request,
+// naming the file, if a PNG picture that is linked or shrunk is broken.
+struct PagePicture {
+  std::filesystem::path file;
+  std::string path, words;
+  int width = 0;
+};
+std::string image_of(const PagePicture& picture, PageForm form);
+
+// FOLDER/frames as a sequence that plays; at most `count` of them, spread over the whole of it.  `path` is
+// where the folder lies, seen from the page: "" or "NAME/".  "" if there are none.
+std::string player(const std::filesystem::path& folder, const std::string& path, int count, PageForm form);
 
 // Charts of the columns of FOLDER/metrics.csv against its first.  "" if there is no series.
 std::string series_charts(const std::filesystem::path& folder, bool with_energies);

@@ -76,23 +76,24 @@ std::string run_table(const Json& manifest) {
   return html_table({"", ""}, rows, {1});
 }
 
-std::string plots(const fs::path& folder) {
+std::string picture(const fs::path& file, const std::string& words, PageForm form) {
+  return html_figure(image_of({file, file.filename().string(), words}, form), words);
+}
+
+std::string plots(const fs::path& folder, PageForm form) {
   std::string html;
-  for (const fs::path& file : files_ending(folder, ".svg")) {
-    html += embedded_picture(bytes_of(file), "image/svg+xml", file.stem().string());
-  }
+  for (const fs::path& file : files_ending(folder, ".svg")) html += picture(file, file.stem().string(), form);
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (is_plot(file) && !is_there(fs::path(file).replace_extension(".svg"))) {
-      html += embedded_picture(bytes_of(file), "image/png", file.stem().string());
-    }
+    if (is_plot(file) && !is_there(fs::path(file).replace_extension(".svg")))
+      html += picture(file, file.stem().string(), form);
   }
   return html.empty() ? "" : "<div class=\"plot\">" + html + "</div>\n";
 }
 
-std::string pictures(const fs::path& folder) {
+std::string pictures(const fs::path& folder, PageForm form) {
   std::string html;
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (!is_plot(file)) html += embedded_picture(bytes_of(file), "image/png", file.filename().string());
+    if (!is_plot(file)) html += picture(file, file.filename().string(), form);
   }
   return html;
 }
@@ -105,15 +106,15 @@ Json manifest_in(const fs::path& folder) {
 
 }  // namespace
 
-std::string report_page(const fs::path& folder) {
+std::string report_page(const fs::path& folder, PageForm form) {
   const Json manifest = manifest_in(folder);
   const Json fabric = manifest.at("scene").value("fabric", Json::object());
   const Json metrics = manifest.value("metrics", Json::object());
   const std::string body =
       heading(manifest) +
       html_section("Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)) +
-      html_section("Pictures", pictures(folder)) + html_section("Plots", plots(folder)) +
-      html_section("Sequence", player(folder, kMostFrames)) +
+      html_section("Pictures", pictures(folder, form)) + html_section("Plots", plots(folder, form)) +
+      html_section("Sequence", player(folder, "", kMostFrames, form)) +
       html_section("Time series", series_charts(folder, true)) +
       html_section("Energy", energy_table(manifest.value("energy", Json()))) +
       html_section("Fabric", fabric_table(fabric)) + html_section("Run", run_table(manifest));
@@ -121,8 +122,8 @@ std::string report_page(const fs::path& folder) {
   return html_page(manifest.value("experiment", "run") + (name.empty() ? "" : ", " + name), body);
 }
 
-fs::path write_report(const fs::path& folder) {
-  const std::string page = report_page(folder);
+fs::path write_report(const fs::path& folder, PageForm form) {
+  const std::string page = report_page(folder, form);
   AtomicFile file((folder / "report.html").string());
   file.stream() << page;
   file.commit();

@@ -29,7 +29,8 @@ pre { background: var(--panel); border: 1px solid var(--line); border-radius: 8p
 table { border-collapse: collapse; width: 100%; font-size: .88rem; }
 th { text-align: left; color: var(--soft); font-weight: 600; vertical-align: bottom; }
 th, td { padding: .32rem .9rem .32rem 0; border-bottom: 1px solid var(--line); } td { vertical-align: top; }
-th.n, td.n { text-align: right; font-variant-numeric: tabular-nums; } td.n, td:first-child { white-space: nowrap; }
+th + th, td + td, .n { text-align: right; font-variant-numeric: tabular-nums; } td { white-space: nowrap; }
+th.t, td.t { text-align: left; font-variant-numeric: normal; white-space: normal; }
 td code { display: block; white-space: normal; color: var(--soft); font-size: .8rem; min-width: 16rem;
   overflow-wrap: anywhere; }
 figure { margin: 0 0 1rem; } figcaption { color: var(--soft); font-size: .82rem; margin-top: .25rem; }
@@ -98,11 +99,12 @@ for (const player of document.querySelectorAll('.player')) {
   let timer = 0;
   const show = i => { frames.forEach((frame, k) => frame.classList.toggle('now', k === i)); slider.value = i; };
   const stop = () => { clearInterval(timer); timer = 0; button.textContent = 'Play'; };
-  const start = () => { button.textContent = 'Pause';
+  const load = () => frames.forEach(frame => { frame.querySelector('img').loading = 'eager'; });
+  const start = () => { load(); button.textContent = 'Pause';
     timer = setInterval(() => show((+slider.value + 1) % frames.length), 160); };
   button.type = 'button';
   button.onclick = () => timer ? stop() : start();
-  slider.oninput = () => { stop(); show(+slider.value); };
+  slider.oninput = () => { load(); stop(); show(+slider.value); };
   bar.className = 'controls';
   bar.append(button, slider);
   player.append(bar);
@@ -119,7 +121,7 @@ function enlarge(number) {
     picture.src = link.querySelector('img').src;
     caption.textContent = link.querySelector('img').alt;
     full.onload = () => { if (pictures[number] === link) picture.src = full.src; };
-    full.src = link.href;
+    full.src = link.href || picture.src;
   };
   dialog.className = 'large';
   dialog.append(picture, caption);

@@ -4,7 +4,6 @@
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_folders.h"
-#include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
@@ -122,33 +121,15 @@ TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
   EXPECT_EQ(subject("{}"), "");
 }
 
-TEST_F(Gallery, EmbedsPicturesShrunkAndLeadsToTheFiles) {
-  const std::string html = page(), begin = "data:image/png;base64,";
-  EXPECT_EQ(count_of(html, begin), 1);
-  const std::size_t at = html.find(begin) + begin.size();
-  const render::Image sheet =
-      render::decode_png(from_base64(html.substr(at, html.find('"', at) - at)), "the sheet");
-  EXPECT_EQ(sheet.width(), 900);
-  EXPECT_EQ(sheet.height(), 150);
-  EXPECT_EQ(count_of(html, "href=\"z-drape/sheet.png\""), 1);
-}
-
 TEST_F(Gallery, ShowsADrawingInsteadOfThePictureOfIt) {
   const std::string html = page();
-  EXPECT_EQ(count_of(html, "data:image/svg+xml"), 1);
+  EXPECT_EQ(count_of(html, "src=\"z-drape/plot_energy.svg\""), 1);
   EXPECT_EQ(count_of(html, "href=\"z-drape/plot_energy.svg\""), 1);
   write_text(results_ / "z-drape/plot_energy.svg", "<svg>" + std::string(100000, ' ') + "</svg>");
   const std::string heavy = page();
-  EXPECT_EQ(count_of(heavy, "data:image/svg+xml"), 0);
+  EXPECT_EQ(count_of(heavy, "src=\"z-drape/plot_energy.svg\""), 0);
+  EXPECT_EQ(count_of(heavy, "src=\"z-drape/plot_energy.png\""), 1);
   EXPECT_EQ(count_of(heavy, "href=\"z-drape/plot_energy.svg\""), 1) << "linked";
-}
-
-TEST_F(Gallery, NeedsNoNetworkAndNoOtherFileToBeSeen) {
-  const std::string html = page();
-  EXPECT_EQ(count_of(html, "<img "), count_of(html, "src=\"data:image/"));
-  EXPECT_EQ(count_of(html, "<link"), 0);
-  EXPECT_EQ(count_of(html, "<script src"), 0);
-  EXPECT_EQ(count_of(html, "href=\"http"), 0);
 }
 
 TEST_F(Gallery, ShowsSmallTablesAndLeadsToLargeOnes) {
@@ -168,7 +149,7 @@ TEST_F(Gallery, SaysOnceWhatIsTheSameInAllRowsOfAList) {
   EXPECT_EQ(count_of(html, "<td>linear"), 1);
   EXPECT_EQ(count_of(html, "2.625"), 1);
   EXPECT_NE(html.find("In all rows device: cpu"), std::string::npos);
-  EXPECT_EQ(count_of(html, "<td>cpu"), 0);
+  EXPECT_EQ(count_of(html, ">cpu</td>"), 0);
 }
 
 TEST_F(Gallery, ShowsManifestsWithoutAFolderAsRows) {
@@ -233,6 +214,10 @@ TEST_F(Gallery, IsNotBrokenByOddNames) {
 TEST_F(Gallery, NamesABrokenPicture) {
   write_text(results_ / "a-kes/plot_loops.png", "\x89PNG\r\n\x1a\nhalf");
   EXPECT_NE(refusal().find("results/a-kes/plot_loops.png: not a PNG picture"), std::string::npos)
+      << refusal();
+  const std::string whole = text_of(results_ / "z-drape/sheet.png");
+  write_text(results_ / "a-kes/plot_loops.png", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(refusal().find("results/a-kes/plot_loops.png: a broken PNG picture"), std::string::npos)
       << refusal();
 }
 
@@ -325,24 +310,6 @@ TEST_F(Gallery, ChecksThePagesOfItsRunsToo) {
   EXPECT_EQ(stale_names(results_), std::vector<std::string>{});
   std::ofstream(results_ / "a-kes/report.html", std::ios::app) << " ";
   EXPECT_EQ(stale_names(results_), (std::vector<std::string>{"a-kes/report.html"}));
-}
-
-std::string page_with(const std::vector<std::uint8_t>& picture) {
-  return "<p>" + embedded_image(picture, "image/png", "sheet") + "</p>";
-}
-
-// Other versions of zlib, and `fast`, pack the same pixels into other bytes.
-TEST(SamePage, LooksAtPixelsNotAtHowTheyArePacked) {
-  render::Image picture(300, 200, render::Rgb8{20, 40, 60});
-  const std::string page = page_with(encode_png(picture, render::PngEffort::best));
-  const std::string packed = page_with(encode_png(picture, render::PngEffort::fast));
-  ASSERT_NE(page, packed);
-  EXPECT_TRUE(same_page(page, packed));
-  picture.at(299, 199)[2] = 61;
-  EXPECT_FALSE(same_page(page, page_with(encode_png(picture))));
-  EXPECT_FALSE(same_page(page, packed + " "));
-  EXPECT_FALSE(same_page(page, "<p><img alt=\"sheet\" src=\"data:image/png;base64,AAAA\"></p>"));
-  EXPECT_FALSE(same_page(page, ""));
 }
 
 // Exit code and stderr of the program.

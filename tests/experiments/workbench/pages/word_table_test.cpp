@@ -61,8 +61,16 @@ TEST(WordTable, SaysOnceWhatEveryRowSays) {
 
 TEST(WordTable, SetsNumbersToTheRightWithSixDigits) {
   const std::string html = html_of(table_in("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
-  for (const char* part : {"<th class=\"n\">2HB [N]", "<td class=\"n\">0.000123457<", "<td class=\"n\">1e-8<",
-                           "<td class=\"n\">1170<", "<td>wong<"})
+  for (const char* part :
+       {"<th>law</th><th>2HB [N]</th>", "<td>0.000123457<", "<td>1e-8<", "<td>1170<", "<td>wong<"})
+    EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
+}
+
+// All but the first column are numbers unless a class says otherwise.
+TEST(WordTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
+  const std::string html = html_of(table_in("count,note\n12,\"cut, twice\"\n7,\n"));
+  for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
+                           "<td class=\"t\">cut, twice<"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 

@@ -1,0 +1,178 @@
+// Pages that link their pictures, and pages that hold them.
+#include <algorithm>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/gallery.h"
+#include "experiments/workbench/pages/page.h"
+#include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/report.h"
+#include "render/image.h"
+#include "sim/base/error.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// Values of an attribute, in the order of the page.
+std::vector<std::string> values_of(const std::string& html, const std::string& name) {
+  const std::string begin = " " + name + "=\"";
+  std::vector<std::string> values;
+  for (std::size_t at = 0; (at = html.find(begin, at)) != html.npos;) {
+    at += begin.size();
+    values.push_back(html.substr(at, html.find('"', at) - at));
+  }
+  return values;
+}
+
+std::string path_of(const std::string& url) {
+  std::string path;
+  for (std::size_t i = 0; i < url.size(); ++i) {
+    const bool coded = url[i] == '%';
+    path += coded ? static_cast<char>(std::stoi(url.substr(i + 1, 2), nullptr, 16)) : url[i];
+    if (coded) i += 2;
+  }
+  return path;
+}
+
+bool leads_to_a_place(const std::string& url) { return url.starts_with('#'); }
+
+// Every picture is a file below the page, and so is every other link.
+void expect_all_there(const std::string& html, const fs::path& folder) {
+  ASSERT_EQ(html.find("=\"data:"), html.npos);
+  for (const char* name : {"src", "href"}) {
+    for (const std::string& url : values_of(html, name)) {
+      if (leads_to_a_place(url)) continue;
+      EXPECT_EQ(url.find_first_of(":?#&+= "), url.npos) << url;
+      EXPECT_TRUE(fs::is_regular_file(folder / path_of(url))) << url;
+    }
+  }
+}
+
+void expect_alone(const std::string& html) {
+  for (const std::string& url : values_of(html, "src")) EXPECT_TRUE(url.starts_with("data:image/")) << url;
+  for (const std::string& url : values_of(html, "href")) EXPECT_TRUE(leads_to_a_place(url)) << url;
+  for (const char* part : {"<link", "<script src", "url(", "@import"})
+    EXPECT_EQ(html.find(part), html.npos) << part;
+}
+
+void write_pictures(const fs::path& folder) {
+  fs::create_directories(folder / "frames");
+  render::write_png(folder / "sheet.png", render::Image(1800, 300, render::Rgb8{200, 10, 10}));
+  for (const char* frame : {"0000.png", "0001.png"})
+    render::write_png(folder / "frames" / frame, render::Image(600, 100, render::Rgb8{10, 200, 10}));
+  std::ofstream(folder / "plot_energy.svg")
+      << "<svg\n width=\"1200\" height=\"800\" xmlns=\"http://www.w3.org/2000/svg\"/>";
+  render::write_png(folder / "plot_energy.png", render::Image(120, 80, render::Rgb8{10, 10, 200}));
+}
+
+void write_run(const fs::path& folder) {
+  ExperimentRun run(drape_line(), setup_in(folder));
+  write_pictures(folder);
+  run.finish();
+}
+
+// A gallery of a run with a part, a folder without a run, and a list of manifests.
+class PageForms : public testing::Test {
+ protected:
+  PageForms() {
+    write_run(run_);
+    write_run(run_ / "wong 100% #1");
+    fs::create_directories(results_ / "pictures");
+    fs::copy(run_ / "sheet.png", results_ / "pictures/Stoff \xc3\xbc.png");
+    fs::create_directories(results_ / "scenes");
+    fs::copy(run_ / "manifest.json", results_ / "scenes/square+half.json");
+    std::ofstream(results_ / "scenes/a=b.csv") << "law,step_ms\nwong,2.5\ndahl,3.5\n";
+  }
+
+  Folder folder_;
+  fs::path results_ = folder_.path() / "results", run_ = results_ / "linear+fabric.damping=0.004783";
+};
+
+TEST_F(PageForms, ByDefaultEveryPictureOfAGalleryIsAFileThatExists) {
+  const std::string html = gallery_page(results_);
+  expect_all_there(html, results_);
+  const std::vector<std::string> pictures = values_of(html, "src");
+  for (const char* url :
+       {"linear%2Bfabric.damping%3D0.004783/sheet.png", "linear%2Bfabric.damping%3D0.004783/plot_energy.svg",
+        "linear%2Bfabric.damping%3D0.004783/frames/0001.png",
+        "linear%2Bfabric.damping%3D0.004783/wong%20100%25%20%231/sheet.png", "pictures/Stoff%20%C3%BC.png"})
+    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), url), 1) << url;
+}
+
+TEST_F(PageForms, ByDefaultEveryPictureOfARunIsAFileThatExists) {
+  const std::string html = text_of(write_report(run_));
+  expect_all_there(html, run_);
+  EXPECT_EQ(values_of(html, "src"),
+            (std::vector<std::string>{"sheet.png", "plot_energy.svg", "frames/0000.png", "frames/0001.png"}));
+}
+
+// A page of many pictures opens at once, and stays where it was scrolled to.
+TEST_F(PageForms, LinkedPicturesAreLazyAndKeepTheirPlace) {
+  const std::string html = report_page(run_);
+  for (const char* image :
+       {"<img loading=\"lazy\" width=\"1800\" height=\"300\" alt=\"sheet.png\" src=\"sheet.png\">",
+        "<img loading=\"lazy\" width=\"1200\" height=\"800\" alt=\"plot_energy\" src=\"plot_energy.svg\">",
+        "<img loading=\"lazy\" width=\"600\" height=\"100\" alt=\"frames/0000.png\" "
+        "src=\"frames/0000.png\">"})
+    EXPECT_NE(html.find(image), html.npos) << image;
+}
+
+TEST_F(PageForms, ASelfContainedPageRefersToNoFile) {
+  const std::string gallery = gallery_page(results_, PageForm::self_contained);
+  expect_alone(gallery);
+  EXPECT_EQ(values_of(gallery, "src").size(), values_of(gallery_page(results_), "src").size());
+  const std::string report = text_of(write_report(run_, PageForm::self_contained));
+  expect_alone(report);
+  EXPECT_EQ(values_of(report, "src").size(), 4u);
+}
+
+TEST_F(PageForms, ASelfContainedGalleryHoldsPicturesShrunk) {
+  const auto small = thumbnail(run_ / "sheet.png", 900);
+  const render::Image sheet = render::decode_png(small, "the sheet");
+  EXPECT_EQ(sheet.width(), 900);
+  EXPECT_EQ(sheet.height(), 150);
+  const std::string html = gallery_page(results_, PageForm::self_contained);
+  EXPECT_NE(html.find("src=\"data:image/png;base64," + base64(small) + "\""), html.npos);
+}
+
+TEST_F(PageForms, OfTheProgramAreLinkedUnlessAskedForAlone) {
+  const std::string results = results_.string(), page = results + "/index.html";
+  const Outcome alone = program("report " + results + " --self-contained");
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(alone.out, page + "\n");
+  expect_alone(text_of(page));
+  EXPECT_EQ(program("report --check " + results).exit_code, 4) << "the default form is compared";
+  EXPECT_EQ(program("report " + results).exit_code, 0);
+  expect_all_there(text_of(page), results_);
+  EXPECT_EQ(program("report --check " + results).exit_code, 0);
+  const Outcome both = program("report --check --self-contained " + results);
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.err,
+            "hysteron report: --check is of pages that link their pictures: leave out --self-contained\n");
+}
+
+TEST(DrawingSize, IsKnownWhereTheFirstTagSaysIt) {
+  const Folder folder;
+  const fs::path file = folder.path() / "a.svg";
+  const auto size = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return drawing_size(file);
+  };
+  EXPECT_EQ(size("<?xml version=\"1.0\"?>\n<svg\n width=\"1200\" height=\"80\">"),
+            (render::ImageSize{1200, 80}));
+  EXPECT_EQ(size("<svg stroke-width=\"3\" width=\"40\" height=\"20\">"), (render::ImageSize{40, 20}));
+  for (const char* text : {"", "<svg", "<svg>", "<svg width=\"12cm\" height=\"8cm\">", "<svg width=\"40\">",
+                           "<svg width=\"99999999999\" height=\"1\">", "<svg><a width=\"1\" height=\"1\">"})
+    EXPECT_EQ(size(text), render::ImageSize{}) << text;
+}
+
+// It is committed again with every new run.
+TEST(Results, PageIsBelow300KilobytesAndItsPicturesExist) {
+  const fs::path results = HYSTERON_RESULTS;
+  EXPECT_LT(fs::file_size(results / "index.html"), 300000u);
+  expect_all_there(text_of(results / "index.html"), results);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
