@@ -93,7 +93,7 @@ Obstacle plate_of(const Scene& scene, const CreaseTimes& times, double lowest) {
   const double length = scene.cloth.length;
   const double ready = (2 + kLetGo) * scene.fabric.thickness;
   Obstacle plate;
-  plate.kind = "box";
+  plate.kind = ObstacleKind::box;
   plate.size = {0.375 * length, 0.75 * scene.cloth.width, kPlate};
   plate.rim = kPlate / 4;
   plate.center = {0.3 * length, scene.cloth.width / 2, ready + kPlate + kRise};

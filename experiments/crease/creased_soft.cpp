@@ -86,7 +86,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
   const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
   Obstacle rod;
-  rod.kind = "cylinder";
+  rod.kind = ObstacleKind::cylinder;
   rod.axis = {0, 1, 0};
   rod.center = axis_at;
   rod.radius = choice.radius;

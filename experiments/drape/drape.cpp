@@ -76,7 +76,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice) {
                                 scene.fabric.thickness - pressure / contact_stiffness_per_area(scene));
   scene.cloth.position = {0, 0, shell};
   Obstacle pedestal;
-  pedestal.kind = "cylinder";
+  pedestal.kind = ObstacleKind::cylinder;
   pedestal.radius = choice.disc;
   pedestal.height = kPedestalHeight;
   pedestal.center = {0, 0, -kPedestalHeight / 2};

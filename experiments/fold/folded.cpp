@@ -45,7 +45,7 @@ Motion motion_of(const FoldChoice& choice, double free_length) {
 Obstacle jaw(const Scene& scene, double end, double outwards) {
   const double half = kGrip * scene.cloth.length / 2;
   Obstacle body;
-  body.kind = "box";
+  body.kind = ObstacleKind::box;
   body.size = {half, 0.6 * scene.cloth.width, kJaw};
   body.rim = kJaw / 4;
   body.center = {end + outwards * (half + kNoContact * scene.fabric.thickness), scene.cloth.width / 2, 0};

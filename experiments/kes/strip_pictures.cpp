@@ -24,7 +24,7 @@ render::Box framed(double turn, float width, double half_height) {
 Obstacle jaw(double from, double to, double width) {
   const double inset = render::Look{}.obstacle_inset;
   Obstacle box;
-  box.kind = "box";
+  box.kind = ObstacleKind::box;
   box.center = {(from + to) / 2, width / 2, 0};
   box.size = Eigen::Vector3d((to - from) / 2, width / 2 + kJawOverhang, kJawThickness / 2).array() + inset;
   box.rim = 0.3 * inset;

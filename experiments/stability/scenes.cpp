@@ -22,7 +22,7 @@ Pin clamp(double from, double to) {
   return pin;
 }
 
-Obstacle solid(const char* kind, const Eigen::Vector3d& center) {
+Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
   Obstacle obstacle;
   obstacle.kind = kind;
   obstacle.center = center;
@@ -153,7 +153,7 @@ Attempt pulled(double metres) {
 Attempt hit() {
   Attempt attempt = square(0);
   attempt.scene.pin = {clamp(0, 1e-6), clamp(0.2 - 1e-6, 0.2)};
-  Obstacle ball = solid("sphere", {0.1, 0.1, -0.531});
+  Obstacle ball = solid(ObstacleKind::sphere, {0.1, 0.1, -0.531});
   ball.radius = 0.03;
   // The middle of a smooth motion from rest to rest is 3/2 as fast as the mean.
   ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.015, {0, 0, 1}, 0}};
@@ -171,7 +171,7 @@ Attempt hit_in_small_steps() {
 
 Attempt dropped_on_edge() {
   Attempt attempt = square(0.02);
-  Obstacle box = solid("box", {0.1, 0.1, -0.05});
+  Obstacle box = solid(ObstacleKind::box, {0.1, 0.1, -0.05});
   box.size = {0.03, 0.2, 0.05};
   box.rim = 1e-4;
   attempt.scene.obstacle = {box};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/bending/curvature_operator.h"
+#include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/device/device.h"
@@ -31,10 +32,6 @@ struct OperatorView {
     return k;
   }
 };
-
-// What a scene can order at a time: iron, so that the cloth forgets its bends; or make the present shape the
-// shape at rest (grinspun-edit alone).
-enum class CommandKind { iron, edit };
 
 template <class Real, class Device>
 class LawLoop {

@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sim/base/enum_names.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron {
-
-namespace {
-
-ShapeKind kind_of(const std::string& kind) {
-  return kind == "ground"     ? ShapeKind::ground
-         : kind == "sphere"   ? ShapeKind::sphere
-         : kind == "hollow"   ? ShapeKind::hollow
-         : kind == "cylinder" ? ShapeKind::cylinder
-         : kind == "box"      ? ShapeKind::box
-                              : ShapeKind::capsule;
-}
-
-}  // namespace
 
 template <class Real>
 ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
@@ -32,8 +20,8 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), o.axis.normalized()).toRotationMatrix();
     const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
     Obstacle3<Real>& item = set.item[set.count++];
-    item.shape.kind = kind_of(o.kind);
-    const Eigen::Vector3d half = o.kind == "box" ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
+    item.shape.kind = o.kind;
+    const Eigen::Vector3d half = o.kind == ObstacleKind::box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
     item.shape.half = (now.scale * half).cast<Real>();
     item.shape.rim = static_cast<Real>(now.scale * o.rim);
     item.rotation = (now.rotation * own).cast<Real>();
@@ -102,11 +90,11 @@ std::string vertex_text(int vertex, const Eigen::Vector3d& x) {
 
 std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,
                            const std::vector<Eigen::Vector3d>& x) {
-  const std::string& kind = obstacles[immersion.obstacle].kind;
+  const ObstacleKind kind = obstacles[immersion.obstacle].kind;
   char depth[60];
   std::snprintf(depth, sizeof depth, " lies %.3g mm %s obstacle[%d] (", 1e3 * immersion.depth,
-                kind == "hollow" ? "outside" : "inside", immersion.obstacle);
-  return vertex_text(immersion.vertex, x[immersion.vertex]) + depth + kind + ")";
+                kind == ObstacleKind::hollow ? "outside" : "inside", immersion.obstacle);
+  return vertex_text(immersion.vertex, x[immersion.vertex]) + depth + name_of(kind) + ")";
 }
 
 template ObstacleSet<double> obstacles_during(const std::vector<Obstacle>&, double, double, double);

@@ -4,16 +4,15 @@
 #include <cmath>
 
 #include "sim/device/host_device.h"
+#include "sim/scene/obstacle_kind.h"
 
 namespace hysteron {
-
-enum class ShapeKind { ground, sphere, hollow, cylinder, box, capsule };
 
 // A shape in its own frame: ground z <= 0; hollow: all but a sphere; cylinder and capsule along z, centred;
 // box centred.
 template <class Real>
 struct Shape {
-  ShapeKind kind;
+  ObstacleKind kind;
   Vec3<Real> half;  // box: half edges; else x = radius, z = half height of the axis [m]
   Real rim;         // rounding of the edges of cylinder and box [m]
 };
@@ -74,19 +73,19 @@ HYST_HD inline Distance<Real> box_distance(const Shape<Real>& s, const Vec3<Real
 template <class Real>
 HYST_HD inline Distance<Real> signed_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   switch (s.kind) {
-    case ShapeKind::ground:
+    case ObstacleKind::ground:
       return {p[2], Vec3<Real>::UnitZ()};
-    case ShapeKind::sphere:
+    case ObstacleKind::sphere:
       return sphere_distance(p, s.half[0]);
-    case ShapeKind::hollow: {
+    case ObstacleKind::hollow: {
       const Distance<Real> d = sphere_distance(p, s.half[0]);
       return {-d.value, -d.normal};
     }
-    case ShapeKind::cylinder:
+    case ObstacleKind::cylinder:
       return cylinder_distance(s, p);
-    case ShapeKind::box:
+    case ObstacleKind::box:
       return box_distance(s, p);
-    default:
+    case ObstacleKind::capsule:
       break;
   }
   const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);  // capsule

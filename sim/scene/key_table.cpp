@@ -22,7 +22,7 @@ Overload(Cases...) -> Overload<Cases...>;
 
 std::string type_name(const Field& field) {
   static const char* const kNames[] = {"flag",   "integer", "integer",   "number",
-                                       "vector", "text",    "name=value"};
+                                       "vector", "text",    "name=value", "text"};
   return kNames[field.index()];
 }
 
@@ -162,7 +162,8 @@ std::string usual_text(const Field& field) {
           [](bool*) { return std::string(); }, [](int* x) { return std::to_string(*x); },
           [](unsigned* x) { return std::to_string(*x); }, [&](double* x) { return rounded(*x); },
           [&](Eigen::Vector3d* v) { return rounded(v->x()) + " " + rounded(v->y()) + " " + rounded(v->z()); },
-          [](std::string* x) { return *x; }, [](Parameters*) { return std::string(); }},
+          [](std::string* x) { return *x; }, [](Parameters*) { return std::string(); },
+          [](const NamedValue& x) { return x.name(); }},
       field);
 }
 
@@ -181,6 +182,7 @@ KeyDescription describe(const char* path, const Field& field, const char* unit, 
                         const char* choices, const char* doc) {
   KeyDescription key{path, type_name(field), unit, range, {}, {}, doc, usual_text(field)};
   split_choices(choices, key);
+  if (const auto* named = std::get_if<NamedValue>(&field)) key.choices = named->names;
   return key;
 }
 
@@ -205,7 +207,15 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
                         check_choice(what, *text, origin);
                         *target = *text;
                       },
-                      [&](Parameters* target) { assign_parameter(what, *target, value, origin); }},
+                      [&](Parameters* target) { assign_parameter(what, *target, value, origin); },
+                      [&](const NamedValue& target) {
+                        const auto* text = std::get_if<std::string>(&value);
+                        if (!text) throw wrong_type(what, value, origin);
+                        check_choice(what, *text, origin);
+                        target.set(target.value, static_cast<std::size_t>(
+                                                     std::find(target.names.begin(), target.names.end(), *text) -
+                                                     target.names.begin()));
+                      }},
              key.field);
 }
 
@@ -239,7 +249,8 @@ nlohmann::ordered_json to_json(const Keys& keys) {
     std::visit(Overload{[&](Eigen::Vector3d* v) {
                           entry = {v->x(), v->y(), v->z()};
                         },
-                        [&](Parameters* p) { entry = *p; }, [&](auto* x) { entry = *x; }},
+                        [&](Parameters* p) { entry = *p; },
+                        [&](const NamedValue& x) { entry = x.name(); }, [&](auto* x) { entry = *x; }},
                key.field);
   }
   return tree;

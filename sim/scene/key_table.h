@@ -12,8 +12,11 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
+
+#include "sim/base/enum_names.h"
 
 namespace hysteron {
 
@@ -33,9 +36,28 @@ inline Range positive() { return {0, kInfinity, true}; }
 inline Range at_least(double low) { return {low, kInfinity, false}; }
 inline Range between(double low, double high) { return {low, high, false}; }
 
-// What a key points to: flag, integer, count, number, vector, text, or parameters by name.
+// An enumeration of any type.
+struct NamedValue {
+  void* value;
+  std::vector<std::string> names;  // of its values, in their order
+  void (*set)(void* value, std::size_t place);
+  std::size_t (*place)(const void* value);
+
+  std::string name() const { return names[place(value)]; }
+};
+template <Named E>
+NamedValue named_value(E* value) {
+  const auto all = names(E{});
+  return {value,
+          {all.begin(), all.end()},
+          [](void* of, std::size_t place) { *static_cast<E*>(of) = static_cast<E>(place); },
+          [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
+}
+
+// What a key points to: flag, integer, count, number, vector, text, parameters by name, or an enumeration.
 using Parameters = std::map<std::string, std::string>;
-using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*>;
+using Field =
+    std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*, NamedValue>;
 
 struct KeyDescription {
   std::string path;                    // "fabric.b2"
@@ -54,7 +76,8 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.
+// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.  Those of
+// an enumeration are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;
@@ -69,7 +92,11 @@ struct KeyRow {
 // member.
 template <auto... Members, class Owner>
 Field at(Owner& owner) {
-  return &(owner.*....*Members);
+  auto* member = &(owner.*....*Members);
+  if constexpr (Named<std::remove_reference_t<decltype(*member)>>)
+    return named_value(member);
+  else
+    return member;
 }
 
 KeyDescription describe(const char* path, const Field& field, const char* unit, Range range,

@@ -80,7 +80,7 @@ const KeyRow<Pin> kPinRows[] = {
 };
 
 const KeyRow<Obstacle> kObstacleRows[] = {
-    {"kind", at<&Obstacle::kind>, "", any(), "ground | sphere | hollow | cylinder | box | capsule", "solid; hollow: a sphere with the cloth inside"},
+    {"kind", at<&Obstacle::kind>, "", any(), "", "solid; hollow: a sphere with the cloth inside"},
     {"center", at<&Obstacle::center>, "m", any(), "", "ground: a point of the plane"},
     {"axis", at<&Obstacle::axis>, "", any(), "", "ground: normal; cylinder, capsule: direction"},
     {"size", at<&Obstacle::size>, "m", positive(), "", "half edges of the box"},
@@ -96,7 +96,7 @@ const KeyRow<Obstacle> kObstacleRows[] = {
 };
 
 const KeyRow<Command> kCommandRows[] = {
-    {"kind", at<&Command::kind>, "", any(), "iron | edit", "iron: forget all bends; edit: the present shape is at rest (grinspun-edit)"},
+    {"kind", at<&Command::kind>, "", any(), "", "iron: forget all bends; edit: the present shape is at rest (grinspun-edit)"},
     {"time", at<&Command::time>, "s", at_least(0), "", "when"},
     {"low", at<&Command::low>, "m", any(), "", "corner of the box that holds the elements, on the flat cloth"},
     {"high", at<&Command::high>, "m", any(), "", "opposite corner of the box, >= low"},

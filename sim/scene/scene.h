@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
+#include "sim/scene/obstacle_kind.h"
 
 namespace hysteron {
 
@@ -95,7 +97,7 @@ struct Pin {
 };
 
 struct Obstacle {
-  std::string kind = "ground";  // obstacle.kind  ground | sphere | hollow | cylinder | box | capsule
+  ObstacleKind kind = ObstacleKind::ground;  // obstacle.kind
   Eigen::Vector3d center{
       0, 0, 0};  // obstacle.center [m]; ground: a point of the plane; cylinder: middle of its axis
   Eigen::Vector3d axis{0, 0, 1};        // obstacle.axis   ground: normal; cylinder, capsule: direction
@@ -112,7 +114,7 @@ struct Obstacle {
 
 // An order to the bending elements whose middle lies in the box on the flat cloth.
 struct Command {
-  std::string kind = "iron";  // command.kind  iron: forget all bends | edit: the present shape is at rest
+  CommandKind kind = CommandKind::iron;   // command.kind
   double time = 0;            // command.time  [s]
   Eigen::Vector3d low{-1e3, -1e3, -1e3};  // command.low   box corner in builder coordinates [m]
   Eigen::Vector3d high{1e3, 1e3, 1e3};    // command.high

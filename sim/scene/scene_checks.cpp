@@ -110,9 +110,19 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
 
 // Half of its thinnest part; none of the ground.
 double half_thickness(const Obstacle& solid) {
-  if (solid.kind == "ground" || solid.kind == "hollow") return kInfinity;
-  if (solid.kind == "box") return solid.size.minCoeff();
-  return solid.kind == "cylinder" ? std::min(solid.radius, solid.height / 2) : solid.radius;
+  switch (solid.kind) {
+    case ObstacleKind::ground:
+    case ObstacleKind::hollow:
+      return kInfinity;
+    case ObstacleKind::box:
+      return solid.size.minCoeff();
+    case ObstacleKind::cylinder:
+      return std::min(solid.radius, solid.height / 2);
+    case ObstacleKind::sphere:
+    case ObstacleKind::capsule:
+      return solid.radius;
+  }
+  return kInfinity;
 }
 
 // How far its middle comes in any one step [m].
@@ -142,11 +152,11 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   check_times(scene, solid.from, solid.until, path);
-  const bool round = solid.kind == "cylinder" || solid.kind == "capsule";
-  if ((round || solid.kind == "ground") && solid.axis.isZero(0)) {
+  const bool round = solid.kind == ObstacleKind::cylinder || solid.kind == ObstacleKind::capsule;
+  if ((round || solid.kind == ObstacleKind::ground) && solid.axis.isZero(0)) {
     throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
   }
-  const bool rimmed = solid.kind == "cylinder" || solid.kind == "box";
+  const bool rimmed = solid.kind == ObstacleKind::cylinder || solid.kind == ObstacleKind::box;
   const double room = rimmed ? half_thickness(solid) : kInfinity;
   if (solid.rim > room) {
     throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
@@ -212,7 +222,7 @@ void check_command(const Scene& scene, const Command& command, const std::string
   const auto place = [&](const std::string& key) { return origin_in(scene, path, key); };
   if ((command.low.array() > command.high.array()).any())
     throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") + ")");
-  if (command.kind == "edit" && scene.law != "grinspun-edit") {
+  if (command.kind == CommandKind::edit && scene.law != "grinspun-edit") {
     throw Error::request(path + ".kind = edit needs law = grinspun-edit, not " + scene.law + " (" +
                          place("kind") + ")");
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sim/base/enum_names.h"
 #include "sim/base/error.h"
 #include "sim/time/stepper.h"
 
@@ -117,7 +118,7 @@ std::vector<std::string> Stepper<Real, Device>::pressing(int vertex, const Eigen
   for (int o = 0; o < set.count; ++o)
     if (distance_to<double>(set.item[o], x).value < scene_.fabric.thickness)
       by.push_back("obstacle[" + std::to_string(set.item[o].index) + "] (" +
-                   scene_.obstacle[set.item[o].index].kind + ")");
+                   name_of(scene_.obstacle[set.item[o].index].kind) + ")");
   if (self_contact_ && self_contact_->pairs() > 0 && self_contact_->forces()[vertex].norm() > 0)
     by.push_back("the cloth itself");
   return by;

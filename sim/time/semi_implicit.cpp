@@ -63,7 +63,7 @@ void Stepper<Real, Device>::obey(double start, double end) {
     std::vector<char> chosen;
     for (const Eigen::Vector3d& center : command_center_)
       chosen.push_back(is_in_box(center, command.low, command.high));
-    bending_.command(command.kind == "edit" ? CommandKind::edit : CommandKind::iron, chosen);
+    bending_.command(command.kind, chosen);
   }
 }
 

@@ -26,12 +26,23 @@ std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
   return uv;
 }
 
-render::TriangleMesh body_of(const Obstacle& o) {
+// None of what is drawn otherwise, or not at all.
+std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
   const auto f = [](double x) { return static_cast<float>(x); };
-  if (o.kind == "sphere") return render::sphere_mesh(f(o.radius));
-  if (o.kind == "capsule") return render::capsule_mesh(f(o.radius), f(o.height));
-  if (o.kind == "box") return render::box_mesh(o.size.cast<float>(), f(o.rim));
-  return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
+  switch (o.kind) {
+    case ObstacleKind::ground:
+    case ObstacleKind::hollow:
+      return {};
+    case ObstacleKind::sphere:
+      return render::sphere_mesh(f(o.radius));
+    case ObstacleKind::capsule:
+      return render::capsule_mesh(f(o.radius), f(o.height));
+    case ObstacleKind::box:
+      return render::box_mesh(o.size.cast<float>(), f(o.rim));
+    case ObstacleKind::cylinder:
+      return render::cylinder_mesh(f(o.radius), f(o.height), f(o.rim));
+  }
+  return {};
 }
 
 Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
@@ -93,9 +104,9 @@ Studio::Studio(const Scene& scene, const Options& options, const Cloth& cloth, c
   const std::vector<float> pattern = pattern_of(cloth.mesh, scene.cloth);
   view_.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
   for (const Obstacle& o : scenery_) {
-    const bool body = o.kind != "ground" && o.kind != "hollow" && o.visible;
-    body_.push_back(body ? view_.add_obstacle(body_of(o), placed_at(o, 0)) : -1);
-    if (o.kind == "ground" && !floor) floor = static_cast<float>(o.center.z());
+    const auto body = body_of(o);
+    body_.push_back(body && o.visible ? view_.add_obstacle(*body, placed_at(o, 0)) : -1);
+    if (o.kind == ObstacleKind::ground && !floor) floor = static_cast<float>(o.center.z());
   }
   view_.set_ground(floor);
   view_.set_bounds(bounds);

@@ -112,7 +112,7 @@ TEST(Contact, MovingTableCarriesItsCloth) {
   constexpr double kSlip = 1e-5;  // [m]: the stop's elastic slip is 1e-7 m
   Trial trial = on_slope(0, 0.3);
   Obstacle& table = trial.scene.obstacle[0];
-  table.kind = "box";
+  table.kind = ObstacleKind::box;
   table.size = {0.2, 0.2, 0.05};
   table.center = {0.05, 0.05, -0.05};
   table.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {kWay, 0, 0}, 0}};

@@ -27,7 +27,7 @@ double way_done(double u) { return u * u * (3 - 2 * u); }
 // A plate of 2 cm over the ground whose underside comes down from 1 cm to `lowest` [m].
 void add_press(Scene& scene, double lowest) {
   Obstacle ground, plate;
-  plate.kind = "box";
+  plate.kind = ObstacleKind::box;
   plate.size = {0.2, 0.2, 0.01};
   plate.center = {0.05, 0.05, 0.02};
   plate.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, lowest - 0.01}, 0}};
@@ -169,7 +169,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   scene.gravity.setZero();
   scene.contact_stiffness = 1e6;
   Obstacle ball;
-  ball.kind = "sphere";
+  ball.kind = ObstacleKind::sphere;
   ball.radius = 0.03;
   ball.center = {0.1, 0.1, -0.05};
   ball.motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0, 0, 0.1}, 0}};  // 7.5 m/s in its middle

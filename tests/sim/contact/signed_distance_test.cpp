@@ -14,11 +14,11 @@ using Solid = Shape<double>;
 constexpr double kRounding = 1e-14;  // a few operations on lengths of order one
 constexpr double kRadius = 0.5, kHalfHeight = 0.3, kRim = 0.05;
 
-const Solid kGround{ShapeKind::ground, Vector3d::Zero(), 0};
-const Solid kSphere{ShapeKind::sphere, Vector3d::Constant(kRadius), 0};
-const Solid kCylinder{ShapeKind::cylinder, Vector3d(kRadius, kRadius, kHalfHeight), kRim};
-const Solid kBox{ShapeKind::box, Vector3d(0.5, 0.4, 0.3), kRim};
-const Solid kCapsule{ShapeKind::capsule, Vector3d(kRadius, kRadius, kHalfHeight), 0};
+const Solid kGround{ObstacleKind::ground, Vector3d::Zero(), 0};
+const Solid kSphere{ObstacleKind::sphere, Vector3d::Constant(kRadius), 0};
+const Solid kCylinder{ObstacleKind::cylinder, Vector3d(kRadius, kRadius, kHalfHeight), kRim};
+const Solid kBox{ObstacleKind::box, Vector3d(0.5, 0.4, 0.3), kRim};
+const Solid kCapsule{ObstacleKind::capsule, Vector3d(kRadius, kRadius, kHalfHeight), 0};
 
 double distance(const Solid& s, const Vector3d& p) { return signed_distance(s, p).value; }
 
@@ -79,7 +79,7 @@ TEST(SignedDistance, NormalTurnsSmoothlyAroundTheRim) {
   constexpr int kSteps = 2000;
   constexpr double kPath = 0.2;
   const double inner = kRadius - kRim, lid = kHalfHeight - kRim, quarter = kRim * std::acos(0.0);
-  for (const Solid& s : {kCylinder, Solid{ShapeKind::box, kCylinder.half, kRim}}) {
+  for (const Solid& s : {kCylinder, Solid{ObstacleKind::box, kCylinder.half, kRim}}) {
     Vector3d last = Vector3d::UnitZ();
     for (int i = 0; i <= kSteps; ++i) {
       const double walked =

@@ -96,7 +96,7 @@ TEST(Start, OfAThicknessBeyondTheMeshStillKeepsLayersApart) {
 }
 
 struct Solid {
-  const char* kind;
+  ObstacleKind kind;
   Vector3d center;
   double depth;  // of the cloth's deepest vertex below its surface [m]
 };
@@ -120,20 +120,20 @@ Trial sheet_with(const Solid& solid) {
 TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
   const double t = Fabric{}.thickness;
   for (const Solid& solid :
-       {Solid{"sphere", {0.1, 0.1, -0.03}, 0.02}, Solid{"box", {0.1, 0.1, -0.04}, 0.01},
-        Solid{"cylinder", {0.1, 0.1, -0.04}, 0.01}, Solid{"ground", {0, 0, 0.004}, 0.004},
-        Solid{"capsule", {0.1, 0.1, -0.09}, 0.01}}) {
+       {Solid{ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0.02}, Solid{ObstacleKind::box, {0.1, 0.1, -0.04}, 0.01},
+        Solid{ObstacleKind::cylinder, {0.1, 0.1, -0.04}, 0.01}, Solid{ObstacleKind::ground, {0, 0, 0.004}, 0.004},
+        Solid{ObstacleKind::capsule, {0.1, 0.1, -0.09}, 0.01}}) {
     const Trial trial = sheet_with(solid);
     const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, 0, 0);
     const Immersion found = deepest(set, trial.cloth.start, std::vector<char>(trial.cloth.start.size()), t);
-    EXPECT_NEAR(found.depth, solid.depth, 1e-12) << solid.kind;
+    EXPECT_NEAR(found.depth, solid.depth, 1e-12) << name_of(solid.kind);
     const Failure failure = start_of(trial);
-    EXPECT_EQ(failure.exit_code, 2) << solid.kind;
+    EXPECT_EQ(failure.exit_code, 2) << name_of(solid.kind);
     char depth[32];
     std::snprintf(depth, sizeof depth, "%.3g mm", 1e3 * solid.depth);
     expect_naming(failure,
                   {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]), depth,
-                   std::string("inside obstacle[1] (") + solid.kind + ")", "fabric.thickness = 0.497 mm",
+                   std::string("inside obstacle[1] (") + name_of(solid.kind) + ")", "fabric.thickness = 0.497 mm",
                    "of " + std::to_string(found.count) + " such vertices"});
   }
 }

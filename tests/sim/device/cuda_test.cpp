@@ -24,7 +24,7 @@ Scene busy_scene(const std::string& law, const std::string& element, const std::
   scene.solver_tolerance = 1e-10;
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 10}};
   Obstacle sphere;
-  sphere.kind = "sphere";
+  sphere.kind = ObstacleKind::sphere;
   sphere.radius = 0.04;
   sphere.center = {0.1, 0.05, -0.042};
   if (integrator != "explicit") scene.obstacle = {sphere};

@@ -70,7 +70,7 @@ TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.02, 0.03, 0.01}, 20}};
   if (!statics) scene.pin[1].until = 0.03;
   Obstacle sphere;
-  sphere.kind = "sphere";
+  sphere.kind = ObstacleKind::sphere;
   sphere.radius = 0.04;
   sphere.center = {0.1, 0.1, -0.045};
   sphere.motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 30}};

@@ -142,7 +142,7 @@ Trial draping() {
   scene.law = "prandtl";
   scene.solver_tolerance = 1e-4;
   Obstacle sphere;
-  sphere.kind = "sphere";
+  sphere.kind = ObstacleKind::sphere;
   sphere.radius = 0.05;
   sphere.center = {0.1, 0.05, -0.051};
   scene.obstacle = {sphere};
