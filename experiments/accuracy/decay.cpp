@@ -72,7 +72,7 @@ Found solve(const Setting& setting) {
   const auto amplitudes =
       amplitudes_by_energy(decaying_bend(scene), mode_curvatures(kParts), decay_first_amplitude(), kCycles);
   found.reference = 1 - amplitudes.back() / amplitudes.front();
-  const Overhang flat = overhang(scene, decay_length());
+  const CantileverStrip flat = overhang(scene, decay_length());
   found.triangles = flat.cloth.mesh.faces();
   const auto simulation = make_simulation(flat.scene, bent_in_first_mode(flat));
   const auto start = std::chrono::steady_clock::now();

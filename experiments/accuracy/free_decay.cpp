@@ -20,7 +20,7 @@ constexpr double kBeta = 1.8751040687119611;
 const double kOdd = (std::sinh(kBeta) - std::sin(kBeta)) / (std::cosh(kBeta) + std::cos(kBeta));
 
 // From the clamp's middle to its inner column [m].
-double slack_of(const Overhang& flat) { return flat.scene.cloth.length - flat.length; }
+double slack_of(const CantileverStrip& flat) { return flat.scene.cloth.length - flat.length; }
 
 // Downwards, of a strip whose free end is deflected by `end`, at a distance from the clamp's middle [m].
 struct BentStrip {
@@ -46,7 +46,7 @@ struct BentStrip {
 
 // Weights of the vertices' deflections that take the first mode out of them: masses times mode, to which the
 // higher modes are orthogonal.
-std::vector<double> first_mode_weights(const Overhang& flat) {
+std::vector<double> first_mode_weights(const CantileverStrip& flat) {
   std::vector<double> weight;
   double norm = 0;
   for (int i = 0; i < flat.cloth.mesh.vertices(); ++i) {
@@ -163,7 +163,7 @@ double decay_period(const Scene& scene) {
 }
 
 // Curvature begins at the clamp's middle, but cloth is held level up to the clamp's inner column.
-Cloth bent_in_first_mode(const Overhang& flat) {
+Cloth bent_in_first_mode(const CantileverStrip& flat) {
   Cloth cloth = flat.cloth;
   const double slack = slack_of(flat);
   const BentStrip strip{kDeflection * flat.length, flat.length, slack};
@@ -175,7 +175,7 @@ Cloth bent_in_first_mode(const Overhang& flat) {
   return cloth;
 }
 
-MeasuredDecay measure_decay(Simulation& simulation, const Overhang& flat, int cycles) {
+MeasuredDecay measure_decay(Simulation& simulation, const CantileverStrip& flat, int cycles) {
   const Scene& scene = flat.scene;
   const auto deflection = [&, weight = first_mode_weights(flat)] {
     const std::vector<Eigen::Vector3d> x = simulation.positions();

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "experiments/specimens/overhang.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -54,7 +54,7 @@ DecayingBend decaying_bend(const Scene& scene);
 double decay_period(const Scene& scene);
 
 // `flat` at rest in its first mode, amplitude decay_first_amplitude(), at the lengths it has when flat.
-Cloth bent_in_first_mode(const Overhang& flat);
+Cloth bent_in_first_mode(const CantileverStrip& flat);
 
 struct MeasuredDecay {
   // The first mode's part of the free end's deflection, at the start and after each cycle [m]: higher modes
@@ -67,6 +67,6 @@ struct MeasuredDecay {
 
 // Runs the simulation of a strip that starts as above until it has come back `cycles` times.  Error::run if
 // that takes much longer than the strip's period.
-MeasuredDecay measure_decay(Simulation& simulation, const Overhang& flat, int cycles);
+MeasuredDecay measure_decay(Simulation& simulation, const CantileverStrip& flat, int cycles);
 
 }  // namespace hysteron::experiments

@@ -6,7 +6,7 @@
 
 #include "experiments/accuracy/accuracy.h"
 #include "experiments/kes/strip.h"
-#include "experiments/specimens/overhang.h"
+#include "experiments/specimens/cantilever_strip.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -66,7 +66,7 @@ class Curves {
 };
 
 Sag sag_of_cloth(const Scene& scene, Found& found) {
-  const Overhang strip = overhang(scene, kLength);
+  const CantileverStrip strip = overhang(scene, kLength);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   const auto start = std::chrono::steady_clock::now();
   const auto drop = [&] { return strip.free_end(simulation->positions()).y() / kLength; };

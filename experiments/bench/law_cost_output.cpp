@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "experiments/bench/law_cost.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 #include "render/plot.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"

@@ -77,11 +77,11 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
   question.bounds = bounds_of(strip.kind, strip.length, scene.cloth.width);
   question.columns = {"gamma [1]", "deflection [1]"};
   const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s
-  question.measure = [&](const Moment& m) -> std::vector<double> {
+  question.measure = [&](const Snapshot& m) -> std::vector<double> {
     last = strip.deflection(m.x) / strip.length;
     return {gamma(m.time), last};
   };
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[100];
     std::snprintf(text, sizeof text, "Gamma %.3f  the end has moved by %.4f of the length", gamma(m.time),
                   last);

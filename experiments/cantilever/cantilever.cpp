@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "experiments/specimens/overhang.h"
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/session/session.h"
 
 namespace hysteron::experiments {
@@ -83,7 +83,7 @@ int run_cantilever(const CommandLine& line) {
         choice.gamma * scene.fabric.b2 / (scene.gravity.norm() * std::pow(scene.cloth.length, 3));
   }
   const double length = scene.cloth.length;  // that hangs over
-  const Overhang strip = overhang(scene, length);
+  const CantileverStrip strip = overhang(scene, length);
   scene = strip.scene;
   Session session(line, setup, strip.cloth);
   if (session.only_explain()) return 0;
@@ -104,12 +104,12 @@ int run_cantilever(const CommandLine& line) {
   const float l = static_cast<float>(length), width = static_cast<float>(scene.cloth.width);
   question.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
   question.columns = {"load [1]", "drop [1]", "elastica [1]"};
-  question.measure = [&](const Moment& m) -> std::vector<double> {
+  question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const double drop = strip.free_end(m.x).y() / length;
     drops.see(drop, elastica_drop(m.time));
     return {load_at(scene, m.time), drop, elastica_drop(m.time)};
   };
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[100];
     std::snprintf(text, sizeof text, "load %.2f  drop %.4f of the length, elastica %.4f",
                   load_at(scene, m.time), drops.last, elastica_drop(m.time));

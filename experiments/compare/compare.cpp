@@ -8,8 +8,8 @@
 #include <set>
 
 #include "experiments/workbench/app/command_line.h"
-#include "experiments/workbench/compare/compared.h"
 #include "experiments/workbench/compare/comparison_captions.h"
+#include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/matching.h"
@@ -161,7 +161,7 @@ std::vector<std::string> words_of(const CommandLine& line) {
 
 struct Plan {
   std::vector<CommandLine> lines;  // of the columns
-  std::vector<ComparedColumn> columns;
+  std::vector<SweepColumn> columns;
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
   std::size_t laws = 0;   // different ones
@@ -185,7 +185,7 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
     double scale = 1;
     std::vector<Flag> own = variant.flags;
     for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
-    ComparedColumn column;
+    SweepColumn column;
     column.name = variant.name.empty() ? inner.experiment : variant.name;
     if (column.name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);
@@ -204,12 +204,12 @@ Plan plan_of(const CommandLine& inner, const CompareChoice& choice, const std::f
 }
 
 // "Swing: cotton-broad, bdf2": what all columns share.
-std::string title_of(const CommandLine& line, const std::vector<ComparedColumn>& columns) {
+std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& columns) {
   std::string title = line.names[0];
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const auto shared = [&](const auto& read) {
     std::string text;
-    for (const ComparedColumn& c : columns) {
+    for (const SweepColumn& c : columns) {
       if (!c.manifest.is_object()) continue;
       const std::string own = read(c.manifest.at("scene"));
       if (!text.empty() && own != text) return std::string();
@@ -227,7 +227,7 @@ std::string title_of(const CommandLine& line, const std::vector<ComparedColumn>&
 
 void write_table(Run& run, const Plan& plan) {
   std::vector<ComparisonRow> rows;
-  for (const ComparedColumn& c : plan.columns) {
+  for (const SweepColumn& c : plan.columns) {
     rows.push_back({c.name, {}, c.stopped});
     const Json metrics =
         c.manifest.is_object() ? c.manifest.value("metrics", Json::object()) : Json::object();
@@ -299,9 +299,9 @@ int run_compare(const CommandLine& line) {
   const CommandLine inner = line_of_columns(line, choice);
   Plan plan = plan_of(inner, choice, options.out);
   if (options.explain) return explain_columns(plan);
-  ColumnJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
-                  last_text(inner.flags, "device", "auto") != "cpu",
-                  choice.difference == "curvature" ? plan.to : -1};
+  SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
+                 last_text(inner.flags, "device", "auto") != "cpu",
+                 choice.difference == "curvature" ? plan.to : -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
@@ -309,23 +309,23 @@ int run_compare(const CommandLine& line) {
   claim_files(run, !options.no_images);
   run_columns(
       plan.columns, jobs,
-      [&](const ComparedColumn& c) {
+      [&](const SweepColumn& c) {
         run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
       },
       [&](const std::string& line) { run.progress(line); });
   write_table(run, plan);
   if (!options.no_images) {
-    const ComparedPage page{title_of(line, plan.columns),
-                            notes_of(choice, plan),
-                            choice.rows,
-                            options.looks().front(),
-                            plan.to,
-                            choice.difference == "curvature",
-                            !choice.no_outlines,
-                            choice.video};
+    const ComparisonPage page{title_of(line, plan.columns),
+                              notes_of(choice, plan),
+                              choice.rows,
+                              options.looks().front(),
+                              plan.to,
+                              choice.difference == "curvature",
+                              !choice.no_outlines,
+                              choice.video};
     const auto stage = run.stage("render");
-    draw_compared(run, page, plan.columns);
-    plot_compared(run, page.title, plan.columns);
+    draw_comparison_page(run, page, plan.columns);
+    plot_comparison(run, page.title, plan.columns);
     write_comparison_captions(run, page, inner.experiment, line.command, plan.columns);
   }
   run.finish();

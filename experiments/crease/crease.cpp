@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "experiments/crease/creased.h"
+#include "experiments/crease/specimen.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
@@ -86,7 +86,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.5f : 0.85f) * length}};
   question.floor = low;
   question.columns = {"opening [degree]", "plate_force [N]"};
-  question.measure = [&](const Moment& m) -> std::vector<double> {
+  question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const bool plate =
         m.time > crease.times.folded && m.time <= crease.times.released + crease.scene.step / 2;
     const double force = plate ? crease.plate_force(m.x, m.time) : 0;
@@ -96,7 +96,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
     recovered.opening.push_back(crease.opening(m.x));
     return {recovered.opening.back(), force};
   };
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[100];
     std::snprintf(text, sizeof text, "t = %.3f s  opening %.1f degree", m.time, recovered.opening.back());
     return std::string(text);

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "experiments/workbench/compare/law_page.h"
-#include "experiments/workbench/pictures/wrinkles.h"
+#include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
@@ -40,13 +40,13 @@ Setup defaults() {
   return setup;
 }
 
-struct Wrinkles {
+struct RidgeMetrics {
   double ridges = 0;     // length [m]
   double curvature = 0;  // of the shape, root mean square [1/m]
   double residual = 0;   // what would be left without load, likewise [1/m]
 };
 
-Wrinkles wrinkles_of(Session& session, const C& choice) {
+RidgeMetrics wrinkles_of(Session& session, const C& choice) {
   const ClothMesh& mesh = session.cloth().mesh;
   Simulation& simulation = session.simulation();
   const int d = simulation.dimension();
@@ -69,17 +69,17 @@ render::Box box_of_start(const Cloth& cloth) {
   return box;
 }
 
-Question question_of(Session& session, const C& choice, Wrinkles& last) {
+Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
   Question question;
   question.bounds = box_of_start(session.cloth());
   const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
   question.bounds.high.z() += kHeadroom * size.z();
   question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
-  question.measure = [&](const Moment&) -> std::vector<double> {
+  question.measure = [&](const Snapshot&) -> std::vector<double> {
     last = wrinkles_of(session, choice);
     return {last.ridges, last.curvature, last.residual};
   };
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[120];
     std::snprintf(text, sizeof text, "t = %.3f s  %s  residual curvature %.1f 1/m  ridges %.2f m", m.time,
                   session.scene().phase_at(m.time).c_str(), last.residual, last.ridges);
@@ -115,13 +115,13 @@ std::vector<std::pair<std::string, render::Plot>> plots_of(const std::string& ti
           {"plot_curvature", {title, {"time [s]"}, {"curvature, root mean square [1/m]"}}}};
 }
 
-std::string caption_of(const Wrinkles& w) {
+std::string caption_of(const RidgeMetrics& w) {
   char text[160];
   std::snprintf(text, sizeof text, "curvature %.1f 1/m, residual %.1f 1/m", w.curvature, w.residual);
   return text;
 }
 
-void draw(Session& session, const Wrinkles& wrinkles, LawOutcome& outcome) {
+void draw(Session& session, const RidgeMetrics& wrinkles, LawOutcome& outcome) {
   Pictures& pictures = *session.pictures();
   const Scene& scene = session.scene();
   const std::string caption = scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles);
@@ -149,7 +149,7 @@ LawOutcome crumple_once(const CommandLine& line) {
   Session session(line, setup);
   LawOutcome outcome;
   if (session.only_explain()) return outcome;
-  Wrinkles wrinkles;
+  RidgeMetrics wrinkles;
   session.simulate(question_of(session, choice, wrinkles));
   Simulation& simulation = session.simulation();
   const std::string& law = setup.scene.law;

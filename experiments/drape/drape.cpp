@@ -195,18 +195,18 @@ int run_drape(const CommandLine& line) {
   question.floor = -static_cast<float>(kPedestalHeight);
   question.columns = {"drape_coefficient [%]", "node_count"};
   double covered = 0, change = 0;  // the coefficient, and by how much the last record changed it [%]
-  question.measure = [&](const Moment& m) -> std::vector<double> {
+  question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const Outline outline = outline_from_above(session.cloth().mesh, m.x, kDirections);
     const double percent = drape_coefficient(outline.area(), choice.disc, setup.scene.cloth.radius);
     change = percent - covered;
     covered = percent;
     return {percent, static_cast<double>(outline.nodes(kProminence))};
   };
-  question.settled = [&](const Moment& m) {
+  question.settled = [&](const Snapshot& m) {
     return m.time > choice.released() + choice.lowering && m.fastest < choice.still;
   };
   question.to_rest = true;
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[120];
     std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time,
                   covered, m.fastest);

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <iostream>
 
-#include "experiments/fold/folding.h"
+#include "experiments/fold/flexing_machine.h"
 #include "experiments/fold/material.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -88,20 +88,20 @@ LawOutcome note(Run& run, std::vector<std::pair<std::string, double>> numbers, c
   return outcome;
 }
 
-Question question_of(const Fold& fold, Folding& folding) {
+Question question_of(const Fold& fold, FlexingMachine& folding) {
   const float width = static_cast<float>(fold.scene.cloth.width), free = static_cast<float>(fold.free_length),
               grip = (static_cast<float>(fold.scene.cloth.length) - free) / 2;
   Question question;
   question.bounds = {{-grip, 0, -free}, {free + grip, width, grip / 2}};
-  question.columns = Folding::columns();
-  question.measure = [&](const Moment& m) { return folding.measure(m); };
-  question.pictured = [&](const Moment&) { return folding.pictured(); };
-  question.progress = [&](const Moment& m) { return folding.progress(m); };
+  question.columns = FlexingMachine::columns();
+  question.measure = [&](const Snapshot& m) { return folding.measure(m); };
+  question.pictured = [&](const Snapshot&) { return folding.pictured(); };
+  question.progress = [&](const Snapshot& m) { return folding.progress(m); };
   return question;
 }
 
 // One series for each of the page's plots.
-std::vector<render::Series> series_of(Session& session, const Folding& folding) {
+std::vector<render::Series> series_of(Session& session, const FlexingMachine& folding) {
   const auto style = render::Series::Style::line_and_points;
   render::Series width = render::series_from_csv(session.run().path("material.csv"), "cycle", "2HB", "");
   for (double& newton : width.y) newton *= 1e3;
@@ -128,7 +128,7 @@ std::vector<FigureCaption> captions_of_cloth(const Scene& scene, const FoldChoic
        "Moment of the law against the curvature of the strip's most bent place in single cycles."}};
 }
 
-void plot(Session& session, const Folding& folding, const std::vector<render::Series>& series) {
+void plot(Session& session, const FlexingMachine& folding, const std::vector<render::Series>& series) {
   const std::string name = what(session.scene());
   session.plot("plot_recovery",
                {"Recovery angle, " + name, cycles_axis(), {"recovery angle [degree]"}, {series[0]}});
@@ -146,7 +146,7 @@ LawOutcome fold_cloth(const CommandLine& line, Request& request) {
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
   if (!request.setup.options.no_images) run.path("README.md");
-  Folding folding(fold, session);
+  FlexingMachine folding(fold, session);
   session.simulate(question_of(fold, folding));
   folding.finish();
   const FoldReading& last = folding.reading();

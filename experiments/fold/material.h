@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiments/fold/folded.h"
+#include "experiments/fold/specimen.h"
 #include "sim/bending/laws/law_run.h"
 
 namespace hysteron::experiments {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/specimens/overhang.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
 

@@ -6,7 +6,7 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/swing/decay_shape.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
 
@@ -155,12 +155,12 @@ int run_swing(const CommandLine& line) {
   const float low = -length;
   question.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
   question.columns = {"tip_x [m]", "tip_height [m]"};
-  question.measure = [&](const Moment& m) -> std::vector<double> {
+  question.measure = [&](const Snapshot& m) -> std::vector<double> {
     times.push_back(m.time);
     swing.push_back(m.x[tip].x());
     return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
   };
-  question.progress = [&](const Moment& m) {
+  question.progress = [&](const Snapshot& m) {
     char text[100];
     std::snprintf(text, sizeof text, "t = %.3f s  tip at %.4f, %.4f m", m.time, m.x[tip].x(), m.x[tip].z());
     return std::string(text);

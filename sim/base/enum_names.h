@@ -10,7 +10,9 @@
 namespace hysteron {
 
 template <class E>
-concept Named = requires(E value) { names(value)[0]; };
+concept Named = requires(E value) {
+  names(value)[0];
+};
 
 template <Named E>
 std::string name_of(E value) {

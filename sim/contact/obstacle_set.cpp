@@ -21,7 +21,8 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     const Eigen::Matrix3d back = then.scale / now.scale * then.rotation * now.rotation.transpose();
     Obstacle3<Real>& item = set.item[set.count++];
     item.shape.kind = o.kind;
-    const Eigen::Vector3d half = o.kind == ObstacleKind::box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
+    const Eigen::Vector3d half =
+        o.kind == ObstacleKind::box ? o.size : Eigen::Vector3d(o.radius, o.radius, o.height / 2);
     item.shape.half = (now.scale * half).cast<Real>();
     item.shape.rim = static_cast<Real>(now.scale * o.rim);
     item.rotation = (now.rotation * own).cast<Real>();

@@ -64,7 +64,7 @@ std::vector<int> Cloth::pins(const Scene& scene, double time) const {
     if (pin[i] >= 0 && time < scene.pin[pin[i]].until) result[i] = pin[i];
   for (std::size_t p = 0; p < scene.pin.size(); ++p)
     if (scene.pin[p].from > 0 && scene.pin[p].from <= time && time < scene.pin[p].until)
-      for (int vertex : grip[p]) result[vertex] = static_cast<int>(p);
+      for (int vertex : pin_vertices[p]) result[vertex] = static_cast<int>(p);
   return result;
 }
 
@@ -98,11 +98,11 @@ Cloth place_cloth(const Scene& scene, ClothMesh mesh) {
   for (const Eigen::Vector3d& x : cloth.mesh.rest) cloth.start.push_back(rotation * x + scene.cloth.position);
   cloth.pin.assign(cloth.mesh.vertices(), -1);
   for (std::size_t p = 0; p < scene.pin.size(); ++p) {
-    cloth.grip.push_back(selected(cloth.mesh, scene.pin[p]));
-    if (cloth.grip.back().empty())
+    cloth.pin_vertices.push_back(selected(cloth.mesh, scene.pin[p]));
+    if (cloth.pin_vertices.back().empty())
       throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
     if (scene.pin[p].from > 0) continue;
-    for (int vertex : cloth.grip.back()) cloth.pin[vertex] = static_cast<int>(p);
+    for (int vertex : cloth.pin_vertices.back()) cloth.pin[vertex] = static_cast<int>(p);
   }
   return cloth;
 }

@@ -12,7 +12,7 @@ struct Cloth {
   ClothMesh mesh;
   std::vector<Eigen::Vector3d> start;  // positions at t = 0 [m]
   std::vector<int> pin;                // per vertex: the scene's pin that holds it at t = 0, -1 = free
-  std::vector<std::vector<int>> grip;  // per pin: its vertices
+  std::vector<std::vector<int>> pin_vertices;  // per pin: its vertices
 
   // Per vertex: the pin that holds it at `time` [s], -1 = free.
   std::vector<int> pins(const Scene& scene, double time) const;

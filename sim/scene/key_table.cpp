@@ -21,7 +21,7 @@ template <class... Cases>
 Overload(Cases...) -> Overload<Cases...>;
 
 std::string type_name(const Field& field) {
-  static const char* const kNames[] = {"flag",   "integer", "integer",   "number",
+  static const char* const kNames[] = {"flag",   "integer", "integer",    "number",
                                        "vector", "text",    "name=value", "text"};
   return kNames[field.index()];
 }
@@ -212,9 +212,10 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
                         const auto* text = std::get_if<std::string>(&value);
                         if (!text) throw wrong_type(what, value, origin);
                         check_choice(what, *text, origin);
-                        target.set(target.value, static_cast<std::size_t>(
-                                                     std::find(target.names.begin(), target.names.end(), *text) -
-                                                     target.names.begin()));
+                        target.set(target.value,
+                                   static_cast<std::size_t>(
+                                       std::find(target.names.begin(), target.names.end(), *text) -
+                                       target.names.begin()));
                       }},
              key.field);
 }
@@ -249,8 +250,8 @@ nlohmann::ordered_json to_json(const Keys& keys) {
     std::visit(Overload{[&](Eigen::Vector3d* v) {
                           entry = {v->x(), v->y(), v->z()};
                         },
-                        [&](Parameters* p) { entry = *p; },
-                        [&](const NamedValue& x) { entry = x.name(); }, [&](auto* x) { entry = *x; }},
+                        [&](Parameters* p) { entry = *p; }, [&](const NamedValue& x) { entry = x.name(); },
+                        [&](auto* x) { entry = *x; }},
                key.field);
   }
   return tree;

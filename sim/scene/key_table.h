@@ -76,8 +76,8 @@ struct BoundKey {
 };
 using Keys = std::vector<BoundKey>;
 
-// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.  Those of
-// an enumeration are its names.
+// One line of a table.  Choices are written "sphere | box | (cone)"; those in parentheses are announced.
+// Those of an enumeration are its names.
 template <class Owner>
 struct KeyRow {
   const char* path;

@@ -1,5 +1,6 @@
-// The kinds of obstacles.  To add one: a value and its name here, its signed distance (sim/contact/signed_distance.h),
-// its half thickness (scene_checks.cpp) and its mesh (the scene's renderer); what is missing does not compile.
+// The kinds of obstacles.  To add one: a value and its name here, its signed distance
+// (sim/contact/signed_distance.h), its half thickness (scene_checks.cpp) and its mesh (the scene's renderer);
+// what is missing does not compile.
 #pragma once
 
 #include <array>

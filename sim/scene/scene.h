@@ -115,7 +115,7 @@ struct Obstacle {
 // An order to the bending elements whose middle lies in the box on the flat cloth.
 struct Command {
   CommandKind kind = CommandKind::iron;   // command.kind
-  double time = 0;            // command.time  [s]
+  double time = 0;                        // command.time  [s]
   Eigen::Vector3d low{-1e3, -1e3, -1e3};  // command.low   box corner in builder coordinates [m]
   Eigen::Vector3d high{1e3, 1e3, 1e3};    // command.high
 };

@@ -43,9 +43,9 @@ template <class Real, class Device>
 void Stepper<Real, Device>::advance(int steps) {
   const bool adaptive = scene_.tolerance > 0;
   for (int s = 0; s < steps; ++s) {
-    obey(time(), time() + scene_.step);
+    carry_out_commands(time(), time() + scene_.step);
     // Stages of this step that end with an implicit solve or, explicit, with the contact's history.
-    const int stages = together_ ? limits_.substeps : 1;
+    const int stages = coupled_ ? limits_.substeps : 1;
     if (adaptive && !all_implicit_) adaptive_stages(time());
     for (int k = 0; k < stages && !all_implicit_ && !adaptive; ++k)
       stage(time() + scene_.step * k / stages, static_cast<Real>(scene_.step / stages));
@@ -57,7 +57,7 @@ void Stepper<Real, Device>::advance(int steps) {
 
 // Commands act on the state accepted last, at the beginning of the step in which they are due.
 template <class Real, class Device>
-void Stepper<Real, Device>::obey(double start, double end) {
+void Stepper<Real, Device>::carry_out_commands(double start, double end) {
   for (const Command& command : scene_.command) {
     if (command.time < start || command.time >= end) continue;
     std::vector<char> chosen;
@@ -84,13 +84,13 @@ void Stepper<Real, Device>::refuse_divergence() {
 
 template <class Real, class Device>
 void Stepper<Real, Device>::stage(double start, Real h) {
-  if (layers_) return stage_of_layers(start, h);
+  if (with_self_contact_) return self_contact_stage(start, h);
   hold(start, h);
   if (contact_) {
     contact_->move(start, start + static_cast<double>(h));
     remember_positions();
   }
-  if (together_) {
+  if (coupled_) {
     gather_impulses(h);
   } else {
     for (int k = 0; k < limits_.substeps; ++k)
@@ -102,7 +102,7 @@ void Stepper<Real, Device>::stage(double start, Real h) {
 
 // Bending's force is that at the start, also where the step is then taken in parts.
 template <class Real, class Device>
-void Stepper<Real, Device>::stage_of_layers(double start, Real h) {
+void Stepper<Real, Device>::self_contact_stage(double start, Real h) {
   hold(start, h);
   clock_.begin(Stage::bending);
   bending_.commit(x_.data(), v_.data(), h);
@@ -120,7 +120,7 @@ void Stepper<Real, Device>::remember_positions() {
 
 // Hands that take hold or let go at this time or before it.
 template <class Real, class Device>
-void Stepper<Real, Device>::grip(double time) {
+void Stepper<Real, Device>::update_pins(double time) {
   const auto next = std::upper_bound(grip_times_.begin(), grip_times_.end(), time);
   next_grip_ = next == grip_times_.end() ? 1e30 : *next;
   const std::vector<int> pins = cloth_.pins(scene_, time);
@@ -129,7 +129,7 @@ void Stepper<Real, Device>::grip(double time) {
   book_grip(held);
   if (contact_) refuse_release(held_.download(), held, time);
   held_.upload(held);
-  if (moving_pins_) take_hold(pins, time);
+  if (moving_pins_) capture_pins(pins, time);
 }
 
 // A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
@@ -148,7 +148,7 @@ void Stepper<Real, Device>::book_grip(const std::vector<char>& held) {
 
 // What a hand takes starts where it is.
 template <class Real, class Device>
-void Stepper<Real, Device>::take_hold(const std::vector<int>& pins, double time) {
+void Stepper<Real, Device>::capture_pins(const std::vector<int>& pins, double time) {
   const std::vector<int> before = pin_.download();
   std::vector<Vec3<Real>> start = start_.download();
   const std::vector<Vec3<Real>> x = x_.download();
@@ -165,7 +165,7 @@ void Stepper<Real, Device>::take_hold(const std::vector<int>& pins, double time)
 // Held vertices move at the constant velocity that brings them to their place at the end of the step.
 template <class Real, class Device>
 void Stepper<Real, Device>::hold(double start, Real h) {
-  if (start >= next_grip_) grip(start);
+  if (start >= next_grip_) update_pins(start);
   if (contact_ && start >= next_obstacle_) meet_obstacles(start);
   if (!moving_pins_) return;
   PinPlacements<Real> placements;
@@ -305,7 +305,7 @@ void Stepper<Real, Device>::linear_system(Real h, bool first) {
   membrane_.assemble(h * h + h * membrane_.damping(), h * h, matrix);
   const MembraneForceView<Real> force = membrane_.forces();
   const Real* mass = mass_.data();
-  const bool together = together_;
+  const bool together = coupled_;
   const Vec3<Real>*total = change_.data(), *impulse = impulse_.data();
   Vec3<Real>* rhs = rhs_.data();
   for_each(
@@ -329,7 +329,7 @@ void Stepper<Real, Device>::implicit_stage(Real h) {
     linear_system(h, iteration == 0);
     clock_.begin(Stage::solve);
     const PcgOutcome outcome =
-        pcg_.solve({matrix_.view()}, held_.data(), rhs_.data(), together_ ? impulse_.data() : nullptr,
+        pcg_.solve({matrix_.view()}, held_.data(), rhs_.data(), coupled_ ? impulse_.data() : nullptr,
                    iteration == 0 ? change_.data() : nullptr, correction_.data(), scene_.solver_tolerance,
                    kMostIterations);
     solver_iterations_ += outcome.iterations;
@@ -362,7 +362,7 @@ void Stepper<Real, Device>::accept_implicit(Real h) {
   const BlockRowsView<Real> matrix = matrix_.view();
   const GatheredForces<Real> bending = bending_.forces();
   const Vec3<Real> g = scene_.gravity.cast<Real>();
-  const bool handles = moving_pins_, together = together_;
+  const bool handles = moving_pins_, together = coupled_;
   VertexLedger* ledger = ledger_.data();
   for_each(
       *device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {

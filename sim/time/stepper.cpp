@@ -42,8 +42,8 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       scene_(scene),
       explicit_(scene.integrator == "explicit"),
       all_implicit_(scene.is_implicit()),
-      layers_(scene.integrator == "semi-implicit" && scene.self_contact),
-      together_(!explicit_ && !all_implicit_ && scene.implicit_every == "substep"),
+      with_self_contact_(scene.integrator == "semi-implicit" && scene.self_contact),
+      coupled_(!explicit_ && !all_implicit_ && scene.implicit_every == "substep"),
       vertices_(cloth.mesh.vertices()),
       limits_(limits),
       clock_(*device_),
@@ -54,7 +54,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
                                    op.dimension, op.elements()),
                scene.force == "chapter" ? ForceConvention::chapter : ForceConvention::energy,
                scene.fabric.damping * scene.fabric.b1),
-      pcg_(*device_, explicit_ || all_implicit_ || layers_ ? 0 : vertices_),
+      pcg_(*device_, explicit_ || all_implicit_ || with_self_contact_ ? 0 : vertices_),
       cloth_(cloth),
       x_(*device_, cast<Real>(cloth.start)),
       v_(*device_, vertices_),
@@ -63,10 +63,10 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
       held_(*device_, cloth.held(scene, 0)),
       ledger_(*device_, vertices_),
       size_(*device_, 1) {
-  if (!explicit_ && !all_implicit_ && !layers_) {
+  if (!explicit_ && !all_implicit_ && !with_self_contact_) {
     change_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
     correction_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
-    if (together_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    if (coupled_) impulse_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   bool homing = false;
   for (const Pin& pin : scene.pin) {
@@ -80,7 +80,7 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     start_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
     if (homing) home_ = Buffer<Vec3<Real>, Device>(*device_, cast<Real>(cloth.start));
     pin_ = Buffer<int, Device>(*device_, cloth.pins(scene, 0));
-    if (all_implicit_ || layers_) handle_way_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
+    if (all_implicit_ || with_self_contact_) handle_way_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {
@@ -92,11 +92,12 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
     self_contact_.emplace(*device_, cloth.mesh, scene);
     if (before_.size() == 0) before_ = Buffer<Vec3<Real>, Device>(*device_, vertices_);
   }
-  if (all_implicit_ || layers_)
+  if (all_implicit_ || with_self_contact_)
     implicit_ = std::make_unique<ImplicitStep<Real, Device>>(
         *device_, scene, mass_, matrix_, membrane_, bending_, contact_ ? &*contact_ : nullptr,
         self_contact_ ? &*self_contact_ : nullptr,
-        make_linear_solver<Real>(*device_, scene, cloth, layers_ ? 0.0 : bending_.law().largest_stiffness()));
+        make_linear_solver<Real>(*device_, scene, cloth,
+                                 with_self_contact_ ? 0.0 : bending_.law().largest_stiffness()));
   bending_.commit(x_.data(), v_.data(), 0);
   if (self_contact_) {
     self_contact_->prepare(x_.data(), v_.data(), held_.data());  // at rest: v = 0

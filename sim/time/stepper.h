@@ -66,12 +66,12 @@ class Stepper : public Simulation {
   long deep_steps() const override { return deep_steps_; }
 
   // The parts of advance(); public because nvcc allows no device lambda in a private member function.
-  void obey(double start, double end);  // commands that are due
-  void stage(double start, Real h);     // one implicit solve and what leads to it
-  void stage_of_layers(double start, Real h);
-  void grip(double time);  // pins take hold and let go
+  void carry_out_commands(double start, double end);  // commands that are due
+  void stage(double start, Real h);                   // one implicit solve and what leads to it
+  void self_contact_stage(double start, Real h);
+  void update_pins(double time);  // pins take hold and let go
   void book_grip(const std::vector<char>& held);
-  void take_hold(const std::vector<int>& pins, double time);
+  void capture_pins(const std::vector<int>& pins, double time);
   void hold(double start, Real h);  // pins: which vertices are held, and their velocity in this stage
   void gather_impulses(Real h);  // bending and external forces, for a stage in which all forces act together
   void substep(Real dt);         // bending and external forces, explicit
@@ -108,9 +108,9 @@ class Stepper : public Simulation {
   std::unique_ptr<Device> device_;
   Scene scene_;
   bool explicit_;
-  bool all_implicit_;  // bending too
-  bool layers_;        // semi-implicit with self-contact: an implicit step whose bending lags
-  bool together_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
+  bool all_implicit_;       // bending too
+  bool with_self_contact_;  // semi-implicit with self-contact: an implicit step whose bending lags
+  bool coupled_;  // all forces in one solve per substep; else the chapter's substeps and one solve per step
   int vertices_;
   long step_count_ = 0;
   double part_ = 0;  // of adaptive steps: the coming one [s]

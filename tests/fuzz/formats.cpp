@@ -5,7 +5,7 @@
 #include "experiments/fit/series.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/word_table.h"
+#include "experiments/workbench/pages/text_table.h"
 #include "render/image.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"

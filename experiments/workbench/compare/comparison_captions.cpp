@@ -7,7 +7,7 @@
 #include "experiments/workbench/pages/figure_captions.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -45,7 +45,7 @@ std::string question_of(const std::string& name) {
 }
 
 // In the order in which they are shown, those that a column shows.
-std::string numbers_text(const std::vector<ComparedColumn>& columns) {
+std::string numbers_text(const std::vector<SweepColumn>& columns) {
   std::string text;
   for (const std::string& key : shown_metrics(columns)) {
     const NamedUnit what = split_unit(key);
@@ -56,7 +56,7 @@ std::string numbers_text(const std::vector<ComparedColumn>& columns) {
   return text.empty() ? "" : text + "; ms per step, computing time without pictures.";
 }
 
-std::string rows_text(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::string text;
   for (const std::string& moment : shown_moments(page, columns)) text += (text.empty() ? "" : "; ") + moment;
   text = "Rows: " + text + " (each column's picture nearest to that time, in look " + page.look +
@@ -72,18 +72,18 @@ std::string rows_text(const ComparedPage& page, const std::vector<ComparedColumn
   return text;
 }
 
-std::string columns_text(const std::vector<ComparedColumn>& columns) {
+std::string columns_text(const std::vector<SweepColumn>& columns) {
   std::string text;
-  for (const ComparedColumn& c : columns)
+  for (const SweepColumn& c : columns)
     text += (text.empty() ? "Columns: " : ", ") + c.name +
             (c.stopped.empty() ? "" : " (stopped: " + c.stopped + ")");
   return text + ".";
 }
 
-std::string facts_text(const std::vector<ComparedColumn>& columns) {
+std::string facts_text(const std::vector<SweepColumn>& columns) {
   std::vector<std::string> names;
   std::vector<const Json*> manifests;
-  for (const ComparedColumn& c : columns)
+  for (const SweepColumn& c : columns)
     if (c.manifest.is_object()) names.push_back(c.name), manifests.push_back(&c.manifest);
   return facts_of(names, manifests);
 }
@@ -101,8 +101,8 @@ std::string plotted(const std::string& stem) {
 }
 
 // What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
-std::string shown_in(const std::string& stem, const std::vector<ComparedColumn>& columns) {
-  for (const ComparedColumn& c : columns)
+std::string shown_in(const std::string& stem, const std::vector<SweepColumn>& columns) {
+  for (const SweepColumn& c : columns)
     if (c.manifest.is_object())
       for (const Json& curve : c.manifest.value("curves", Json::array()))
         if (curve.at("plot") == stem) return curve.value("caption", "");
@@ -120,8 +120,8 @@ std::string joined(const std::vector<std::string>& sentences) {
 
 }  // namespace
 
-void write_comparison_captions(Run& run, const ComparedPage& page, const std::string& experiment,
-                               const std::string& command, const std::vector<ComparedColumn>& columns) {
+void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
+                               const std::string& command, const std::vector<SweepColumn>& columns) {
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),

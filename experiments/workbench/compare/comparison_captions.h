@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/compare/compared.h"
+#include "experiments/workbench/compare/comparison_page.h"
 
 namespace hysteron::experiments {
 
 // README.md of the run's folder: a caption each for sheet.png and for the plots that are there.  `experiment`
 // is what the columns ran, `command` how the page was asked for.
-void write_comparison_captions(Run& run, const ComparedPage& page, const std::string& experiment,
-                               const std::string& command, const std::vector<ComparedColumn>& columns);
+void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
+                               const std::string& command, const std::vector<SweepColumn>& columns);
 
 }  // namespace hysteron::experiments

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/compare/columns.h"
 #include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
@@ -48,14 +48,14 @@ bool is_passed_on(const Flag& flag) {
   return !flag.path.starts_with("errors.") && !std::count(kNames.begin(), kNames.end(), flag.path);
 }
 
-ComparedColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
+SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
   std::vector<Flag> flags;
   std::copy_if(line.flags.begin(), line.flags.end(), std::back_inserter(flags), is_passed_on);
   flags = with_later(flags, repeat.changes);
   // A scene's file may say otherwise.
   flags = with_later(flags, {{"errors", "false"}, {"json", "false"}, {"no-images", "true"}});
   flags = with_later(flags, {{"look", "cloth"}, {"export", "none"}});
-  ComparedColumn column;
+  SweepColumn column;
   column.name = repeat.name;
   column.words = {line.experiment};
   for (const Flag& flag : flags) column.words.push_back("--" + flag.path + "=" + flag.text);
@@ -85,7 +85,7 @@ Json metrics_in(const Json& manifest) {
   return metrics.is_object() ? metrics : Json::object();
 }
 
-Repeated what_came_of(const Repeat& repeat, const ComparedColumn& column, const Run& run) {
+Repeated what_came_of(const Repeat& repeat, const SweepColumn& column, const Run& run) {
   const Json state = entry(column.manifest, "state_hash");
   return {repeat, metrics_in(column.manifest), column.stopped,
           state.is_string() && state == run.noted("state_hash")};
@@ -93,7 +93,7 @@ Repeated what_came_of(const Repeat& repeat, const ComparedColumn& column, const 
 
 // errors.csv: a row for each repeat.
 void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<Repeat>& repeats,
-                 const std::vector<ComparedColumn>& columns) {
+                 const std::vector<SweepColumn>& columns) {
   std::vector<std::string> head = {"repeat", "differs"};
   head.insert(head.end(), metrics.begin(), metrics.end());
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
@@ -140,16 +140,16 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const Headlines& headlines = *headlines_of(line.experiment);
   const std::vector<Repeat> repeats =
       repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
-  std::vector<ComparedColumn> columns;
+  std::vector<SweepColumn> columns;
   for (const Repeat& repeat : repeats) columns.push_back(column_of(run, line, repeat));
-  ColumnJobs jobs;
+  SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.cores = setup.scene.threads;
   jobs.gpu = setup.scene.device != "cpu";
   jobs.go_on = true;
   run_columns(
       columns, jobs,
-      [&](const ComparedColumn& column) {
+      [&](const SweepColumn& column) {
         run.progress("errors, " + column.name + ": " +
                      (column.kept              ? "kept"
                       : column.stopped.empty() ? "done"

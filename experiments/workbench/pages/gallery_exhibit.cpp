@@ -9,7 +9,7 @@
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"
-#include "experiments/workbench/pages/word_table.h"
+#include "experiments/workbench/pages/text_table.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -57,7 +57,7 @@ std::string warning(const Json& manifest) {
   return manifest.value("complete", false) ? "" : " " + state_badge(manifest);
 }
 
-std::string table_html(const std::string& caption, WordTable table, std::size_t columns) {
+std::string table_html(const std::string& caption, TextTable table, std::size_t columns) {
   const std::string common = take_common(table);
   if (table.head.size() > columns || table.rows.size() > kMostRows) return "";
   return html_details(caption + (common.empty() ? "" : ". In all rows " + common), html_of(table),
@@ -72,7 +72,7 @@ struct Tables {
 Tables tables_of(const Exhibit& exhibit, PageForm form) {
   Tables tables;
   for (const fs::path& file : files_ending(exhibit.folder, ".csv")) {
-    const WordTable table = read_words(file);
+    const TextTable table = read_words(file);
     const std::string size = counted(table.rows.size(), "row");
     tables.links +=
         " · " + file_link(exhibit.name + "/" + file_name(file), file_name(file), form) + " (" + size + ")";
@@ -120,7 +120,7 @@ Tables lists_of(const Exhibit& exhibit, PageForm form) {
         if (!is_aside(key)) metrics[file.stem().string() + "." + key] = value;
       }
     } else if (is_table(json)) {
-      WordTable table = table_of(json);
+      TextTable table = table_of(json);
       tables.html += table_html(file_name(file), table, kMostColumns);
     }
   }

@@ -38,11 +38,12 @@ Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulatio
       cloth_(cloth),
       simulation_(simulation),
       bounds_(bounds),
-      studio_([this, floor] {
-        return std::make_unique<Studio>(scene_, options_, cloth_, bounds_, floor, simulation_.cuda_device());
+      scene_renderer_([this, floor] {
+        return std::make_unique<SceneRenderer>(scene_, options_, cloth_, bounds_, floor,
+                                               simulation_.cuda_device());
       }) {
   if (!options_.reference.empty()) reference_.emplace(options_.reference);
-  studio_.run([this](Studio& studio) {
+  scene_renderer_.run([this](SceneRenderer& studio) {
     renderer_ = studio.offscreen().description();
     studio.view().share_positions(simulation_.share_positions(studio.view().position_buffer(),
                                                               studio.offscreen().cuda_device(), why_host_));
@@ -53,15 +54,16 @@ render::Camera Pictures::camera() const { return camera_of(options_, bounds_); }
 
 // The studio's thread reads the options while it draws.
 void Pictures::set_light(const std::string& light) {
-  studio_.wait();
+  scene_renderer_.wait();
   options_.light = light;
 }
 
 // The simulation stands still meanwhile, because the studio's thread reads its positions where they are.
 void Pictures::take_positions() {
-  if (studio_.run([this](Studio& studio) { return studio.view().write_positions(why_host_); })) return;
+  if (scene_renderer_.run([this](SceneRenderer& studio) { return studio.view().write_positions(why_host_); }))
+    return;
   const std::vector<float> xyz = flat_points(simulation_.positions());
-  studio_.run([&](Studio& studio) { studio.view().set_positions(xyz); });
+  scene_renderer_.run([&](SceneRenderer& studio) { studio.view().set_positions(xyz); });
 }
 
 std::vector<float> Pictures::values(const std::string& look) const {
@@ -95,8 +97,8 @@ std::string Pictures::captioned(const std::string& text) const {
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
   take_positions();
-  const Studio::Shown shown{simulation_.time(), values(look)};
-  return studio_.run([&](Studio& studio) {
+  const SceneRenderer::Shown shown{simulation_.time(), values(look)};
+  return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
     letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
@@ -134,14 +136,14 @@ void Pictures::frame(Run& run) {
   }
   ++frames_;
   note_frame(run, orders);
-  studio_.post([this, orders = std::move(orders)](Studio& studio) {
+  scene_renderer_.post([this, orders = std::move(orders)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     for (const Order& order : orders) fill(studio, order, &order == orders.data());
   });
 }
 
 // On the studio's thread.
-void Pictures::fill(Studio& studio, const Order& order, bool on_sheet) {
+void Pictures::fill(SceneRenderer& studio, const Order& order, bool on_sheet) {
   render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
   if (!options_.plain)
     letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)),
@@ -156,11 +158,12 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
   const render::Camera camera = render::Camera::top(box, 1);
   metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
   const std::vector<float> xyz = flat_points(simulation_.positions());
-  return studio_.run([&](Studio& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
+  return scene_renderer_.run(
+      [&](SceneRenderer& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
 }
 
 void Pictures::finish(Run& run, const std::string& title) {
-  studio_.wait();
+  scene_renderer_.wait();
   writer_.finish();
   std::vector<render::SheetEntry> cells;
   for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))

@@ -11,7 +11,7 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/reference_run.h"
-#include "experiments/workbench/pictures/studio.h"
+#include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
 #include "sim/base/own_thread.h"
@@ -51,13 +51,13 @@ class Pictures {
   struct Order {
     std::string look;
     std::filesystem::path file;
-    Studio::Shown shown;
+    SceneRenderer::Shown shown;
   };
 
   void take_positions();
   std::vector<float> values(const std::string& look) const;  // at present, one a vertex
   void note_frame(Run& run, const std::vector<Order>& orders);
-  void fill(Studio& studio, const Order& order, bool on_sheet);
+  void fill(SceneRenderer& studio, const Order& order, bool on_sheet);
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
@@ -77,7 +77,7 @@ class Pictures {
   std::vector<render::SheetEntry> thumbnails_;
   double render_seconds_ = 0;
   std::string renderer_;
-  OwnThread<Studio> studio_;
+  OwnThread<SceneRenderer> scene_renderer_;
 };
 
 }  // namespace hysteron::experiments

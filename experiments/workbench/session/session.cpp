@@ -9,7 +9,7 @@
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/closing_words.h"
 #include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/bending/vertex_curvature.h"
@@ -168,9 +168,9 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
   }
 }
 
-Moment Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
-                       double fastest, const std::string& left) {
-  const Moment moment{simulation_->time(), x, fastest};
+Snapshot Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+                         double fastest, const std::string& left) {
+  const Snapshot moment{simulation_->time(), x, fastest};
   std::vector<double> row = {moment.time, moment.fastest};
   for (double value : question.measure(moment)) row.push_back(value);
   for (const auto& [name, joules] : simulation_->ledger().rows()) row.push_back(joules);
@@ -233,7 +233,7 @@ bool Session::simulate(const Question& question) {
   for (int frame = 0;; ++frame) {
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Moment moment =
+    const Snapshot moment =
         record(question, series, x, fastest(x, before, stride * setup_.scene.step),
                time_left(simulation_->steps() - first_step, steps - first_step, spent, !!question.settled));
     settled = frame > 0 && question.settled && question.settled(moment);

@@ -17,7 +17,7 @@
 namespace hysteron::experiments {
 
 // What is known of a moment that is recorded.
-struct Moment {
+struct Snapshot {
   double time;                            // [s]
   const std::vector<Eigen::Vector3d>& x;  // positions [m]
   double fastest;  // largest displacement since the last moment over the time between [m/s]
@@ -28,11 +28,11 @@ struct Question {
   render::Box bounds;                // framed by the pictures [m]
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
-  std::function<std::vector<double>(const Moment&)> measure;
-  std::function<bool(const Moment&)> settled;  // ends the run early
+  std::function<std::vector<double>(const Snapshot&)> measure;
+  std::function<bool(const Snapshot&)> settled;  // ends the run early
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
-  std::function<bool(const Moment&)> pictured;  // which moments are drawn and exported; empty: all of them
-  std::function<std::string(const Moment&)> progress;
+  std::function<bool(const Snapshot&)> pictured;  // which moments are drawn and exported; empty: all of them
+  std::function<std::string(const Snapshot&)> progress;
 };
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
@@ -61,8 +61,8 @@ class Session {
 
  private:
   // A moment of the series: its row, pictures and checks.
-  Moment record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
-                double fastest, const std::string& left);
+  Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+                  double fastest, const std::string& left);
   bool find_rest(const Question& question, Record& series);
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);

@@ -97,7 +97,7 @@ Scene small_scene(DecayKind kind) {
 }
 
 MeasuredDecay vibrate(const Scene& scene, int cycles = kCycles) {
-  const Overhang flat = overhang(scene, decay_length());
+  const CantileverStrip flat = overhang(scene, decay_length());
   return measure_decay(*make_simulation(flat.scene, bent_in_first_mode(flat)), flat, cycles);
 }
 
@@ -107,7 +107,7 @@ std::vector<double> balance(DecayKind kind) {
 }
 
 TEST_P(Strip, StartsBentWithoutStretch) {
-  const Overhang flat = overhang(small_scene(GetParam()), decay_length());
+  const CantileverStrip flat = overhang(small_scene(GetParam()), decay_length());
   const auto simulation = make_simulation(flat.scene, bent_in_first_mode(flat));
   const Ledger ledger = simulation->ledger();
   const double a = decay_first_amplitude();

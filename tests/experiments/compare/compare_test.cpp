@@ -7,7 +7,7 @@
 #include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/matching.h"
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 #include "render/color_map.h"
 #include "render/comparison_sheet.h"
 #include "sim/base/error.h"

@@ -1,5 +1,5 @@
 // The crease recovery specimen, and what opens it.
-#include "experiments/crease/creased.h"
+#include "experiments/crease/specimen.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "sim/base/enum_names.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -148,7 +149,8 @@ TEST(Contact, TableTakenAwayLetsItsClothFall) {
 
 // Cloth over every kind of obstacle: no vertex ends up deeper than the shell.
 TEST(Contact, NothingFallsThroughAnyObstacle) {
-  for (const char* kind : {"ground", "sphere", "cylinder", "box", "capsule"}) {
+  for (const ObstacleKind kind : {ObstacleKind::ground, ObstacleKind::sphere, ObstacleKind::cylinder,
+                                  ObstacleKind::box, ObstacleKind::capsule}) {
     Scene scene = test::free_square(300);
     scene.law = "prandtl";
     scene.solver_tolerance = 1e-4;
@@ -159,16 +161,16 @@ TEST(Contact, NothingFallsThroughAnyObstacle) {
     o.height = 0.1;
     o.size = {0.05, 0.05, 0.05};
     o.rim = 0.005;
-    const std::string name = kind;
+    const std::string name = name_of(kind);
     o.center.z() = name == "ground" ? 0 : name == "sphere" ? -0.06 : name == "capsule" ? -0.11 : -0.05;
     scene.obstacle = {o};
     const Trial trial(scene);
     const auto simulation = trial.after(150);
     double top = -1;
     for (const Vector3d& x : simulation->positions()) top = std::max(top, x.z());
-    EXPECT_GT(top, 0) << kind;                         // held up
-    EXPECT_LT(top, scene.cloth.position.z()) << kind;  // it did fall onto it
-    EXPECT_GT(simulation->ledger().contact, 0) << kind;
+    EXPECT_GT(top, 0) << name;                         // held up
+    EXPECT_LT(top, scene.cloth.position.z()) << name;  // it did fall onto it
+    EXPECT_GT(simulation->ledger().contact, 0) << name;
   }
 }
 

@@ -94,7 +94,7 @@ Trial pressed_layers(double lowest) {
   for (Vector3d& x : trial.cloth.start) x.z() += Fabric{}.thickness;
   add_press(trial.scene, lowest);
   trial.scene.pin = {};
-  trial.cloth.grip = {};
+  trial.cloth.pin_vertices = {};
   std::fill(trial.cloth.pin.begin(), trial.cloth.pin.end(), -1);
   return trial;
 }
@@ -120,15 +120,15 @@ TEST(Press, OfTwoLayersBeyondTheirThicknessEndsTheRunWithPlaceAndTime) {
 TEST(Hands, ThatMoveTheClothThroughItselfEndTheRunWithThePlaceAndTheTime) {
   constexpr double kGap = 5e-3, kWay = 1e-2;  // [m]
   Trial trial = test::two_sheets(kGap, 60);
-  const int lower = static_cast<int>(trial.cloth.grip[0].size());
+  const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
   Pin hand;
   hand.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, -kWay}, 0}};
   trial.scene.pin.push_back(hand);
-  trial.cloth.grip.push_back({});
+  trial.cloth.pin_vertices.push_back({});
   for (int i = lower; i < trial.cloth.mesh.vertices(); ++i) {
     if (trial.cloth.mesh.rest[i].x() > 1 + 0.7 * test::kUpperSide) continue;
     trial.cloth.pin[i] = 1;
-    trial.cloth.grip[1].push_back(i);
+    trial.cloth.pin_vertices[1].push_back(i);
   }
   const Failure failure = press(trial, *trial.simulation());
   expect_naming(failure, {"pins move the cloth through itself, ", "edge "});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/base/enum_names.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/contact/self_touch.h"
 #include "sim/mesh/intersections.h"
@@ -119,10 +120,11 @@ Trial sheet_with(const Solid& solid) {
 
 TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
   const double t = Fabric{}.thickness;
-  for (const Solid& solid :
-       {Solid{ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0.02}, Solid{ObstacleKind::box, {0.1, 0.1, -0.04}, 0.01},
-        Solid{ObstacleKind::cylinder, {0.1, 0.1, -0.04}, 0.01}, Solid{ObstacleKind::ground, {0, 0, 0.004}, 0.004},
-        Solid{ObstacleKind::capsule, {0.1, 0.1, -0.09}, 0.01}}) {
+  for (const Solid& solid : {Solid{ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0.02},
+                             Solid{ObstacleKind::box, {0.1, 0.1, -0.04}, 0.01},
+                             Solid{ObstacleKind::cylinder, {0.1, 0.1, -0.04}, 0.01},
+                             Solid{ObstacleKind::ground, {0, 0, 0.004}, 0.004},
+                             Solid{ObstacleKind::capsule, {0.1, 0.1, -0.09}, 0.01}}) {
     const Trial trial = sheet_with(solid);
     const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, 0, 0);
     const Immersion found = deepest(set, trial.cloth.start, std::vector<char>(trial.cloth.start.size()), t);
@@ -133,14 +135,14 @@ TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
     std::snprintf(depth, sizeof depth, "%.3g mm", 1e3 * solid.depth);
     expect_naming(failure,
                   {"at the start " + vertex_text(found.vertex, trial.cloth.start[found.vertex]), depth,
-                   std::string("inside obstacle[1] (") + name_of(solid.kind) + ")", "fabric.thickness = 0.497 mm",
-                   "of " + std::to_string(found.count) + " such vertices"});
+                   std::string("inside obstacle[1] (") + name_of(solid.kind) + ")",
+                   "fabric.thickness = 0.497 mm", "of " + std::to_string(found.count) + " such vertices"});
   }
 }
 
 // A hollow sphere of 5 cm about the middle of the sheet: its corners are 10 sqrt(2) cm away.
 TEST(Start, OutsideAHollowSphereIsRefused) {
-  const Failure failure = start_of(sheet_with({"hollow", {0.1, 0.1, 0}, 0}));
+  const Failure failure = start_of(sheet_with({ObstacleKind::hollow, {0.1, 0.1, 0}, 0}));
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"91.4 mm outside obstacle[1] (hollow)", "vertex 0 at (0, 0, 0) m"});
 }
@@ -148,13 +150,13 @@ TEST(Start, OutsideAHollowSphereIsRefused) {
 TEST(Start, WithinTheShellOfAnObstacleIsFineAndOneThicknessDeeperIsTheLimit) {
   const double t = Fabric{}.thickness;
   for (double height : {0.0, 0.5, 1.0})  // of the cloth's middle surface above the ground, in thicknesses
-    EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, -height * t}, 0})).exit_code, 0) << height;
-  EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, 0.99 * t}, 0})).exit_code, 0);
-  EXPECT_EQ(start_of(sheet_with({"ground", {0, 0, 1.01 * t}, 0})).exit_code, 2);
+    EXPECT_EQ(start_of(sheet_with({ObstacleKind::ground, {0, 0, -height * t}, 0})).exit_code, 0) << height;
+  EXPECT_EQ(start_of(sheet_with({ObstacleKind::ground, {0, 0, 0.99 * t}, 0})).exit_code, 0);
+  EXPECT_EQ(start_of(sheet_with({ObstacleKind::ground, {0, 0, 1.01 * t}, 0})).exit_code, 2);
 }
 
 TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
-  Trial trial = sheet_with({"sphere", {0.1, 0.1, -0.03}, 0});
+  Trial trial = sheet_with({ObstacleKind::sphere, {0.1, 0.1, -0.03}, 0});
   Pin pin;
   pin.low = {0.055, 0.055, -1};
   pin.high = {0.145, 0.145, 1};
@@ -170,7 +172,7 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
 // What comes later cannot be known at the start.
 TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
   for (const char* integrator : {"semi-implicit", "implicit"}) {
-    Trial trial = sheet_with({"box", {0.1, 0.1, -0.04}, 0});
+    Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.04}, 0});
     trial.scene.integrator = integrator;
     trial.scene.gravity.setZero();
     trial.scene.obstacle[1].from = 0.02;
@@ -183,7 +185,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
 }
 
 TEST(Obstacles, AreAtMostTwelve) {
-  Trial trial = sheet_with({"box", {0.1, 0.1, -0.1}, 0});
+  Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.1}, 0});
   trial.scene.obstacle.resize(kMostObstacles + 1, trial.scene.obstacle[0]);
   const Failure failure = start_of(trial);
   EXPECT_EQ(failure.exit_code, 2);

@@ -29,10 +29,10 @@ inline Trial two_sheets(double gap, int triangles) {
     trial.cloth.start[i] += Eigen::Vector3d(0.2 * kUpperSide - 1, 0.2 * kUpperSide, gap);
   Pin hand;
   trial.scene.pin = {hand};
-  trial.cloth.grip = {{}};
+  trial.cloth.pin_vertices = {{}};
   for (int i = 0; i < lower.vertices(); ++i) {
     trial.cloth.pin[i] = 0;
-    trial.cloth.grip[0].push_back(i);
+    trial.cloth.pin_vertices[0].push_back(i);
   }
   return trial;
 }

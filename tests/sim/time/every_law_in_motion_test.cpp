@@ -50,7 +50,7 @@ TEST_P(EveryLawInMotion, LosesLittleToTheIntegratorAndLessInShorterSteps) {
   EXPECT_LT(fine, coarse);
 }
 
-Command command(const std::string& kind, double time) {
+Command command(CommandKind kind, double time) {
   Command c;
   c.kind = kind;
   c.time = time;
@@ -60,7 +60,7 @@ Command command(const std::string& kind, double time) {
 TEST(Commands, AnEditMakesThePresentShapeTheShapeAtRest) {
   Trial trial = rippled("grinspun-edit");
   const double initial = trial.simulation()->ledger().bending;
-  trial.scene.command = {command("edit", 0)};
+  trial.scene.command = {command(CommandKind::edit, 0)};
   const auto edited = trial.after(1);
   const Ledger ledger = edited->ledger();
   EXPECT_GT(initial, 1e-6);
@@ -81,7 +81,7 @@ TEST(Commands, IroningForgetsTheBendsOfItsRegionAlone) {
   Trial trial = rippled("prandtl");
   trial.scene.step = 1e-3;
   const auto creased = trial.after(40)->residual_curvature();
-  trial.scene.command = {command("iron", 0.04 - 1e-4)};
+  trial.scene.command = {command(CommandKind::iron, 0.04 - 1e-4)};
   trial.scene.command[0].low = {0.1, -1, -1};
   auto simulation = trial.after(39);
   const Ledger before = simulation->ledger();

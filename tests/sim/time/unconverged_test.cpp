@@ -67,7 +67,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
   pin.home = 0.2;
   scene.pin.push_back(pin);
   const Trial trial(scene);
-  const int corner = trial.cloth.grip.back()[0];
+  const int corner = trial.cloth.pin_vertices.back()[0];
   const auto simulation = trial.after(12);
   EXPECT_GT((simulation->positions()[corner] - trial.cloth.start[corner]).norm(), 1e-2);
   simulation->advance(24);

@@ -7,7 +7,7 @@
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/metrics.h"
-#include "experiments/workbench/pages/word_table.h"
+#include "experiments/workbench/pages/text_table.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -212,7 +212,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   EXPECT_FALSE(manifest.contains("errors_missing"));
   EXPECT_GT(manifest["wall_seconds"]["errors"].get<double>(), 0);
 
-  const WordTable table = read_words("run/errors.csv");
+  const TextTable table = read_words("run/errors.csv");
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
@@ -250,7 +250,7 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_step_error"].is_number());
   ASSERT_EQ(manifest["errors_missing"].size(), 1);
   EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
-  const WordTable table = read_words(folder.path() / "run/errors.csv");
+  const TextTable table = read_words(folder.path() / "run/errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");

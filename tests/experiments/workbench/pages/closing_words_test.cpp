@@ -2,7 +2,7 @@
 #include "experiments/workbench/pages/closing_words.h"
 
 #include "experiments/workbench/app/time_left.h"
-#include "experiments/workbench/compare/columns.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 #include "gtest/gtest.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pages/word_table.h"
+#include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -7,30 +7,30 @@
 namespace hysteron::experiments {
 namespace {
 
-WordTable table_in(const std::string& text) {
+TextTable table_in(const std::string& text) {
   const Folder folder;
   const std::filesystem::path file = folder.path() / "table.csv";
   std::ofstream(file, std::ios::binary) << text;
   return read_words(file);
 }
 
-TEST(WordTable, ReadsWhatRowsAreWrittenAs) {
+TEST(TextTable, ReadsWhatRowsAreWrittenAs) {
   const std::vector<std::vector<std::string>> rows = {
       {"law", "note"}, {"wong", "a, b"}, {"\"quoted\"", "two\nlines"}, {"", ""}};
   std::string text;
   for (const auto& row : rows) text += row_of(row);
-  const WordTable table = table_in(text);
+  const TextTable table = table_in(text);
   EXPECT_EQ(table.head, rows[0]);
   EXPECT_EQ(table.rows, std::vector(rows.begin() + 1, rows.end()));
 }
 
-TEST(WordTable, ToleratesCarriageReturnsAndAMissingLastEnd) {
-  const WordTable table = table_in("a,b\r\n1,2\r\n\r\n3,4");
+TEST(TextTable, ToleratesCarriageReturnsAndAMissingLastEnd) {
+  const TextTable table = table_in("a,b\r\n1,2\r\n\r\n3,4");
   EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"1", "2"}, {"3", "4"}}));
   EXPECT_TRUE(table_in("").head.empty());
 }
 
-TEST(WordTable, NamesTheLineOfABrokenRow) {
+TEST(TextTable, NamesTheLineOfABrokenRow) {
   for (const auto& [text, where] : {std::pair{"a,b\n\"x\ny\",2\n1,2,3\n", ":4: 3 fields, must be 2"},
                                     std::pair{"a,b\n1,2\n3,\"4\n5\n", ":3: a quote is not closed"}}) {
     try {
@@ -43,23 +43,23 @@ TEST(WordTable, NamesTheLineOfABrokenRow) {
   }
 }
 
-TEST(WordTable, OfObjectsHasAColumnForEveryKeyWhereItStands) {
-  const WordTable table =
+TEST(TextTable, OfObjectsHasAColumnForEveryKeyWhereItStands) {
+  const TextTable table =
       table_of(Json::parse(R"([{"law": "linear", "ms": 1.5}, {"law": "wong", "memory": 8, "rows": [1]}])"));
   EXPECT_EQ(table.head, (std::vector<std::string>{"law", "memory", "ms"}));
   EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"linear", "", "1.5"}, {"wong", "8", ""}}));
 }
 
-TEST(WordTable, SaysOnceWhatEveryRowSays) {
-  WordTable table = table_in("law,step_ms,failed,device\nwong,2.5,,cpu\ndahl,2.5,,cpu\n");
+TEST(TextTable, SaysOnceWhatEveryRowSays) {
+  TextTable table = table_in("law,step_ms,failed,device\nwong,2.5,,cpu\ndahl,2.5,,cpu\n");
   EXPECT_EQ(take_common(table), "step [ms]: 2.5, device: cpu");
   EXPECT_EQ(table.head, (std::vector<std::string>{"law"}));
-  WordTable single = table_in("law,device\nwong,cpu\n");
+  TextTable single = table_in("law,device\nwong,cpu\n");
   EXPECT_EQ(take_common(single), "");
   EXPECT_EQ(single.head.size(), 2u);
 }
 
-TEST(WordTable, SetsNumbersToTheRightWithSixDigits) {
+TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
   const std::string html = html_of(table_in("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
   for (const char* part :
        {"<th>law</th><th>2HB [N]</th>", "<td>0.000123457<", "<td>1e-8<", "<td>1170<", "<td>wong<"})
@@ -67,7 +67,7 @@ TEST(WordTable, SetsNumbersToTheRightWithSixDigits) {
 }
 
 // All but the first column are numbers unless a class says otherwise.
-TEST(WordTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
+TEST(TextTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
   const std::string html = html_of(table_in("count,note\n12,\"cut, twice\"\n7,\n"));
   for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
                            "<td class=\"t\">cut, twice<"})

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/compare/columns.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 
 namespace hysteron::experiments {
 
-struct ComparedPage {
+struct ComparisonPage {
   std::string title;
   std::vector<std::string> notes;
   int rows = 4;            // moments
@@ -22,18 +22,18 @@ struct ComparedPage {
 
 // Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
 // video where they are asked for.
-void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
 // The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
-std::vector<std::string> numbers_of(const ComparedColumn& column);
+std::vector<std::string> numbers_of(const SweepColumn& column);
 
 // Names of the metrics among them, of any column.
-std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns);
+std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns);
 // "t = 0.50 s, hang" of each of the page's rows.
-std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns);
+std::vector<std::string> shown_moments(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
 // Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
 // that its manifest's `curves` name; and bars of what it is asked for.
-void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns);
+void plot_comparison(Run& run, const std::string& title, const std::vector<SweepColumn>& columns);
 
 }  // namespace hysteron::experiments

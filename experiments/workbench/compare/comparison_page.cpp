@@ -1,4 +1,4 @@
-#include "experiments/workbench/compare/compared.h"
+#include "experiments/workbench/compare/comparison_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
-#include "experiments/workbench/pictures/studio.h"
+#include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/color_map.h"
 #include "render/compare.h"
 #include "render/comparison_sheet.h"
@@ -26,16 +26,16 @@ constexpr std::size_t kMostNumbers = 5;
 constexpr const char* kDifference = "difference";  // the look of it
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
 
-const Json& moments(const ComparedColumn& column) { return column.manifest.at("frames").at("moments"); }
-double second(const ComparedColumn& column, std::size_t frame) {
+const Json& moments(const SweepColumn& column) { return column.manifest.at("frames").at("moments"); }
+double second(const SweepColumn& column, std::size_t frame) {
   return moments(column).at(frame).at("s").get<double>();
 }
-bool has_frames(const ComparedColumn& column) {
+bool has_frames(const SweepColumn& column) {
   return column.manifest.is_object() && column.manifest.contains("frames") && !moments(column).empty();
 }
 
 // The picture nearest to a time, the last one where the run had ended before.
-std::size_t frame_at(const ComparedColumn& column, double time) {
+std::size_t frame_at(const SweepColumn& column, double time) {
   std::size_t nearest = 0;
   for (std::size_t f = 0; f < moments(column).size(); ++f)
     if (std::abs(second(column, f) - time) < std::abs(second(column, nearest) - time)) nearest = f;
@@ -43,7 +43,7 @@ std::size_t frame_at(const ComparedColumn& column, double time) {
 }
 
 // The first look's pictures stand in frames/.
-fs::path picture_of(const ComparedColumn& column, const std::string& look, std::size_t frame) {
+fs::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame) {
   const Json& looks = column.manifest.at("frames").at("looks");
   const std::string folder = looks.begin().key() == look ? "frames" : "frames-" + look;
   char name[16];
@@ -52,9 +52,9 @@ fs::path picture_of(const ComparedColumn& column, const std::string& look, std::
 }
 
 // Of the column that went on longest, spread evenly; the first picture is the same in all columns.
-std::vector<double> times_of(const std::vector<ComparedColumn>& columns, int rows) {
-  const ComparedColumn* longest = nullptr;
-  for (const ComparedColumn& c : columns)
+std::vector<double> times_of(const std::vector<SweepColumn>& columns, int rows) {
+  const SweepColumn* longest = nullptr;
+  for (const SweepColumn& c : columns)
     if (has_frames(c) &&
         (!longest || second(c, moments(c).size() - 1) > second(*longest, moments(*longest).size() - 1)))
       longest = &c;
@@ -72,8 +72,8 @@ std::string text_of(const char* format, double value) {
   return text;
 }
 
-std::string moment_text(const std::vector<ComparedColumn>& columns, double time) {
-  for (const ComparedColumn& c : columns) {
+std::string moment_text(const std::vector<SweepColumn>& columns, double time) {
+  for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
     const Json& moment = moments(c).at(frame_at(c, time));
     if (std::abs(moment.at("s").get<double>() - time) > 1e-9) continue;
@@ -84,13 +84,13 @@ std::string moment_text(const std::vector<ComparedColumn>& columns, double time)
 }
 
 struct Drawn {
-  const ComparedPage& page;
-  const std::vector<ComparedColumn>& columns;
+  const ComparisonPage& page;
+  const std::vector<SweepColumn>& columns;
   std::vector<double> times;
 
   render::ComparisonRow pictures(double time) const {
     render::ComparisonRow row{moment_text(columns, time), {}};
-    for (const ComparedColumn& c : columns) {
+    for (const SweepColumn& c : columns) {
       row.cells.emplace_back();
       if (!has_frames(c)) continue;
       const std::size_t frame = frame_at(c, time);
@@ -122,7 +122,7 @@ struct Drawn {
                     render::compare(image, to).pixels_over_8_percent)};
   }
 
-  static render::ComparisonCell of_curvature(const ComparedColumn& column, double time) {
+  static render::ComparisonCell of_curvature(const SweepColumn& column, double time) {
     const std::size_t frame = frame_at(column, time);
     const Json& moment = moments(column).at(frame);
     return {render::read_png(picture_of(column, kDifference, frame)),
@@ -146,8 +146,8 @@ struct Drawn {
   }
 };
 
-std::optional<render::ColorBar> bar_of(const std::vector<ComparedColumn>& columns, const std::string& look) {
-  for (const ComparedColumn& c : columns) {
+std::optional<render::ColorBar> bar_of(const std::vector<SweepColumn>& columns, const std::string& look) {
+  for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
     const Json bar = c.manifest.at("frames").at("looks").value(look, Json());
     if (!bar.is_object()) continue;
@@ -158,21 +158,21 @@ std::optional<render::ColorBar> bar_of(const std::vector<ComparedColumn>& column
   return {};
 }
 
-render::ComparisonSheet head_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+render::ComparisonSheet head_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   render::ComparisonSheet sheet;
   sheet.title = page.title;
   sheet.notes = page.notes;
   sheet.cell_width = kCellWidth;
   for (std::size_t c = 0; c < columns.size(); ++c)
     sheet.columns.push_back({columns[c].name, numbers_of(columns[c]), render::method_color(c)});
-  for (const ComparedColumn& c : columns)
+  for (const SweepColumn& c : columns)
     if (has_frames(c)) sheet.metres_per_pixel = c.manifest.at("frames").at("m_per_pixel").get<double>();
   sheet.scale_note = "at the cloth's middle";
   return sheet;
 }
 
 // All columns side by side at their frame `f`, or their last.
-render::Image strip_of(const ComparedPage& page, const std::vector<ComparedColumn>& columns, std::size_t f) {
+render::Image strip_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns, std::size_t f) {
   render::ComparisonSheet strip;
   strip.cell_width = kCellWidth;
   strip.rows.emplace_back();
@@ -188,10 +188,10 @@ render::Image strip_of(const ComparedPage& page, const std::vector<ComparedColum
 }
 
 // A film at the columns' own speed, where ffmpeg is there.
-void film(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::size_t frames = 0;
   double rate = 1;  // [1/s]
-  for (const ComparedColumn& c : columns) {
+  for (const SweepColumn& c : columns) {
     if (!has_frames(c) || moments(c).size() <= frames) continue;
     frames = moments(c).size();
     if (frames > 1) rate = static_cast<double>(frames - 1) / (second(c, frames - 1) - second(c, 0));
@@ -228,16 +228,16 @@ constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",
                                          "max_stretch_percent"};
 
 // The named list of the first column that has it.
-Json first_list(const std::vector<ComparedColumn>& columns, const char* name) {
-  for (const ComparedColumn& c : columns)
+Json first_list(const std::vector<SweepColumn>& columns, const char* name) {
+  for (const SweepColumn& c : columns)
     if (c.manifest.is_object() && c.manifest.contains(name)) return c.manifest[name];
   return Json::array();
 }
 
 // The plot with a line for each column, from a file of its folder; none where the file has no rows.
 void plot_columns(Run& run, const std::string& name, render::Plot plot,
-                  const std::vector<ComparedColumn>& columns,
-                  const std::function<render::Series(const ComparedColumn&)>& read) {
+                  const std::vector<SweepColumn>& columns,
+                  const std::function<render::Series(const SweepColumn&)>& read) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     render::Series series = read(columns[c]);
     if (series.x.empty()) continue;
@@ -253,29 +253,29 @@ void plot_columns(Run& run, const std::string& name, render::Plot plot,
   if (!plot.series.empty()) run.plot(name, [&](const auto& base) { render::write_plot(base, plot); });
 }
 
-render::Series read_series(const ComparedColumn& column, const std::string& file, const std::string& x,
+render::Series read_series(const SweepColumn& column, const std::string& file, const std::string& x,
                            const std::string& y) {
   if (!column.manifest.is_object() || !fs::exists(column.folder / file)) return {};
   return render::series_from_csv(column.folder / file, x, y, "");
 }
 
 // The experiment's own columns of metrics.csv against time.
-void plot_series(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+void plot_series(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   for (const Json& series : first_list(columns, "series")) {
     const std::string name = series.get<std::string>(), word = name.substr(0, name.find(" ["));
     render::Plot plot{title, {"time [s]"}, {name}};
     std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
     plot_columns(run, "plot_" + word, plot, columns,
-                 [&](const ComparedColumn& c) { return read_series(c, "metrics.csv", "time", word); });
+                 [&](const SweepColumn& c) { return read_series(c, "metrics.csv", "time", word); });
   }
 }
 
 // Tables of its own that the experiment names in its manifest.
-void plot_curves(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+void plot_curves(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   for (const Json& curve : first_list(columns, "curves")) {
     const std::string x = curve.at("x"), y = curve.at("y");
     const render::Plot plot{title, {x}, {y, curve.value("logarithmic", false)}};
-    plot_columns(run, curve.at("plot"), plot, columns, [&](const ComparedColumn& c) {
+    plot_columns(run, curve.at("plot"), plot, columns, [&](const SweepColumn& c) {
       render::Series series = read_series(c, curve.at("file"), x, y);
       series.style = render::Series::Style::line_and_points;
       return series;
@@ -284,7 +284,7 @@ void plot_curves(Run& run, const std::string& title, const std::vector<ComparedC
 }
 
 // Those of kFirstNumbers that stand below a column.
-std::vector<std::string> metrics_of(const ComparedColumn& column) {
+std::vector<std::string> metrics_of(const SweepColumn& column) {
   std::vector<std::string> keys;
   if (!column.manifest.is_object()) return keys;
   const Json metrics = column.manifest.value("metrics", Json::object());
@@ -296,11 +296,11 @@ std::vector<std::string> metrics_of(const ComparedColumn& column) {
 }
 
 // What these experiments are asked for, a bar a column.
-void plot_answers(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+void plot_answers(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   for (const char* key : {"drape_coefficient_percent", "recovery_angle_deg"}) {
     render::Plot plot{title, {""}, {split_unit(key).text()}};
     std::vector<double> values;
-    for (const ComparedColumn& c : columns) {
+    for (const SweepColumn& c : columns) {
       if (!c.manifest.is_object()) continue;
       const Json value = c.manifest.value("metrics", Json::object()).value(key, Json());
       if (!value.is_number()) continue;
@@ -316,16 +316,16 @@ void plot_answers(Run& run, const std::string& title, const std::vector<Compared
 
 }  // namespace
 
-std::vector<std::string> shown_moments(const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+std::vector<std::string> shown_moments(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::vector<std::string> texts;
   for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
   return texts;
 }
 
-std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& columns) {
+std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns) {
   std::vector<std::string> keys;
   for (const char* key : kFirstNumbers) {
-    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const ComparedColumn& c) {
+    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const SweepColumn& c) {
       const std::vector<std::string> own = metrics_of(c);
       return std::find(own.begin(), own.end(), key) != own.end();
     });
@@ -334,7 +334,7 @@ std::vector<std::string> shown_metrics(const std::vector<ComparedColumn>& column
   return keys;
 }
 
-std::vector<std::string> numbers_of(const ComparedColumn& column) {
+std::vector<std::string> numbers_of(const SweepColumn& column) {
   std::vector<std::string> lines;
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest.is_object()) return lines;
@@ -355,7 +355,7 @@ std::vector<std::string> numbers_of(const ComparedColumn& column) {
   return lines;
 }
 
-void draw_compared(Run& run, const ComparedPage& page, const std::vector<ComparedColumn>& columns) {
+void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   const Drawn drawn{page, columns, times_of(columns, page.rows)};
   if (drawn.times.empty()) throw Error::run("no column has a picture");
   render::ComparisonSheet sheet = head_of(page, columns);
@@ -375,7 +375,7 @@ void draw_compared(Run& run, const ComparedPage& page, const std::vector<Compare
   if (page.video != "none") film(run, page, columns);
 }
 
-void plot_compared(Run& run, const std::string& title, const std::vector<ComparedColumn>& columns) {
+void plot_comparison(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   plot_series(run, title, columns);
   plot_curves(run, title, columns);
   plot_answers(run, title, columns);

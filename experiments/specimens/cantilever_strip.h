@@ -7,7 +7,7 @@
 
 namespace hysteron::experiments {
 
-struct Overhang {
+struct CantileverStrip {
   Scene scene;
   Cloth cloth;
   double length = 0;  // that hangs over, from the middle of the clamp's columns [m]
@@ -19,7 +19,7 @@ struct Overhang {
 // Makes the scene's cloth a strip of its family that hangs over by `length`, scene.cloth.width wide, of about
 // scene.triangles triangles, and clamps it; pins of the scene are replaced.  Error::request for impossible
 // meshes.
-Overhang overhang(Scene scene, double length);
+CantileverStrip overhang(Scene scene, double length);
 
 // Bending rigidity of the scene's strip, which lies along x, over that along warp.
 double rigidity_along(const Scene& scene);

@@ -1,7 +1,7 @@
-#include "experiments/workbench/pictures/studio.h"
+#include "experiments/workbench/pictures/scene_renderer.h"
 
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/wrinkles.h"
+#include "experiments/workbench/pictures/ridge_metrics.h"
 #include "render/shapes.h"
 #include "sim/scene/motion.h"
 
@@ -95,8 +95,8 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
   return {};
 }
 
-Studio::Studio(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
-               std::optional<float> floor, int cuda_device)
+SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const Cloth& cloth,
+                             const render::Box& bounds, std::optional<float> floor, int cuda_device)
     : scenery_(scene.obstacle),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
       view_(*offscreen_, render::PictureSize{options.width(), options.height()}) {
@@ -112,7 +112,8 @@ Studio::Studio(const Scene& scene, const Options& options, const Cloth& cloth, c
   view_.set_bounds(bounds);
 }
 
-render::Image Studio::draw(const render::Look& look, const render::Camera& camera, const Shown& shown) {
+render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,
+                                  const Shown& shown) {
   if (!shown.values.empty()) view_.set_values(shown.values);
   view_.set_look(look);
   for (std::size_t i = 0; i < body_.size(); ++i) {
@@ -124,8 +125,8 @@ render::Image Studio::draw(const render::Look& look, const render::Camera& camer
   return view_.draw(camera);
 }
 
-render::Image Studio::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
-                                 const render::Camera& camera, int pixels) {
+render::Image SceneRenderer::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
+                                        const render::Camera& camera, int pixels) {
   render::ClothView view(*offscreen_, {pixels, pixels});
   const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
   view.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, {}});

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pages/word_table.h"
+#include "experiments/workbench/pages/text_table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -63,7 +63,7 @@ std::string short_field(const std::string& text) {
   return exact || text.size() < 8 || !is_number(text, value) ? text : number_field(value);
 }
 
-bool numeric(const WordTable& table, std::size_t column) {
+bool numeric(const TextTable& table, std::size_t column) {
   bool any = false;
   for (const auto& row : table.rows) {
     double value = 0;
@@ -74,7 +74,7 @@ bool numeric(const WordTable& table, std::size_t column) {
   return any;
 }
 
-bool same_everywhere(const WordTable& table, std::size_t column) {
+bool same_everywhere(const TextTable& table, std::size_t column) {
   return std::all_of(table.rows.begin(), table.rows.end(),
                      [&](const auto& row) { return row[column] == table.rows[0][column]; });
 }
@@ -88,9 +88,9 @@ std::string column_name(std::string name) {
 
 }  // namespace
 
-WordTable read_words(const std::filesystem::path& file) {
+TextTable read_words(const std::filesystem::path& file) {
   const std::string name = file.string(), text = whole_file(file, "cannot read " + name);
-  WordTable table;
+  TextTable table;
   for (Reader reader{text, name}; !reader.done(); ++reader.at, ++reader.line) {
     std::vector<std::string> row = reader.row();
     if (row.size() == 1 && row[0].empty()) continue;
@@ -106,8 +106,8 @@ WordTable read_words(const std::filesystem::path& file) {
   return table;
 }
 
-WordTable table_of(const Json& objects) {
-  WordTable table;
+TextTable table_of(const Json& objects) {
+  TextTable table;
   for (const Json& object : objects) {
     std::ptrdiff_t place = 0;  // behind the key before it in this object
     for (const auto& [key, value] : object.items()) {
@@ -129,7 +129,7 @@ WordTable table_of(const Json& objects) {
   return table;
 }
 
-std::string take_common(WordTable& table) {
+std::string take_common(TextTable& table) {
   std::string common;
   if (table.rows.size() < 2) return common;
   for (std::size_t c = table.head.size(); c-- > 0;) {
@@ -144,7 +144,7 @@ std::string take_common(WordTable& table) {
   return common;
 }
 
-std::string html_of(const WordTable& table) {
+std::string html_of(const TextTable& table) {
   std::vector<std::string> head;
   std::vector<std::size_t> right;
   for (std::size_t c = 0; c < table.head.size(); ++c) {

@@ -10,7 +10,7 @@
 
 namespace hysteron::experiments {
 
-struct ComparedColumn {
+struct SweepColumn {
   std::string name;                // its folder's
   std::vector<std::string> words;  // after `hysteron`, without --out, --threads and what else does not matter
   std::filesystem::path folder;
@@ -21,7 +21,7 @@ struct ComparedColumn {
 };
 
 // What is not asked of the runs but of how they are run.
-struct ColumnJobs {
+struct SweepJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
@@ -37,8 +37,8 @@ std::string progress_in(const std::filesystem::path& folder);
 // `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,
 // where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::request and
 // Error::machine if one of them is wrong or fails, unless the jobs go on.
-void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
-                 const std::function<void(const ComparedColumn&)>& said,
+void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
+                 const std::function<void(const SweepColumn&)>& said,
                  const std::function<void(const std::string&)>& progress);
 
 }  // namespace hysteron::experiments

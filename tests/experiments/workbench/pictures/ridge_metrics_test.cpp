@@ -1,5 +1,5 @@
 // Measures of wrinkles on shapes whose wrinkles are known.
-#include "experiments/workbench/pictures/wrinkles.h"
+#include "experiments/workbench/pictures/ridge_metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pages/run_words.h"
+#include "experiments/workbench/pages/simulated_run.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "experiments/workbench/compare/columns.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,11 +28,11 @@ namespace fs = std::filesystem;
 // What was asked of a finished column, and of which program: it stands in its folder.
 constexpr const char* kAsked = "asked.json";
 
-Json asked(const ComparedColumn& column) {
+Json asked(const SweepColumn& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", column.words}};
 }
 
-bool is_finished(const ComparedColumn& column) {
+bool is_finished(const SweepColumn& column) {
   const Json manifest = json_or_none(column.folder / "manifest.json");
   return manifest.is_object() && manifest.value("complete", false) &&
          json_or_none(column.folder / kAsked) == asked(column);
@@ -45,7 +45,7 @@ std::string visible_gpu(int gpu) {
   return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
 }
 
-std::vector<std::string> command_of(const ComparedColumn& column, int threads, int gpu) {
+std::vector<std::string> command_of(const SweepColumn& column, int threads, int gpu) {
   std::vector<std::string> words = {"env"};
   if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
   words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
@@ -64,7 +64,7 @@ std::string reason_of(const ProcessResult& result) {
                               : "ended with exit code " + std::to_string(result.exit_code);
 }
 
-void run_column(ComparedColumn& column, int threads, int gpu, bool go_on) {
+void run_column(SweepColumn& column, int threads, int gpu, bool go_on) {
   std::error_code ignored;
   fs::remove(column.folder / kAsked, ignored);
   const ProcessResult result = run_process(command_of(column, threads, gpu), "");
@@ -96,7 +96,7 @@ std::string last_row(const fs::path& file) {
 // Says every few seconds how far the columns are that run, where that has changed, until its end.
 class Watch {
  public:
-  Watch(const std::vector<ComparedColumn>& columns, const std::function<void(const std::string&)>& say)
+  Watch(const std::vector<SweepColumn>& columns, const std::function<void(const std::string&)>& say)
       : columns_(columns), say_(say), thread_([this] { run(); }) {}
   ~Watch() {
     {
@@ -133,7 +133,7 @@ class Watch {
     }
   }
 
-  const std::vector<ComparedColumn>& columns_;
+  const std::vector<SweepColumn>& columns_;
   const std::function<void(const std::string&)>& say_;
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -156,8 +156,8 @@ std::string progress_in(const fs::path& folder) {
   return text;
 }
 
-void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
-                 const std::function<void(const ComparedColumn&)>& said,
+void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
+                 const std::function<void(const SweepColumn&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
@@ -178,7 +178,7 @@ void run_columns(std::vector<ComparedColumn>& columns, const ColumnJobs& jobs,
     watch.end(i);
   };
   const auto finish = [&](std::size_t i, int its_threads) {
-    ComparedColumn& column = columns[i];
+    SweepColumn& column = columns[i];
     column.kept = jobs.resume && is_finished(column);
     if (column.kept)
       column.manifest = json_or_none(column.folder / "manifest.json");

@@ -1,4 +1,4 @@
-#include "experiments/fold/folded.h"
+#include "experiments/fold/specimen.h"
 
 #include <algorithm>
 #include <cmath>

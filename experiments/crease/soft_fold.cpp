@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/crease/creased.h"
+#include "experiments/crease/specimen.h"
 
 namespace hysteron::experiments {
 namespace {

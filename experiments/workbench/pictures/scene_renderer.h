@@ -25,12 +25,12 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
                                              const std::string& name);
 
 // All of it belongs to the thread that made it, as its OpenGL context does.
-class Studio {
+class SceneRenderer {
  public:
   // `bounds`: what casts shadows in the whole sequence [m]; `floor`: height of the visible ground [m];
   // `cuda_device`: tried first, -1: none.
-  Studio(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
-         std::optional<float> floor, int cuda_device);
+  SceneRenderer(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
+                std::optional<float> floor, int cuda_device);
 
   const render::Offscreen& offscreen() const { return *offscreen_; }
   render::ClothView& view() { return view_; }  // to set the cloth's positions

@@ -1,4 +1,4 @@
-#include "experiments/crease/creased.h"
+#include "experiments/crease/specimen.h"
 
 #include <algorithm>
 #include <cmath>

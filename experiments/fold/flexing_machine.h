@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/fold/folded.h"
 #include "experiments/fold/material.h"
+#include "experiments/fold/specimen.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/session.h"
 
@@ -21,17 +21,17 @@ struct FoldReading {
 
 // Watches every recorded moment; writes a row of cycles.csv at each return and of material.csv at the chosen
 // ones.
-class Folding {
+class FlexingMachine {
  public:
-  Folding(const Fold& fold, Session& session);
+  FlexingMachine(const Fold& fold, Session& session);
 
   // Columns of metrics.csv: distance between the clamps; curvature of the crown; the law's moment there,
   // driven alone through the crown's curvatures.
   static std::vector<std::string> columns();
-  std::vector<double> measure(const Moment& moment);
+  std::vector<double> measure(const Snapshot& moment);
   // Both ends of the stroke in cycles 1, 10, 100, ... and the last; the end.
   bool pictured() const;
-  std::string progress(const Moment& moment) const;
+  std::string progress(const Snapshot& moment) const;
   void finish();
 
   const FoldReading& reading() const { return reading_; }

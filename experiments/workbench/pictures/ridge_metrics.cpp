@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/wrinkles.h"
+#include "experiments/workbench/pictures/ridge_metrics.h"
 
 #include <algorithm>
 #include <cmath>

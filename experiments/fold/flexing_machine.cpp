@@ -1,4 +1,4 @@
-#include "experiments/fold/folding.h"
+#include "experiments/fold/flexing_machine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ double lowest(const std::vector<Eigen::Vector3d>& x) {
 
 }  // namespace
 
-Folding::Folding(const Fold& fold, Session& session)
+FlexingMachine::FlexingMachine(const Fold& fold, Session& session)
     : fold_(fold),
       session_(session),
       gauge_(fold),
@@ -30,11 +30,11 @@ Folding::Folding(const Fold& fold, Session& session)
       materials_(session.run().path("material.csv"),
                  {"cycle", "M0 [N]", "2HB [N]", "permanent_set [1/m]", "crown_dissipated_in_all [J/m^2]"}) {}
 
-std::vector<std::string> Folding::columns() {
+std::vector<std::string> FlexingMachine::columns() {
   return {"clamp_distance [m]", "crown_curvature [1/m]", "crown_moment [N]"};
 }
 
-std::vector<double> Folding::measure(const Moment& moment) {
+std::vector<double> FlexingMachine::measure(const Snapshot& moment) {
   curvature_ = gauge_.crown(session_.simulation().curvature());
   largest_ = std::max(largest_, curvature_);
   if (moment.time > 0) crown_ = material_.to({curvature_, moment.time - time_});
@@ -48,7 +48,7 @@ std::vector<double> Folding::measure(const Moment& moment) {
 }
 
 // A return ends one cycle and begins the next.
-void Folding::add_to_loops() {
+void FlexingMachine::add_to_loops() {
   const int period = 2 * fold_.half;
   const auto add = [&](int cycle, bool begins) {
     if (cycle < 1 || cycle > fold_.cycles || !is_pictured(cycle, fold_.cycles)) return;
@@ -61,7 +61,7 @@ void Folding::add_to_loops() {
   add(count_ / period + 1, returned);
 }
 
-void Folding::end_cycle(int cycle) {
+void FlexingMachine::end_cycle(int cycle) {
   const std::vector<double> residual = session_.simulation().residual_curvature();
   const double lost = session_.simulation().ledger().bending_friction;
   reading_.recovery_angle = 180 - gauge_.largest_turn(residual) * 180 / std::numbers::pi;
@@ -81,21 +81,21 @@ void Folding::end_cycle(int cycle) {
   largest_ = curvature_;
 }
 
-bool Folding::pictured() const {
+bool FlexingMachine::pictured() const {
   const int moment = count_ - 1;  // `measure` has counted it
   if (session_.simulation().time() >= fold_.scene.seconds - fold_.scene.step / 2) return true;
   if (moment == 0 || moment % fold_.half != 0 || moment > 2 * fold_.half * fold_.cycles) return false;
   return is_pictured((moment - 1) / (2 * fold_.half) + 1, fold_.cycles);
 }
 
-std::string Folding::progress(const Moment& moment) const {
+std::string FlexingMachine::progress(const Snapshot& moment) const {
   char text[160];
   std::snprintf(text, sizeof text, "t = %.3f s  cycles %zu  crown %.0f 1/m  recovery %.1f degree",
                 moment.time, cycle_.size(), curvature_, reading_.recovery_angle);
   return text;
 }
 
-void Folding::finish() {
+void FlexingMachine::finish() {
   cycles_.finish();
   materials_.finish();
 }

@@ -1,4 +1,4 @@
-#include "experiments/specimens/overhang.h"
+#include "experiments/specimens/cantilever_strip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,15 @@ double slope_of_elastica(const Scene& scene, double length) {
 }
 
 double slope_of_cloth(const Scene& scene, double length) {
-  const Overhang strip = overhang(scene, length);
+  const CantileverStrip strip = overhang(scene, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   simulation->advance(static_cast<int>(std::lround(scene.ramp / scene.step)));
   const Eigen::Vector2d end = strip.free_end(simulation->positions());
   return std::atan2(end.y(), end.x());
 }
 
-// Overhang at which `slope` reaches 41.5 degrees, by the secant method from `first`; slopes grow with it.
+// CantileverStrip at which `slope` reaches 41.5 degrees, by the secant method from `first`; slopes grow with
+// it.
 template <class Slope>
 double critical_overhang(double first, double precision, const Slope& slope) {
   double a = first, fa = slope(a) - kSlope, b = a * (1 - fa / 2), fb = slope(b) - kSlope;
@@ -44,7 +45,7 @@ double critical_overhang(double first, double precision, const Slope& slope) {
 
 }  // namespace
 
-Eigen::Vector2d Overhang::free_end(const std::vector<Eigen::Vector3d>& x) const {
+Eigen::Vector2d CantileverStrip::free_end(const std::vector<Eigen::Vector3d>& x) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -52,7 +53,7 @@ Eigen::Vector2d Overhang::free_end(const std::vector<Eigen::Vector3d>& x) const 
   return {length + sum.x() / count, -sum.z() / count};
 }
 
-Overhang overhang(Scene scene, double length) {
+CantileverStrip overhang(Scene scene, double length) {
   ClampedMesh clamped = clamped_mesh(scene.mesh, length, scene.cloth.width, scene.triangles, 1, scene.seed);
   scene.cloth.shape = "strip";
   scene.cloth.length = clamped.length;
