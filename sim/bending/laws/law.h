@@ -6,12 +6,12 @@
 //
 //   struct SomeLaw<Real, D> {
 //     static constexpr int kDimension = D;
-//     static constexpr int kHistory = ...;                       // Reals remembered per element, 0 if none
-//     LawStep<Real, D, kHistory> step(Vec<Real, D> curvature, const History& before) const;   // host +
-//     device Tangent<Real, D> tangent(Vec<Real, D> curvature, const History& before) const;  // dM/dK of
-//     step() [N m] Vec<Real, D> residual(const History& history) const;       // curvature at which the
-//     moment is zero [1/m] Real largest_stiffness() const;                            // bound on the
-//     eigenvalues of dM/dK [N m]
+//     static constexpr int kHistory = ...;  // Reals remembered per element, 0 if none
+//     // On host and device: the step, and dM/dK of it [N m].
+//     LawStep<Real, D, kHistory> step(Vec<Real, D> curvature, const History& before) const;
+//     Tangent<Real, D> tangent(Vec<Real, D> curvature, const History& before) const;
+//     Vec<Real, D> residual(const History& history) const;  // curvature at which the moment is zero [1/m]
+//     Real largest_stiffness() const;                       // bound on the eigenvalues of dM/dK [N m]
 //   };
 //
 // Units: curvature 1/m, moment N (per unit width), energies J/m^2.
