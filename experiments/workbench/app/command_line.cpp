@@ -135,11 +135,6 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 
 }  // namespace
 
-const Experiment& experiment_named(const std::string& name) {
-  const auto& all = experiments();
-  return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; });
-}
-
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known) {
   CLI::App program("Bending hysteresis of cloth: simulate, measure, picture", "hysteron");

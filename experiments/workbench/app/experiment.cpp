@@ -6,6 +6,11 @@
 
 namespace hysteron::experiments {
 
+const Experiment& experiment_named(const std::string& name) {
+  const auto& all = experiments();
+  return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; });
+}
+
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {
   std::string text = otherwise;
   for (const Flag& flag : flags)

@@ -36,7 +36,7 @@ struct Experiment {
 
 // All subcommands, in the order of --help (experiments/catalogue.cpp).
 const std::vector<Experiment>& experiments();
-// The one with this name.  Throws Error::request.
+// The one with this name, which there must be.
 const Experiment& experiment_named(const std::string& name);
 
 // A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
