@@ -54,6 +54,10 @@ Setup defaults() {
   // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-5;
+  // Four own weights sink some micrometres into it.  At the forty times of the default for all scenes Newton
+  // needs twice the iterations,
+  // and the mean coefficient of nine meshes differs by 0.4 +- 0.6 points.
+  scene.contact_stiffness = 1e6;
   setup.options.camera_direction = {0.35, -1.0, 0.62};
   setup.options.camera_fov = 24;
   return setup;
