@@ -44,7 +44,8 @@ class Pipe {
                          pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // gone before it could be asked for
-  if (::dup2(input.out(), STDIN_FILENO) >= 0 && ::dup2(errors.in(), STDOUT_FILENO) >= 0 &&
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (::dup2(input.out(), STDIN_FILENO) >= 0 && ::dup2(nowhere, STDOUT_FILENO) >= 0 &&
       ::dup2(errors.in(), STDERR_FILENO) >= 0)
     ::execvp(arguments[0], arguments);
   const int reason = errno;

@@ -84,7 +84,8 @@ class Estimate {
     all.push_back(of_run(name));
     const double n = static_cast<double>(all.size());
     double mean = 0, squares = 0;
-    for (double value : all) mean += value / n;
+    for (double value : all) mean += value;
+    mean /= n;  // of counts that are alike that count itself
     for (double value : all) squares += (value - mean) * (value - mean);
     const double deviation = std::sqrt(squares / (n - 1));
     error = deviation;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/comparison_table.h"
@@ -252,6 +253,21 @@ TEST(Compare, NamesTheColumnThatIsWrong) {
   EXPECT_EQ(program("compare swing --laws linear,prandle" + out).exit_code, 2);
   EXPECT_EQ(program("compare" + out).exit_code, 2);
   EXPECT_EQ(program("compare swing --laws linear --compare.to narain" + out).exit_code, 2);
+}
+
+TEST(Compare, SaysWhyAColumnStopped) {
+  const Folder folder;
+  const fs::path scene = folder.path() / "struck.toml", out = folder.path() / "out";
+  std::ofstream(scene) << R"([[obstacle]]
+kind = "sphere"
+center = [0.06, 0.025, 0]
+radius = 0.02
+from = 0.04
+)";
+  const Outcome outcome =
+      program("compare swing --scene " + scene.string() + " --laws linear --out " + out.string() + kSmall);
+  EXPECT_NE(text_of(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
+      << outcome.out << outcome.err << text_of(out / "table.csv");
 }
 
 double last_difference(const fs::path& column) {  // [1/m]

@@ -13,7 +13,8 @@ namespace hysteron::render {
 namespace {
 
 TEST(Process, GetsItsInputAndGivesItsExitCodeAndFirstLineOfErrors) {
-  const ProcessResult result = run_process({"sh", "-c", "read word; echo \"$word!\"; exit 7"}, "said\n");
+  const std::string say = "read word; echo what was found; echo \"$word!\" >&2; exit 7";
+  const ProcessResult result = run_process({"sh", "-c", say}, "said\n");
   EXPECT_TRUE(result.started);
   EXPECT_EQ(result.exit_code, 7);
   EXPECT_EQ(result.first_error_line, "said!");

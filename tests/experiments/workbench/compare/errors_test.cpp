@@ -107,6 +107,14 @@ TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
   EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].get<double>(), std::sqrt(1.0 / 3), 1e-15);
 }
 
+TEST(Errors, OfCountsThatAreAlikeAreNone) {
+  std::vector<Repeated> repeats;
+  for (int k = 1; k <= 8; ++k) repeats.push_back({{"draw-" + std::to_string(k), {}}, {{"node_count", 8.0}}});
+  const Errors errors = errors_of("drape", {{"node_count", 8.0}}, repeats);
+  EXPECT_EQ(errors.metrics["node_count_mean"], 8);
+  EXPECT_EQ(errors.metrics["node_count_draw_error"], 0);
+}
+
 TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
   Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
   stopped.stopped = "no convergence";
