@@ -32,7 +32,7 @@ Keys keys_of(F& flags) {
 }
 
 std::vector<Problem> problems_of(const F& flags) {
-  const Effort effort{flags.options.quick, flags.device};
+  const Effort effort{flags.options.quick, value_named<DeviceChoice>(flags.device)};
   std::vector<Problem> all;
   for (const auto& make : {bend_problem, sag_problem, droop_problem, buckle_problem, decay_problem,
                            swing_problem, crease_problem})

@@ -16,9 +16,12 @@ namespace hysteron::experiments {
 // One way to solve a problem.
 struct Setting {
   std::string factor = "base";  // what it varies: mesh, size, element, law, integrator, step, tolerance, ...
-  std::string mesh = "unionjack", element = "shape", law = "linear";
-  std::string integrator = "quasi-static", implicit_every = "substep";
-  std::string precision = "double", device = "cpu";
+  std::string mesh = "unionjack", law = "linear";
+  BendingElement element = BendingElement::shape;
+  Integrator integrator = Integrator::quasi_static;
+  ImplicitEvery implicit_every = ImplicitEvery::substep;
+  Precision precision = Precision::fp64;
+  DeviceChoice device = DeviceChoice::cpu;
   int triangles = 0;               // asked for; the mesh may have a few others
   double step = 0, tolerance = 0;  // [s], [m]
   double load = 0;                 // of problems that have several: heaviness Gamma, decay's kind; else 0
@@ -58,8 +61,8 @@ struct Problem {
 
 // Which of a problem's settings are wanted.
 struct Effort {
-  bool quick = false;          // a few of them: seconds instead of minutes
-  std::string device = "cpu";  // of the base: cpu | cuda
+  bool quick = false;                       // a few of them: seconds instead of minutes
+  DeviceChoice device = DeviceChoice::cpu;  // of the base
 };
 
 // A scene with the setting's choices; what the setting does not say is the scene's.

@@ -76,7 +76,8 @@ Problem bend_problem(const Effort& effort) {
     }
   for (const char* mesh : {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"})
     if (!effort.quick || std::string(mesh) == "aligned")
-      list.push_back(varied(base, "element", [&](Setting& s) { s.element = "hinge", s.mesh = mesh; }));
+      list.push_back(
+          varied(base, "element", [&](Setting& s) { s.element = BendingElement::hinge, s.mesh = mesh; }));
   if (effort.quick) return problem;
   for (const char* law : {"linear", "bilinear", "dahl", "obrien"})
     list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
@@ -85,7 +86,8 @@ Problem bend_problem(const Effort& effort) {
     list.push_back(varied(base, "warp angle", [&](Setting& s) { s.law = "wong", s.load = angle; }));
   for (double step : {1.0 / 13, 1.0 / 28})
     list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
-  list.push_back(varied(base, "precision", [&](Setting& s) { s.precision = "float", s.tolerance = 1e-4; }));
+  list.push_back(
+      varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   return problem;
 }
 

@@ -38,7 +38,8 @@ void vary(const Setting& base, bool quick, std::vector<Setting>& list) {
       if (!quick || (triangles < kTriangles && mesh == base.mesh))
         list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
     if (!quick || mesh == base.mesh)
-      list.push_back(varied(base, "element", [&](Setting& s) { s.mesh = mesh, s.element = "hinge"; }));
+      list.push_back(
+          varied(base, "element", [&](Setting& s) { s.mesh = mesh, s.element = BendingElement::hinge; }));
   }
 }
 

@@ -50,19 +50,20 @@ double opening_angle(const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) 
 
 void vary_steps(const Setting& base, bool quick, std::vector<Setting>& list) {
   const int most = quick ? 2 : 16;
-  const auto add = [&](const char* integrator, const char* implicit_every, double step, double tolerance) {
+  const auto add = [&](Integrator integrator, ImplicitEvery implicit_every, double step, double tolerance) {
     list.push_back(varied(base, tolerance > 0 ? "tolerance" : "step", [&](Setting& s) {
       s.integrator = integrator, s.implicit_every = implicit_every, s.step = step, s.tolerance = tolerance;
     }));
   };
-  for (const char* name : {"bdf2", "implicit"})
-    for (int parts = 1; parts <= most; parts *= 2) add(name, "substep", kFrame / parts, 0);
+  using enum Integrator;
+  for (Integrator which : {bdf2, implicit})
+    for (int parts = 1; parts <= most; parts *= 2) add(which, ImplicitEvery::substep, kFrame / parts, 0);
   for (int parts = 1; parts <= most; parts *= quick ? 2 : 4) {
-    add("semi-implicit", "step", kFrame / parts, 0);  // the chapter's
-    add("semi-implicit", "substep", kFrame / (parts * 64), 0);
+    add(semi_implicit, ImplicitEvery::step, kFrame / parts, 0);  // the chapter's
+    add(semi_implicit, ImplicitEvery::substep, kFrame / (parts * 64), 0);
   }
   if (quick) return;
-  for (double tolerance : {1e-4, 1e-5, 1e-6}) add("bdf2", "substep", kFrame, tolerance);
+  for (double tolerance : {1e-4, 1e-5, 1e-6}) add(bdf2, ImplicitEvery::substep, kFrame, tolerance);
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ Problem crease_problem(const Effort& effort) {
                   {},
                   {}};
   MotionQuestion question{crease, kLength, kSampling, {}, opening_angle};
-  question.reference.integrator = "bdf2";
+  question.reference.integrator = Integrator::bdf2;
   question.reference.step = kFrame / (effort.quick ? 16 : 64);
   problem.solve = solve_motion(question);
   problem.reference_per_mesh = true;
@@ -84,7 +85,7 @@ Problem crease_problem(const Effort& effort) {
   base.mesh = "random";
   base.law = "prandtl";
   base.device = effort.device;
-  base.integrator = "bdf2";
+  base.integrator = Integrator::bdf2;
   base.step = kFrame / 2;
   base.triangles = effort.quick ? 60 : 600;
   vary_steps(base, effort.quick, problem.settings);

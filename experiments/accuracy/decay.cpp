@@ -20,7 +20,7 @@ Setting base_of(DecayKind kind, const Effort& effort) {
   Setting base;
   base.factor = kind == DecayKind::hyperbolic ? "base" : "kind";
   base.law = scene.law;
-  base.integrator = "bdf2";
+  base.integrator = Integrator::bdf2;
   base.device = effort.device;
   base.triangles = effort.quick ? 32 : 128;
   base.step = decay_period(scene) / (effort.quick ? 150 : 200);
@@ -29,12 +29,12 @@ Setting base_of(DecayKind kind, const Effort& effort) {
 }
 
 void vary_integrators(const Setting& base, std::vector<Setting>& list) {
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "semi-implicit"; }));
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "implicit"; }));
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::semi_implicit; }));
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::implicit; }));
 }
 
 // `times` the base's step.  Those of semi-implicit follow from the mesh.
-void vary_step(const Setting& base, const char* integrator, double times, std::vector<Setting>& list) {
+void vary_step(const Setting& base, Integrator integrator, double times, std::vector<Setting>& list) {
   list.push_back(varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step *= times; }));
 }
 
@@ -46,24 +46,25 @@ void vary_size(const Setting& base, int triangles, std::vector<Setting>& list) {
 void vary_all(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
   vary_integrators(base, list);
-  for (double times : {2.0, 0.5}) vary_step(base, "bdf2", times, list);
+  for (double times : {2.0, 0.5}) vary_step(base, Integrator::bdf2, times, list);
   for (int triangles : {32, 192}) vary_size(base, triangles, list);
   if (kind_of(base) != DecayKind::hyperbolic) return;
-  list.push_back(varied(base, "integrator",
-                        [](Setting& s) { s.integrator = "semi-implicit", s.implicit_every = "step"; }));
-  vary_step(base, "bdf2", 4, list);
-  for (double times : {4.0, 0.5}) vary_step(base, "implicit", times, list);
+  list.push_back(varied(base, "integrator", [](Setting& s) {
+    s.integrator = Integrator::semi_implicit, s.implicit_every = ImplicitEvery::step;
+  }));
+  vary_step(base, Integrator::bdf2, 4, list);
+  for (double times : {4.0, 0.5}) vary_step(base, Integrator::implicit, times, list);
   vary_size(base, 64, list);
   for (const char* mesh : {"aligned", "aligned-45", "flipped", "equilateral", "random"})
     list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-  list.push_back(varied(base, "element", [](Setting& s) { s.element = "hinge"; }));
+  list.push_back(varied(base, "element", [](Setting& s) { s.element = BendingElement::hinge; }));
 }
 
 void vary_a_few(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
   if (kind_of(base) != DecayKind::hyperbolic) return;
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = "semi-implicit"; }));
-  vary_step(base, "implicit", 3, list);
+  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::semi_implicit; }));
+  vary_step(base, Integrator::implicit, 3, list);
 }
 
 Found solve(const Setting& setting) {

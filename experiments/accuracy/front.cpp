@@ -8,7 +8,7 @@
 namespace hysteron::experiments {
 namespace {
 
-bool is_static(const Setting& s) { return s.integrator == "quasi-static"; }
+bool is_static(const Setting& s) { return s.integrator == Integrator::quasi_static; }
 
 std::string formatted(const char* format, double value) {
   char text[60];
@@ -31,16 +31,18 @@ std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
   const Setting& base = solution.problem.settings.front();
   std::vector<std::string> words;
   if (is_static(base)) {
-    words = {s.element, s.mesh};
+    words = {name_of(s.element), s.mesh};
   } else {
-    words = {s.integrator == "semi-implicit" && s.implicit_every == "step" ? "the chapter's" : s.integrator};
+    words = {s.integrator == Integrator::semi_implicit && s.implicit_every == ImplicitEvery::step
+                 ? "the chapter's"
+                 : name_of(s.integrator)};
     if (s.tolerance > 0) words.back() += " adaptive";
-    if (s.element != base.element) words.push_back(s.element);
+    if (s.element != base.element) words.push_back(name_of(s.element));
     if (s.mesh != base.mesh) words.push_back(s.mesh);
   }
   if (s.law != base.law) words.push_back(s.law);
   if (s.load != base.load) words.push_back(solution.problem.load + " = " + formatted("%g", s.load));
-  if (s.precision != base.precision) words.push_back(s.precision);
+  if (s.precision != base.precision) words.push_back(name_of(s.precision));
   return words;
 }
 
@@ -116,9 +118,9 @@ std::vector<Order> observed_orders(const Solution& solution) {
 // Few enough for as many colours: other elements, and other meshes of a motion, are one curve each.
 std::string series_of(const Solution& solution, const Setting& setting) {
   const Setting& base = solution.problem.settings.front();
-  if (setting.element != base.element) return setting.element + ", every mesh";
+  if (setting.element != base.element) return name_of(setting.element) + ", every mesh";
   if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
-  if (setting.precision != base.precision) return setting.precision;
+  if (setting.precision != base.precision) return name_of(setting.precision);
   return joined(words_of(solution, setting));
 }
 

@@ -42,10 +42,10 @@ struct Reference {
 Trajectory reference_run(const MotionQuestion& question, const Setting& setting, double step) {
   Setting tiny = setting;
   tiny.integrator = question.reference.integrator;
-  tiny.implicit_every = "substep";
+  tiny.implicit_every = ImplicitEvery::substep;
   tiny.step = step;
   tiny.tolerance = 0;
-  tiny.precision = "double";
+  tiny.precision = Precision::fp64;
   Found ignored;
   const Scene scene = question.scene(tiny);
   return simulated(scene, make_cloth(scene), question.sampling, ignored);
@@ -67,7 +67,7 @@ std::function<Found(const Setting&)> solve_motion(const MotionQuestion& question
   const auto references = std::make_shared<std::map<Mesh, Reference>>();
   return [question, references](const Setting& setting) {
     const auto [at, is_new] =
-        references->try_emplace({setting.mesh, setting.element, setting.triangles, setting.law});
+        references->try_emplace({setting.mesh, name_of(setting.element), setting.triangles, setting.law});
     if (is_new) at->second = reference_of(question, setting);
     const Reference& exact = at->second;
     Found found;

@@ -108,8 +108,9 @@ void vary_elements(const Setting& base, bool quick, std::vector<Setting>& list) 
   for (const std::string& mesh : strip_meshes())
     for (int triangles : {kAlong64 / 16, kAlong64 / 4, kAlong64}) {
       if (quick && triangles != kAlong64 / 16) continue;
-      list.push_back(varied(
-          base, "element", [&](Setting& s) { s.element = "hinge", s.mesh = mesh, s.triangles = triangles; }));
+      list.push_back(varied(base, "element", [&](Setting& s) {
+        s.element = BendingElement::hinge, s.mesh = mesh, s.triangles = triangles;
+      }));
     }
 }
 
@@ -142,7 +143,8 @@ Problem sag_problem(const Effort& effort) {
   for (double tolerance : {1e-2, 1e-4, 1e-8})
     if (!effort.quick)
       list.push_back(varied(base, "tolerance", [&](Setting& s) { s.tolerance = tolerance; }));
-  list.push_back(varied(base, "precision", [&](Setting& s) { s.precision = "float", s.tolerance = 1e-4; }));
+  list.push_back(
+      varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   problem.load = "Gamma";
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;
@@ -174,7 +176,7 @@ Problem droop_problem(const Effort& effort) {
   for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64})
     if (!effort.quick || triangles < base.triangles)
       list.push_back(varied(base, "size", [&](Setting& s) { s.triangles = triangles; }));
-  list.push_back(varied(base, "element", [&](Setting& s) { s.element = "hinge"; }));
+  list.push_back(varied(base, "element", [&](Setting& s) { s.element = BendingElement::hinge; }));
   for (const char* law : {"bilinear", "dahl", "obrien", "wong"})
     if (!effort.quick) list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
   for (double step : {0.2, 0.0125})

@@ -16,7 +16,8 @@ Scene with(const Setting& setting, Scene scene) {
   scene.substeps = 0;
   if (setting.triangles > 0) scene.triangles = setting.triangles;
   if (setting.step > 0) scene.step = setting.step;
-  (setting.integrator == "quasi-static" ? scene.newton_residual : scene.tolerance) = setting.tolerance;
+  (setting.integrator == Integrator::quasi_static ? scene.newton_residual : scene.tolerance) =
+      setting.tolerance;
   if (scene.newton_residual == 0) scene.newton_residual = Scene{}.newton_residual;
   return scene;
 }

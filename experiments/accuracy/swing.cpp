@@ -44,23 +44,24 @@ Problem swing_problem(const Effort& effort) {
                   {},
                   {}};
   MotionQuestion question{swing_scene, kLength, kSampling, {}, tip_height};
-  question.reference.integrator = "bdf2";
+  question.reference.integrator = Integrator::bdf2;
   question.reference.step = 1.0 / (effort.quick ? 7680 : 15360);
   problem.solve = solve_motion(question);
   problem.reference_per_mesh = true;
   Setting base;
   base.device = effort.device;
-  base.integrator = "bdf2";
+  base.integrator = Integrator::bdf2;
   base.triangles = 96;
   base.step = 1.0 / 240;
-  const auto add = [&](const char* integrator, int rate) {
+  const auto add = [&](Integrator integrator, int rate) {
     problem.settings.push_back(
         varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step = 1.0 / rate; }));
   };
-  for (const char* integrator : {"bdf2", "implicit"})
+  for (Integrator integrator : {Integrator::bdf2, Integrator::implicit})
     for (int rate = 60; rate <= (effort.quick ? 960 : 3840); rate *= 2) add(integrator, rate);
   // Of explicit bending these are the longest that are stable.
-  for (int rate = 30720; rate <= (effort.quick ? 61440 : 245760); rate *= 2) add("semi-implicit", rate);
+  for (int rate = 30720; rate <= (effort.quick ? 61440 : 245760); rate *= 2)
+    add(Integrator::semi_implicit, rate);
   return problem;
 }
 

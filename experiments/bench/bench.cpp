@@ -34,7 +34,7 @@ const KeyRow<BenchOptions> kRows[] = {
 // clang-format on
 
 void take(const Case& c, Scene& scene) {
-  scene.element = c.element;
+  scene.element = value_named<BendingElement>(c.element);
   scene.law = c.law;
   scene.param.clear();
   if (scene.law == "prandtl") scene.param["memory"] = c.memory;
@@ -45,7 +45,7 @@ constexpr int kBatches = 7;  // the median of their times is reported
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "semi-implicit";
+  scene.integrator = Integrator::semi_implicit;
   scene.step = 1e-3;
   scene.cloth.length = 0.5;
   scene.mesh = "aligned";
@@ -93,11 +93,11 @@ Json measure(Simulation& simulation, const Scene& scene, int triangles, int step
   row["scene"] = "hanging-square";
   row["triangles"] = triangles;
   row["device"] = simulation.device();
-  row["precision"] = scene.precision;
-  row["element"] = scene.element;
+  row["precision"] = name_of(scene.precision);
+  row["element"] = name_of(scene.element);
   row["law"] = scene.law;
   if (scene.law == "prandtl") row["memory"] = scene.param.at("memory");
-  row["integrator"] = scene.integrator;
+  row["integrator"] = name_of(scene.integrator);
   row["substeps"] = simulation.limits().substeps;
   row["solver_iterations"] = simulation.solver_iterations();
   row["ms_per_step"] = median;

@@ -63,7 +63,8 @@ MomentError moment_error(const Variant& variant, const VirginCurve& curve) {
 
 bool on_gpu(const Scene& scene) {
   std::string reason;
-  return scene.device == "cuda" || (scene.device == "auto" && gpu_count(reason) > 0);
+  return scene.device == DeviceChoice::cuda ||
+         (scene.device == DeviceChoice::automatic && gpu_count(reason) > 0);
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ Json law_cost_table(const Scene& scene, int elements) {
            {"ns_per_element", cost.ns_per_element},
            {"history_bytes_per_element", cost.bytes_per_element},
            {"elements", elements},
-           {"precision", scene.precision},
+           {"precision", name_of(scene.precision)},
            {"device", gpu ? gpu_description(0) : cpu_description()}});
     }
   }

@@ -30,14 +30,14 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   scene.law = "linear";
-  scene.integrator = "quasi-static";
+  scene.integrator = Integrator::quasi_static;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.01;
   scene.mesh = "unionjack";
   scene.triangles = 640;
   scene.step = 0.05;
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   setup.options.fps = 20;
   setup.options.camera_direction = {0.8, -1.0, 0.6};
   setup.options.camera_fov = 24;

@@ -24,7 +24,7 @@ const KeyRow<C> kRows[] = {
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "quasi-static";
+  scene.integrator = Integrator::quasi_static;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.025;  // as cut for ASTM D1388
@@ -34,7 +34,7 @@ Setup defaults() {
   scene.ramp = scene.unload = 1;
   scene.seconds = 2;
   scene.step = 0.05;
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   setup.options.fps = 20;
   setup.options.camera_direction = {0.35, -1.0, 0.3};
   setup.options.camera_fov = 24;

@@ -31,7 +31,7 @@ const KeyRow<C> kRows[] = {
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "quasi-static";
+  scene.integrator = Integrator::quasi_static;
   scene.step = 1.0 / 60;
   scene.self_contact = true;
   scene.cloth.length = 0.04;
@@ -52,7 +52,7 @@ Setup defaults() {
 // A quick release needs inertia, and steps whose own damping is small beside the fabric's, solved as well as
 // that.
 void let_go_quickly(Scene& scene) {
-  if (!scene.origin.contains("integrator")) scene.integrator = "bdf2";
+  if (!scene.origin.contains("integrator")) scene.integrator = Integrator::bdf2;
   if (!scene.origin.contains("step")) scene.step = 1.0 / 960;
   if (!scene.origin.contains("newton-residual")) scene.newton_residual = 1e-6;
 }

@@ -32,7 +32,7 @@ const KeyRow<C> kRows[] = {
 Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 80;
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.03;

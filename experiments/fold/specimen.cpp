@@ -88,8 +88,8 @@ bool is_chosen(int cycle, int last) {
 bool is_pictured(int cycle, int last) { return cycle == last || cycle == decade_of(cycle); }
 
 Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
-  if (given.element != "shape")
-    throw Error::request("fold: element = " + given.element +
+  if (given.element != BendingElement::shape)
+    throw Error::request("fold: element = " + name_of(given.element) +
                          " must be shape: recovery is read from the curvature tensors of faces");
   Fold fold{given, {}};
   Scene& scene = fold.scene;

@@ -46,7 +46,7 @@ const KeyRow<KesFlags> kRows[] = {
 };
 const KeyRow<KesFlags> kStripRows[] = {
     {"mesh", at<&K::mesh>, "", any(), "", "of strips, several apart by commas: aligned, aligned-45, flipped, unionjack, equilateral, random; or all"},
-    {"element", at<&K::strip, &S::element>, "", any(), "shape | hinge", "bending element of strips"},
+    {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
     {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "of a strip, about; their size times the amplitude must stay small"},
     {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
     {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
@@ -116,7 +116,7 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
   const ClampedStrip strip = clamped_strip(shape, law, fabric, flags.protocol);
   StripResult result;
   result.mesh = mesh;
-  result.element = shape.element;
+  result.element = name_of(shape.element);
   result.prefix = several_meshes ? mesh + "." : "";
   result.triangles = strip.cloth.mesh.faces();
   result.spacing = strip.spacing;

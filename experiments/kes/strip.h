@@ -16,7 +16,7 @@ inline constexpr double kGauge = 0.01;  // of the tester: cloth between the clam
 
 struct StripShape {
   std::string mesh = "aligned";  // one of strip_meshes()
-  std::string element = "shape";
+  BendingElement element = BendingElement::shape;
   double width = 4e-3;    // [m]
   double warp_angle = 0;  // of the fabric against the strip [degree]
   int triangles = 340;    // about as many, clamped ones included

@@ -40,11 +40,11 @@ Scene scene_of(const StripShape& shape, const LawRequest& law, const Fabric& fab
   scene.param = law.parameters;
   scene.element = shape.element;
   scene.mesh = shape.mesh;
-  scene.integrator = "quasi-static";
+  scene.integrator = Integrator::quasi_static;
   scene.gravity.setZero();
   scene.step = walk.rows.back().seconds;
   scene.seconds = scene.step * static_cast<double>(walk.rows.size());
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   scene.threads = 1;  // strips are small
   return scene;
 }

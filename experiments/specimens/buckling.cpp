@@ -114,7 +114,7 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
       kind == Buckling::upright ? -Eigen::Vector3d::UnitX() : -Eigen::Vector3d::UnitY();
   scene.gravity = g * (std::sin(tilt) * side - std::cos(tilt) * Eigen::Vector3d::UnitZ());
   scene.fabric.density = most * reference_gamma(kind, scene) * scene.fabric.b2 / (g * std::pow(length, 3));
-  scene.integrator = "quasi-static";
+  scene.integrator = Integrator::quasi_static;
   scene.ramp = scene.seconds = most;
   scene.unload = 0;
   if (!(scene.fabric.density > 0 && std::isfinite(scene.fabric.density)))

@@ -54,7 +54,7 @@ SweepChoice choice_of(const F& flags) {
   SweepChoice choice;
   if (flags.integrator != "all") choice.integrators = split(flags.integrator);
   choice.laws = split(flags.law);
-  choice.device = flags.device;
+  choice.device = value_named<DeviceChoice>(flags.device);
   choice.quick = flags.options.quick;
   return choice;
 }

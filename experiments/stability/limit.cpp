@@ -38,7 +38,7 @@ constexpr int kHeldConditions = 2;  // the first ones, in which cloth is also he
 
 Scene scene_of(const LimitCase& of) {
   Scene scene = default_scene();
-  scene.integrator = "semi-implicit";
+  scene.integrator = Integrator::semi_implicit;
   scene.cloth.length = kLength;
   scene.triangles = 128;
   scene.mesh = of.mesh;
@@ -46,7 +46,7 @@ Scene scene_of(const LimitCase& of) {
   scene.law = of.condition.law;
   scene.fabric.damping = of.condition.damping;
   scene.gravity.setZero();
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   scene.threads = 1;
   if (of.held) {
     Pin edge;
@@ -132,7 +132,7 @@ std::vector<LimitCase> limit_cases(bool quick) {
   std::vector<LimitCase> cases;
   for (const LimitCondition& condition : kConditions) {
     for (const char* mesh : {"aligned", "flipped", "unionjack", "equilateral", "random"}) {
-      for (const char* element : {"shape", "hinge"}) {
+      for (BendingElement element : {BendingElement::shape, BendingElement::hinge}) {
         for (const bool held : {false, true}) {
           const auto index = &condition - kConditions;
           if ((held && index >= kHeldConditions) || (quick && (held || index > 0))) continue;

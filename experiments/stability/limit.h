@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/choices.h"
+
 namespace hysteron::experiments {
 
 // How the waves are.
@@ -22,9 +24,9 @@ struct LimitCondition {
 
 // A square of 0.2 m and 128 triangles without gravity, whose vertices are shaken out of its plane.
 struct LimitCase {
-  std::string mesh = "random";    // family
-  std::string element = "shape";  // shape | hinge
-  bool held = false;              // by its left edge
+  std::string mesh = "random";  // family
+  BendingElement element = BendingElement::shape;
+  bool held = false;  // by its left edge
   LimitCondition condition = {};
 };
 

@@ -48,8 +48,8 @@ void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<C
                              sweep.x.ticks[cell.column],
                              sweep.y.ticks[cell.row],
                              scene.law,
-                             scene.element,
-                             scene.precision,
+                             name_of(scene.element),
+                             name_of(scene.precision),
                              number_field(scene.step),
                              name_of(f.outcome),
                              if_ran(number_field(f.energy_growth)),
@@ -77,7 +77,7 @@ void write_counts(Run& run, const std::vector<Cell>& cells) {
     run.metric(prefix + "cells", all);
     for (Outcome outcome : kOutcomes) run.metric(prefix + name_of(outcome), counts[outcome]);
   }
-  run.metric("diverged_default", count(cells, default_scene().integrator)[Outcome::diverged]);
+  run.metric("diverged_default", count(cells, name_of(default_scene().integrator))[Outcome::diverged]);
 }
 
 void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {
@@ -106,7 +106,7 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   double least = kMostRatio, most = 0, least_resonant = kMostRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    file.stream() << row_of({of.mesh, of.element, of.held ? "held" : "free", of.condition.law,
+    file.stream() << row_of({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
                              number_field(of.condition.damping), number_field(of.condition.amplitudes.back()),
                              number_field(limit.bound), number_field(limit.measured),
                              number_field(limit.ratio())});
@@ -127,9 +127,9 @@ void print_limits(const std::vector<MeasuredLimit>& limits) {
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     std::printf("%-11s %-5s %-4s %-8s damping %-6g s  amplitude %-6g m  %.3g / %.3g s = %.3f\n",
-                of.mesh.c_str(), of.element.c_str(), of.held ? "held" : "free", of.condition.law.c_str(),
-                of.condition.damping, of.condition.amplitudes.back(), limit.measured, limit.bound,
-                limit.ratio());
+                of.mesh.c_str(), name_of(of.element).c_str(), of.held ? "held" : "free",
+                of.condition.law.c_str(), of.condition.damping, of.condition.amplitudes.back(),
+                limit.measured, limit.bound, limit.ratio());
   }
 }
 

@@ -54,8 +54,8 @@ StepLine step_line(const Sweep& sweep, int variant) {
   StepLine line;
   for (std::size_t column = 0; column < sweep.x.ticks.size(); ++column) {
     Attempt attempt = sweep.at(variant, static_cast<int>(column), 0);
-    attempt.scene.integrator = "explicit";
-    attempt.scene.device = "cpu";
+    attempt.scene.integrator = Integrator::explicit_euler;
+    attempt.scene.device = DeviceChoice::cpu;
     attempt.scene.step = 1e-12;  // any step is allowed that is short enough
     StepLimits limits{NAN, NAN};
     try {
@@ -138,7 +138,9 @@ render::HeatMaps limit_page(const std::vector<MeasuredLimit>& limits) {
                          {"bound more than 2 times too careful", "#F5E27A"}},
                         {}};
   std::vector<std::string> conditions;
-  const auto row_of = [](const LimitCase& of) { return of.element + (of.held ? ", held" : ", free"); };
+  const auto row_of = [](const LimitCase& of) {
+    return name_of(of.element) + (of.held ? ", held" : ", free");
+  };
   for (const MeasuredLimit& limit : limits)
     place_in(page.x.ticks, limit.of.mesh), place_in(page.y.ticks, row_of(limit.of));
   for (const MeasuredLimit& limit : limits) {

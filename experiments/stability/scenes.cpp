@@ -258,7 +258,7 @@ Sweep mesh_sweep(const SweepChoice& choice) {
               {}};
   sweep.at = [elements = sweep.variants, laws = sweep.x.ticks](int variant, int column, int row) {
     Attempt attempt = kMeshes[row].make();
-    attempt.scene.element = elements[variant];
+    attempt.scene.element = value_named<BendingElement>(elements[variant]);
     attempt.scene.law = laws[column];
     attempt.scene.step = kShortStep;
     return attempt;
@@ -266,10 +266,10 @@ Sweep mesh_sweep(const SweepChoice& choice) {
   return sweep;
 }
 
-Sweep scene_sweep(const SweepChoice& choice, const std::string& precision) {
-  const bool all = precision == "double" && choice.laws.empty() && !choice.quick;
-  Sweep sweep{precision == "double" ? "scenes" : "scenes-" + precision,
-              "Scenes that ask too much, in " + precision + " precision",
+Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
+  const bool all = precision == Precision::fp64 && choice.laws.empty() && !choice.quick;
+  Sweep sweep{precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
+              "Scenes that ask too much, in " + name_of(precision) + " precision",
               {"law", all ? all_laws() : few_laws(choice)},
               axis_of("scene", std::begin(kScenes), std::end(kScenes)),
               {"step 1 ms", "step 1/60 s"},
@@ -297,8 +297,8 @@ const NamedSweep kSweeps[] = {
     {"density-step", density_sweep},
     {"friction-step", friction_sweep},
     {"mesh", mesh_sweep},
-    {"scenes", [](const SweepChoice& choice) { return scene_sweep(choice, "double"); }},
-    {"scenes-float", [](const SweepChoice& choice) { return scene_sweep(choice, "float"); }},
+    {"scenes", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp64); }},
+    {"scenes-float", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp32); }},
 };
 
 }  // namespace

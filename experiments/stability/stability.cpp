@@ -29,7 +29,7 @@ double diagonal(const ClothMesh& mesh) {
 }
 
 long planned_steps(const Simulation& simulation, const Scene& scene, const CellEffort& effort) {
-  const bool solved = scene.integrator == "implicit" || scene.integrator == "bdf2";
+  const bool solved = scene.integrator == Integrator::implicit || scene.integrator == Integrator::bdf2;
   const double work = solved ? kWorkOfSolvedStep : simulation.limits().substeps;
   return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
 }
@@ -128,7 +128,7 @@ std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& 
           for (std::size_t column = 0; column < sweeps[s].x.ticks.size(); ++column) {
             Cell cell{static_cast<int>(s),   static_cast<int>(v), static_cast<int>(column),
                       static_cast<int>(row), integrator,          sweeps[s].at(v, column, row)};
-            cell.attempt.scene.integrator = integrator;
+            cell.attempt.scene.integrator = value_named<Integrator>(integrator);
             cell.attempt.scene.device = choice.device;
             cell.attempt.scene.threads = 1;
             cells.push_back(std::move(cell));

@@ -80,7 +80,7 @@ struct Sweep {
 struct SweepChoice {
   std::vector<std::string> integrators = {"semi-implicit", "implicit", "bdf2", "explicit"};
   std::vector<std::string> laws = {};  // empty: linear, prandtl and wong in maps, all in extreme scenes
-  std::string device = "cpu";
+  DeviceChoice device = DeviceChoice::cpu;
   bool quick = false;
 };
 std::vector<std::string> sweep_names();
@@ -93,7 +93,7 @@ Sweep membrane_sweep(const SweepChoice& choice);
 Sweep density_sweep(const SweepChoice& choice);
 Sweep friction_sweep(const SweepChoice& choice);
 Sweep mesh_sweep(const SweepChoice& choice);
-Sweep scene_sweep(const SweepChoice& choice, const std::string& precision);
+Sweep scene_sweep(const SweepChoice& choice, Precision precision);
 
 // A cell of the map with what was found in it.
 struct Cell {

@@ -19,7 +19,7 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   // 0.4 % of the length in `hysteron accuracy`, problem swing: the cheapest within 1 %.
-  scene.integrator = "bdf2";
+  scene.integrator = Integrator::bdf2;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.09;
   scene.cloth.width = 0.03;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <string>
 
+#include "sim/base/error.h"
+
 namespace hysteron {
 
 template <class E>
@@ -17,6 +19,17 @@ concept Named = requires(E value) {
 template <Named E>
 std::string name_of(E value) {
   return names(value)[static_cast<std::size_t>(value)];
+}
+
+// The value of that name; Error::request for another, with the names that there are.
+template <Named E>
+E value_named(const std::string& name) {
+  std::string all;
+  for (std::size_t i = 0; i < names(E{}).size(); ++i) {
+    if (name == names(E{})[i]) return static_cast<E>(i);
+    all += (i ? ", " : "") + std::string(names(E{})[i]);
+  }
+  throw Error::request(name + " is not one of: " + all);
 }
 
 }  // namespace hysteron

@@ -5,13 +5,12 @@
 
 #include "sim/base/step_formula.h"
 #include "sim/bending/angle.h"
+#include "sim/bending/choices.h"
 #include "sim/bending/law_loop.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
-
-enum class ForceConvention { energy, chapter };
 
 template <class Real, class Device>
 class Bending {

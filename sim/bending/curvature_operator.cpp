@@ -97,11 +97,15 @@ void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double b
   transpose_rows(op, mesh.interior_edges);
 }
 
-CurvatureOperator make_curvature_operator(const std::string& element, const ClothMesh& mesh,
+CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,
                                           const std::vector<char>& held) {
-  if (element == "hinge") return make_hinge_operator(mesh);
-  if (element == "shape") return make_shape_operator(mesh, held);
-  throw Error::request("element = " + element + " is not one of: shape, hinge");
+  switch (element) {
+    case BendingElement::hinge:
+      return make_hinge_operator(mesh);
+    case BendingElement::shape:
+      return make_shape_operator(mesh, held);
+  }
+  __builtin_unreachable();
 }
 
 }  // namespace hysteron

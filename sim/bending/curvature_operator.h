@@ -1,9 +1,9 @@
 // The fixed linear map from changes of dihedral angle to curvatures: what distinguishes bending elements.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "sim/bending/choices.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
@@ -35,8 +35,7 @@ CurvatureOperator make_hinge_operator(const ClothMesh& mesh);
 // for the whole run: a boundary edge between two held vertices is clamped, every other boundary edge is free.
 CurvatureOperator make_shape_operator(const ClothMesh& mesh, const std::vector<char>& held);
 
-// Dispatches on "hinge" | "shape"; Error::request otherwise.
-CurvatureOperator make_curvature_operator(const std::string& element, const ClothMesh& mesh,
+CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,
                                           const std::vector<char>& held);
 
 // Gives the rigidities along weft and bias over that along warp to every law: K' = Q^1/2 K before the law, M

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/choices.h"
 #include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
+#include "sim/scene/method.h"
 #include "sim/scene/obstacle_kind.h"
 
 namespace hysteron {
@@ -131,32 +133,31 @@ struct Scene {
   Fabric fabric;
   std::string law = "prandtl";  // law
   std::map<std::string, std::string>
-      param;                      // param      law parameters by name (memory, stops, recovery, ...)
-  std::string element = "shape";  // element    shape | hinge
-  std::string force = "energy";   // force      energy | chapter (hinge only)
-  std::string mesh = "random";    // mesh       family of the builder, or FILE.obj
-  int triangles = 5000;           // triangles
-  std::string integrator =
-      "semi-implicit";  // integrator semi-implicit | implicit | bdf2 | quasi-static | explicit
-  double step = 1e-3;   // step       large step hi [s]
-  int substeps = 0;     // substeps   alpha; 0 = the least stable one
-  std::string implicit_every = "substep";  // implicit-every  substep | step (the chapter's)
-  double solver_tolerance = 1e-4;          // solver-tolerance  relative residual of the implicit solve
-  double newton_residual = 1e-6;           // newton-residual   unbalanced force over the weight
-  double newton_velocity = 1e-9;           // newton-velocity   or: correction over the step's time [m/s]
+      param;  // param      law parameters by name (memory, stops, recovery, ...)
+  BendingElement element = BendingElement::shape;         // element
+  ForceConvention force = ForceConvention::energy;        // force      chapter: hinge only
+  std::string mesh = "random";                            // mesh       family of the builder, or FILE.obj
+  int triangles = 5000;                                   // triangles
+  Integrator integrator = Integrator::semi_implicit;      // integrator
+  double step = 1e-3;                                     // step       large step hi [s]
+  int substeps = 0;                                       // substeps   alpha; 0 = the least stable one
+  ImplicitEvery implicit_every = ImplicitEvery::substep;  // implicit-every
+  double solver_tolerance = 1e-4;  // solver-tolerance  relative residual of the implicit solve
+  double newton_residual = 1e-6;   // newton-residual   unbalanced force over the weight
+  double newton_velocity = 1e-9;   // newton-velocity   or: correction over the step's time [m/s]
   int newton_iterations =
       0;                 // newton-iterations  at most, then the step is taken as it is; 0: until it converges
   double tolerance = 0;  // tolerance  of positions, per part of a step [m]; 0: steps as given
-  std::string linear_solver = "multigrid";  // linear-solver     multigrid | block-jacobi
-  double ramp = 0;                          // ramp      quasi-static: time in which the weight grows [s]
-  double unload = 0;                        // unload    after it, time in which the weight falls to none [s]
-  std::string device = "auto";              // device     auto | cpu | cuda
-  std::string precision = "double";         // precision  double | float
-  int threads = 0;                          // threads    0 = all cores
-  double seconds = 1;                       // seconds    simulated time [s]
-  Eigen::Vector3d gravity{0, 0, -9.81};     // gravity    [m/s^2]
-  double air_drag = 0;                      // air-drag   linear drag per area [kg/(m^2 s)]
-  bool self_contact = false;                // self-contact  cloth cannot pass through itself
+  Preconditioning linear_solver = Preconditioning::multigrid;  // linear-solver
+  double ramp = 0;    // ramp      quasi-static: time in which the weight grows [s]
+  double unload = 0;  // unload    after it, time in which the weight falls to none [s]
+  DeviceChoice device = DeviceChoice::automatic;  // device
+  Precision precision = Precision::fp64;          // precision
+  int threads = 0;                                // threads    0 = all cores
+  double seconds = 1;                             // seconds    simulated time [s]
+  Eigen::Vector3d gravity{0, 0, -9.81};           // gravity    [m/s^2]
+  double air_drag = 0;                            // air-drag   linear drag per area [kg/(m^2 s)]
+  bool self_contact = false;                      // self-contact  cloth cannot pass through itself
   double contact_stiffness = 0;    // contact-stiffness  per area [N/m^3]; 0 = from weight and thickness
   unsigned seed = 1;               // seed
   std::vector<Pin> pin;            // [[pin]]
@@ -171,7 +172,8 @@ struct Scene {
   std::string phase_at(double time) const;
   // Bending as well: every force at the end of the step.
   bool is_implicit() const {
-    return integrator == "implicit" || integrator == "bdf2" || integrator == "quasi-static";
+    return integrator == Integrator::implicit || integrator == Integrator::bdf2 ||
+           integrator == Integrator::quasi_static;
   }
 };
 

@@ -68,9 +68,9 @@ void check_one_mesh(const Scene& scene) {
 }
 
 void check_method(const Scene& scene) {
-  if (scene.force == "chapter" && scene.element != "hinge") {
+  if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge) {
     throw Error::request("force = chapter (" + origin_of(scene, "force") + ") needs element = hinge, not " +
-                         scene.element + " (" + origin_of(scene, "element") + ")");
+                         name_of(scene.element) + " (" + origin_of(scene, "element") + ")");
   }
 }
 
@@ -231,25 +231,26 @@ void check_command(const Scene& scene, const Command& command, const std::string
 }  // namespace
 
 void check_steps(const Scene& scene) {
-  if (scene.self_contact && scene.integrator == "explicit")
+  if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
     throw Error::request(
         "self-contact (" + origin_of(scene, "self-contact") +
         ") needs integrator = implicit | bdf2 | quasi-static | semi-implicit, not explicit (" +
         origin_of(scene, "integrator") + ")");
-  if (scene.self_contact && scene.integrator == "semi-implicit" && scene.implicit_every == "step")
+  if (scene.self_contact && scene.integrator == Integrator::semi_implicit &&
+      scene.implicit_every == ImplicitEvery::step)
     throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
                          ") needs implicit-every = substep, not step (" + origin_of(scene, "implicit-every") +
                          ")");
   if (!(scene.tolerance > 0)) return;
-  if (scene.integrator == "explicit" || scene.integrator == "quasi-static")
+  if (scene.integrator == Integrator::explicit_euler || scene.integrator == Integrator::quasi_static)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " + scene.integrator +
-                         " (" + origin_of(scene, "integrator") + ")");
-  if (scene.integrator == "semi-implicit" && scene.self_contact)
+                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " +
+                         name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
+  if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
                          " with self-contact needs integrator = bdf2 | implicit, not semi-implicit (" +
                          origin_of(scene, "integrator") + ")");
-  if (scene.integrator == "semi-implicit" && scene.implicit_every == "step")
+  if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
                          " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
 }

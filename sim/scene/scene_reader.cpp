@@ -159,7 +159,7 @@ class SceneFile {
 Scene default_scene(const std::string& fabric) {
   Scene scene;
   // Stable at any step; experiments that ask what stops a motion choose a method that damps less.
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 60;
   set_key(scene, "fabric", fabric, "default");
   return scene;

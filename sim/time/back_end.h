@@ -20,10 +20,9 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
 // Bound on dM/dK of the scene's law on an element of this dimension [N m].
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
 
-// Cost of a law's loop alone; precision = double | float, threads 0 = all.  Error::machine without a GPU.
-LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
-                     int threads);
-LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision);
+// Cost of a law's loop alone; threads 0 = all.  Error::machine without a GPU.
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision, int threads);
+LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision);
 
 std::string cpu_description();
 int gpu_count(std::string& reason);  // usable GPUs; why there are none

@@ -6,7 +6,7 @@ namespace hysteron {
 std::unique_ptr<Simulation> make_cpu_simulation(const Scene& scene, const Cloth& cloth,
                                                 const CurvatureOperator& op, const StepLimits& limits) {
   auto cpu = std::make_unique<Cpu>(scene.threads);
-  if (scene.precision == "float")
+  if (scene.precision == Precision::fp32)
     return std::make_unique<Stepper<float, Cpu>>(std::move(cpu), scene, cloth, op, limits);
   return std::make_unique<Stepper<double, Cpu>>(std::move(cpu), scene, cloth, op, limits);
 }
@@ -18,11 +18,10 @@ double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
       ->largest_stiffness();
 }
 
-LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision,
-                     int threads) {
+LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision, int threads) {
   Cpu cpu(threads);
-  return precision == "float" ? law_cost<float>(cpu, choice, dimension, elements)
-                              : law_cost<double>(cpu, choice, dimension, elements);
+  return precision == Precision::fp32 ? law_cost<float>(cpu, choice, dimension, elements)
+                                      : law_cost<double>(cpu, choice, dimension, elements);
 }
 
 std::string cpu_description() { return "cpu: " + Cpu(0).description(); }

@@ -7,15 +7,15 @@ namespace hysteron {
 std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth& cloth,
                                                 const CurvatureOperator& op, const StepLimits& limits) {
   auto gpu = std::make_unique<Cuda>(0);
-  if (scene.precision == "float")
+  if (scene.precision == Precision::fp32)
     return std::make_unique<Stepper<float, Cuda>>(std::move(gpu), scene, cloth, op, limits);
   return std::make_unique<Stepper<double, Cuda>>(std::move(gpu), scene, cloth, op, limits);
 }
 
-LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, const std::string& precision) {
+LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision) {
   Cuda gpu(0);
-  return precision == "float" ? law_cost<float>(gpu, choice, dimension, elements)
-                              : law_cost<double>(gpu, choice, dimension, elements);
+  return precision == Precision::fp32 ? law_cost<float>(gpu, choice, dimension, elements)
+                                      : law_cost<double>(gpu, choice, dimension, elements);
 }
 
 int gpu_count(std::string& reason) { return cuda_device_count(reason); }

@@ -27,7 +27,7 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
   // Single precision resolves positions of a metre to 6e-8 m.
   constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
   limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
-  if (statics && scene.integrator != "quasi-static") {
+  if (statics && scene.integrator != Integrator::quasi_static) {
     // What is good enough for steps in time, whose own error hides it, is not for the equilibrium after them.
     limits.residual = std::min(limits.residual, 1e-6);
     limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kLeastVelocity);
@@ -35,7 +35,7 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
   if (statics) {
     limits.iterations = 400;
     // Parts of a step find no other equilibrium after a motion: the caller sees whether cloth still moves.
-    limits.take_unconverged = scene.integrator != "quasi-static";
+    limits.take_unconverged = scene.integrator != Integrator::quasi_static;
     limits.first_shift = 1e4;  // as in a step of 10 ms
     limits.least_shift = 1e-4;
   } else if (scene.newton_iterations > 0) {
@@ -54,9 +54,9 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
                                          SelfContact<Real, Device>* self_contact,
                                          std::unique_ptr<LinearSolver<Real, Device>> solver)
     : device_(device),
-      two_step_(scene.integrator == "bdf2"),
-      static_(scene.integrator == "quasi-static"),
-      bending_lags_(scene.integrator == "semi-implicit"),
+      two_step_(scene.integrator == Integrator::bdf2),
+      static_(scene.integrator == Integrator::quasi_static),
+      bending_lags_(scene.integrator == Integrator::semi_implicit),
       gravity_(scene.gravity.cast<Real>()),
       drag_(static_cast<Real>(scene.air_drag / scene.fabric.density)),
       vertices_(static_cast<int>(mass.size())),

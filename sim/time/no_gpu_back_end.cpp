@@ -11,7 +11,7 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
   throw Error::machine("device = cuda: " + reason);
 }
 
-LawCost gpu_law_cost(const LawChoice&, int, int, const std::string&) {
+LawCost gpu_law_cost(const LawChoice&, int, int, Precision) {
   std::string reason;
   gpu_count(reason);
   throw Error::machine("device = cuda: " + reason);

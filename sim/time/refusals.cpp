@@ -1,10 +1,12 @@
-// When a run cannot go on: where, when, and what presses there.
+#include "sim/time/refusals.h"
+
 #include <algorithm>
 #include <cstdio>
 
 #include "sim/base/enum_names.h"
 #include "sim/base/error.h"
-#include "sim/time/stepper.h"
+#include "sim/contact/obstacle_set.h"
+#include "sim/contact/start_checks.h"
 
 namespace hysteron {
 
@@ -27,7 +29,7 @@ std::string together(const std::vector<std::string>& words) {
 
 // "edge 3-4 and edge 8-9", "vertex 12 and triangle 3-4-5"
 template <class Real>
-std::string names(const SelfPair<Real>& pair) {
+std::string names_of(const SelfPair<Real>& pair) {
   const auto dash = [](int a, int b) { return std::to_string(a) + "-" + std::to_string(b); };
   if (pair.is_edges())
     return "edge " + dash(pair.v[0], pair.v[1]) + " and edge " + dash(pair.v[2], pair.v[3]);
@@ -35,117 +37,134 @@ std::string names(const SelfPair<Real>& pair) {
          std::to_string(pair.v[3]);
 }
 
+template <class Real, class Device>
+std::vector<Eigen::Vector3d> positions_of(const Body<Real, Device>& body) {
+  std::vector<Eigen::Vector3d> result;
+  for (const auto& x : body.x.download()) result.push_back(x.template cast<double>());
+  return result;
+}
+
+// What a vertex at x touches.
+template <class Real, class Device>
+std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Eigen::Vector3d& x,
+                                  double time) {
+  const Scene& scene = body.scene;
+  std::vector<std::string> by;
+  const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
+  for (int o = 0; o < set.count; ++o)
+    if (distance_to<double>(set.item[o], x).value < scene.fabric.thickness)
+      by.push_back("obstacle[" + std::to_string(set.item[o].index) + "] (" +
+                   name_of(scene.obstacle[set.item[o].index].kind) + ")");
+  if (body.self_contact && body.self_contact->pairs() > 0 && body.self_contact->forces()[vertex].norm() > 0)
+    by.push_back("the cloth itself");
+  return by;
+}
+
+std::string others(const Immersion& found) {
+  return ", of " + std::to_string(found.count) + " such vertices the deepest";
+}
+
 }  // namespace
 
-// Obstacles that have come since the last time.  What hands hold may be inside them; nothing else.
 template <class Real, class Device>
-void Stepper<Real, Device>::meet_obstacles(double time) {
-  std::vector<Obstacle> fresh = scene_.obstacle;
-  next_obstacle_ = 1e30;
-  for (Obstacle& o : fresh) {
-    if (o.from > time) next_obstacle_ = std::min(next_obstacle_, o.from);
-    if (o.from <= met_) o.until = o.from;  // never there
-  }
-  met_ = time;
-  const std::vector<Eigen::Vector3d> x = positions();
-  const std::vector<char> held = cloth_.held(scene_, time);
-  const auto set = obstacles_during<double>(fresh, scene_.fabric.friction, time, time);
-  const Immersion found = deepest(set, x, held, scene_.fabric.thickness);
-  if (found.count > 0)
-    throw Error::run(at_time(time) +
-                     "an obstacle appears where the cloth is: " + immersion_text(found, scene_.obstacle, x) +
-                     ", of " + std::to_string(found.count) + " such vertices the deepest");
-  std::vector<char> spared = contact_->spared(), deep = immersed(set, x, scene_.fabric.thickness);
-  for (int i = 0; i < vertices_; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
-  contact_->spare(spared);
+void refuse_divergence(Body<Real, Device>& body, double time) {
+  if (body.is_finite()) return;
+  throw Error::run("the simulation diverged before t = " + std::to_string(time) +
+                   " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
 }
 
-// What hands let go must not be inside an obstacle.
 template <class Real, class Device>
-void Stepper<Real, Device>::refuse_release(const std::vector<char>& before, const std::vector<char>& held,
-                                           double time) {
-  std::vector<char> others(vertices_);
-  for (int i = 0; i < vertices_; ++i) others[i] = held[i] || !before[i];
-  const std::vector<Eigen::Vector3d> x = positions();
-  const auto set = obstacles_during<double>(scene_.obstacle, scene_.fabric.friction, time, time);
-  const Immersion found = deepest(set, x, others, scene_.fabric.thickness);
+void refuse_arrival(Body<Real, Device>& body, double met, double time) {
+  const Scene& scene = body.scene;
+  std::vector<Obstacle> fresh = scene.obstacle;
+  for (Obstacle& o : fresh)
+    if (o.from <= met) o.until = o.from;  // never there
+  const std::vector<Eigen::Vector3d> x = positions_of(body);
+  const std::vector<char> held = body.cloth.held(scene, time);
+  const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);
+  const Immersion found = deepest(set, x, held, scene.fabric.thickness);
+  if (found.count > 0)
+    throw Error::run(at_time(time) + "an obstacle appears where the cloth is: " +
+                     immersion_text(found, scene.obstacle, x) + others(found));
+  std::vector<char> spared = body.contact->spared(), deep = immersed(set, x, scene.fabric.thickness);
+  for (int i = 0; i < body.vertices; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
+  body.contact->spare(spared);
+}
+
+template <class Real, class Device>
+void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, double time) {
+  const Scene& scene = body.scene;
+  const std::vector<char> before = body.held.download();
+  std::vector<char> unconcerned(body.vertices);
+  for (int i = 0; i < body.vertices; ++i) unconcerned[i] = held[i] || !before[i];
+  const std::vector<Eigen::Vector3d> x = positions_of(body);
+  const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
+  const Immersion found = deepest(set, x, unconcerned, scene.fabric.thickness);
   if (found.count == 0) return;
   throw Error::run(at_time(time) + "a pin lets go of the cloth inside an obstacle: " +
-                   immersion_text(found, scene_.obstacle, x) + ", of " + std::to_string(found.count) +
-                   " such vertices the deepest");
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::commit_contact(double time) {
-  clock_.begin(Stage::contact);
-  const int deep = contact_->commit(x_.data(), before_.data(), held_.data());
-  clock_.end(Stage::contact);
-  if (deep == 0) return;
-  ++deep_steps_;
-  if (scene_.newton_iterations == 0) refuse_crushed(time);  // else forces need not have come to balance
+                   immersion_text(found, scene.obstacle, x) + others(found));
 }
 
 // A blow may drive the cloth deep into an obstacle for a moment.  It is crushed where that lasts because
 // something presses from the other side: a pin, an obstacle, or other layers.
 template <class Real, class Device>
-void Stepper<Real, Device>::refuse_crushed(double time) {
-  const std::vector<Eigen::Vector3d> x = positions();
-  const std::vector<char> held = cloth_.held(scene_, time), spared = contact_->spared();
-  const auto set = obstacles_during<double>(scene_.obstacle, scene_.fabric.friction, time, time);
-  const std::vector<Vec3<Real>> layers =
-      self_contact_ ? self_contact_->forces() : std::vector<Vec3<Real>>(vertices_, Vec3<Real>::Zero());
-  std::vector<char> well(vertices_);
-  for (int i = 0; i < vertices_; ++i) {
-    const double stiffness = contact_->stiffness() * cloth_.mesh.vertex_area[i];
+void refuse_crushed(Body<Real, Device>& body, double time) {
+  const Scene& scene = body.scene;
+  const std::vector<Eigen::Vector3d> x = positions_of(body);
+  const std::vector<char> held = body.cloth.held(scene, time), spared = body.contact->spared();
+  const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
+  const std::vector<Vec3<Real>> layers = body.self_contact
+                                             ? body.self_contact->forces()
+                                             : std::vector<Vec3<Real>>(body.vertices, Vec3<Real>::Zero());
+  std::vector<char> well(body.vertices);
+  for (int i = 0; i < body.vertices; ++i) {
+    const double stiffness = body.contact->stiffness() * body.cloth.mesh.vertex_area[i];
     const Eigen::Vector3d force = layers[i].template cast<double>() / stiffness;
-    well[i] = held[i] ? spared[i] : !is_squeezed(set, scene_.fabric.thickness, x[i], force);
+    well[i] = held[i] ? spared[i] : !is_squeezed(set, scene.fabric.thickness, x[i], force);
   }
-  const Immersion found = deepest(set, x, well, scene_.fabric.thickness);
+  const Immersion found = deepest(set, x, well, scene.fabric.thickness);
   if (found.count == 0) return;
-  const std::vector<std::string> by = pressing(found.vertex, x[found.vertex], time);
-  throw Error::run(at_time(time) + "the cloth is crushed: " + immersion_text(found, scene_.obstacle, x) +
-                   ", more than fabric.thickness = " + number(1e3 * scene_.fabric.thickness) + " mm" +
+  const std::vector<std::string> by = pressing(body, found.vertex, x[found.vertex], time);
+  throw Error::run(at_time(time) + "the cloth is crushed: " + immersion_text(found, scene.obstacle, x) +
+                   ", more than fabric.thickness = " + number(1e3 * scene.fabric.thickness) + " mm" +
                    (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
-                   ": leave it more room, or raise contact-stiffness = " + number(contact_->stiffness()) +
+                   ": leave it more room, or raise contact-stiffness = " + number(body.contact->stiffness()) +
                    " N/m^3");
 }
 
-// What a vertex at x touches.
 template <class Real, class Device>
-std::vector<std::string> Stepper<Real, Device>::pressing(int vertex, const Eigen::Vector3d& x, double time) {
-  std::vector<std::string> by;
-  const auto set = obstacles_during<double>(scene_.obstacle, scene_.fabric.friction, time, time);
-  for (int o = 0; o < set.count; ++o)
-    if (distance_to<double>(set.item[o], x).value < scene_.fabric.thickness)
-      by.push_back("obstacle[" + std::to_string(set.item[o].index) + "] (" +
-                   name_of(scene_.obstacle[set.item[o].index].kind) + ")");
-  if (self_contact_ && self_contact_->pairs() > 0 && self_contact_->forces()[vertex].norm() > 0)
-    by.push_back("the cloth itself");
-  return by;
-}
-
-template <class Real, class Device>
-void Stepper<Real, Device>::refuse_unbalanced(double start, double h, const NewtonOutcome& outcome) {
+void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                       const NewtonOutcome& outcome) {
   std::string message =
       "no equilibrium of the step " + at_time(start) + "was found, even in parts of " + number(h) + " s: ";
   if (outcome.blocked) {
     message += "pins move the cloth through itself";
-    if (self_contact_->pairs() > 0) message += ", " + names(self_contact_->blocking_pair());
+    if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
     throw Error::run(message);
   }
   if (!(outcome.load > 0))
     throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");
   message += "an unbalanced force of " + number(outcome.residual) +
              " N remains (weight, handles and inertia: " + number(outcome.load) + " N)";
-  const Unbalanced worst = implicit_->most_unbalanced(held_.data());
+  const Unbalanced worst = step.most_unbalanced(body.held.data());
   if (worst.vertex < 0) throw Error::run(message);
-  const std::vector<std::string> by = pressing(worst.vertex, worst.position, start + h);
+  const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
   throw Error::run(message + ", most of it, " + number(worst.force) + " N, at " +
                    vertex_text(worst.vertex, worst.position) +
                    (by.empty() ? "" : ", pressed by " + together(by)));
 }
 
-template class Stepper<double, ThisDevice>;
-template class Stepper<float, ThisDevice>;
+template void refuse_divergence(Body<double, ThisDevice>&, double);
+template void refuse_divergence(Body<float, ThisDevice>&, double);
+template void refuse_arrival(Body<double, ThisDevice>&, double, double);
+template void refuse_arrival(Body<float, ThisDevice>&, double, double);
+template void refuse_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
+template void refuse_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
+template void refuse_crushed(Body<double, ThisDevice>&, double);
+template void refuse_crushed(Body<float, ThisDevice>&, double);
+template void refuse_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double, double,
+                                const NewtonOutcome&);
+template void refuse_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
+                                const NewtonOutcome&);
 
 }  // namespace hysteron

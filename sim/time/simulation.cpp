@@ -27,7 +27,7 @@ constexpr int kMostSubsteps = 100000;
 double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op,
                           const std::vector<double>& mass, const std::vector<char>& held, double stiffness) {
   double lambda = bending_spectral_radius(cloth.mesh, op, stiffness, mass, held);
-  if (scene.force == "chapter") {
+  if (scene.force == ForceConvention::chapter) {
     double largest = 0;
     for (int h = 0; h < cloth.mesh.interior_edges; ++h) {
       const Edge& e = cloth.mesh.edge[h];
@@ -51,29 +51,32 @@ std::string number(double value) {
   return text;
 }
 
-StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
+// Largest stable steps of what the integrator takes explicitly.
+StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
   const std::vector<char> held = cloth.held_throughout(scene);
   std::vector<double> mass;
   for (double area : cloth.mesh.vertex_area) mass.push_back(scene.fabric.density * area);
   const double unit = bending_eigenvalue(scene, cloth, op, mass, held, 1);
   const double bending = law_largest_stiffness(scene, op) * unit;
-  // The viscosity is damping * b1, whatever the law's stiffness (sim/solve/stepper.cpp).
+  // The viscosity is damping * b1, whatever the law's stiffness (sim/time/body.cpp).
   const double viscous = scene.fabric.damping * scene.fabric.b1 * unit;
   StepLimits limits;
-  if (scene.is_implicit()) {
-    limits.bending_step = stable_step(bending, viscous);
-    limits.substep = scene.step;
-    return limits;
-  }
   limits.bending_step = stable_step(bending, viscous);
-  double largest = limits.bending_step;
-  if (scene.integrator == "explicit") {
-    double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);
-    const double viscous_membrane = scene.fabric.damping * stiff;
-    if (!scene.obstacle.empty()) stiff += contact_stiffness_per_area(scene) / scene.fabric.density;
-    limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);
-    largest = limits.membrane_step;
-  }
+  if (scene.integrator != Integrator::explicit_euler) return limits;
+  double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);
+  const double viscous_membrane = scene.fabric.damping * stiff;
+  if (!scene.obstacle.empty()) stiff += contact_stiffness_per_area(scene) / scene.fabric.density;
+  limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);
+  return limits;
+}
+
+StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op) {
+  StepLimits limits;
+  limits.substep = scene.step;
+  if (scene.is_implicit()) return limits;  // no step is too long
+  limits = stable_steps(scene, cloth, op);
+  const double largest =
+      scene.integrator == Integrator::explicit_euler ? limits.membrane_step : limits.bending_step;
   const double least = std::ceil(scene.step / largest);
   if (least > kMostSubsteps)
     throw Error::request("step = " + number(scene.step) + " s would take " + number(least) +
@@ -92,38 +95,54 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
 }
 
 bool wants_gpu(const Scene& scene) {
-  if (scene.device == "cpu") return false;
+  if (scene.device == DeviceChoice::cpu) return false;
   std::string reason;
   if (gpu_count(reason) > 0) return true;
-  if (scene.device == "cuda") throw Error::machine("device = cuda: " + reason + "; use --device cpu");
+  if (scene.device == DeviceChoice::cuda)
+    throw Error::machine("device = cuda: " + reason + "; use --device cpu");
   return false;
+}
+
+void refuse_more_than(std::size_t count, int most, const std::string& what) {
+  if (count > static_cast<std::size_t>(most))
+    throw Error::request(what + ": " + std::to_string(count) + " " + what + "s, at most " +
+                         std::to_string(most) + " are possible");
+}
+
+void check(const Scene& scene, const Cloth& cloth) {
+  refuse_more_than(scene.pin.size(), kMostMovingPins, "pin");
+  refuse_more_than(scene.obstacle.size(), kMostObstacles, "obstacle");
+  if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge)
+    throw Error::request("force = chapter needs element = hinge");
+  if (scene.force == ForceConvention::chapter && scene.is_implicit())
+    throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
+                         name_of(scene.integrator));
+  check_steps(scene);
+  check_start(scene, cloth);
+}
+
+// What a device is told beside scene and cloth.
+struct Plan {
+  CurvatureOperator op;
+  StepLimits limits;
+};
+
+Plan plan(const Scene& scene, const Cloth& cloth) {
+  Plan result;
+  result.op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
+  if (!scene.fabric.bends_alike())
+    stiffen(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+  result.limits = choose_substeps(scene, cloth, result.op);
+  return result;
 }
 
 }  // namespace
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
-  if (scene.integrator != "semi-implicit" && scene.integrator != "explicit" && !scene.is_implicit())
-    throw Error::request("integrator = " + scene.integrator +
-                         " must be semi-implicit | implicit | bdf2 | quasi-static | explicit");
-  if (scene.pin.size() > static_cast<std::size_t>(kMostMovingPins))
-    throw Error::request("pin: " + std::to_string(scene.pin.size()) + " pins, at most " +
-                         std::to_string(kMostMovingPins) + " are possible");
-  if (scene.obstacle.size() > static_cast<std::size_t>(kMostObstacles))
-    throw Error::request("obstacle: " + std::to_string(scene.obstacle.size()) + " obstacles, at most " +
-                         std::to_string(kMostObstacles) + " are possible");
-  CurvatureOperator op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
-  if (!scene.fabric.bends_alike())
-    stiffen(op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
-  if (scene.force == "chapter" && op.dimension != 1)
-    throw Error::request("force = chapter needs element = hinge");
-  if (scene.force == "chapter" && scene.is_implicit())
-    throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
-                         scene.integrator);
-  check_steps(scene);
-  check_start(scene, cloth);
-  const StepLimits limits = choose_substeps(scene, cloth, op);
-  return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, op, limits)
-                          : make_cpu_simulation(scene, cloth, op, limits);
+  check(scene, cloth);
+  const Plan planned = plan(scene, cloth);
+  return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, planned.op, planned.limits)
+                          : make_cpu_simulation(scene, cloth, planned.op, planned.limits);
 }
 
 std::vector<std::string> device_list() {

@@ -23,7 +23,8 @@ struct ScenePart {
 };
 
 struct StepLimits {
-  double bending_step = 0;   // largest stable explicit bending step, safety margin included [s]
+  double bending_step =
+      0;  // largest stable explicit bending step, safety margin included; 0 where no step is too long [s]
   double membrane_step = 0;  // the same for the membrane; 0 if the integrator treats it implicitly [s]
   int substeps = 1;          // alpha in use
   double substep = 0;        // he = hi/alpha [s]

@@ -145,7 +145,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.cores = setup.scene.threads;
-  jobs.gpu = setup.scene.device != "cpu";
+  jobs.gpu = setup.scene.device != DeviceChoice::cpu;
   jobs.go_on = true;
   run_columns(
       columns, jobs,

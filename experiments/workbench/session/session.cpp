@@ -73,8 +73,10 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
   std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
   const StepLimits limits = simulation.limits();
-  std::cout << "substeps " << limits.substeps << " of " << limits.substep
-            << " s; largest stable explicit bending step " << limits.bending_step << " s\n";
+  std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s";
+  if (limits.bending_step > 0)
+    std::cout << "; largest stable explicit bending step " << limits.bending_step << " s";
+  std::cout << "\n";
   std::size_t total = 0;
   for (const ScenePart& part : simulation.parts()) {
     char line[200];
@@ -148,6 +150,15 @@ void Session::note_folds() {
       "than 2.5 %% too soft: take more triangles",
       100 * folded_, kSharp);
   run_->progress(text);
+}
+
+void Session::note_deep_contact() {
+  const long deep = simulation_->deep_steps();
+  run_->metric("deep_contact_steps_count", deep);
+  if (deep == 0) return;
+  run_->progress("warning: in " + std::to_string(deep) +
+                 " parts of steps the cloth was deeper in an obstacle than its thickness: a larger "
+                 "contact-stiffness or a shorter step keeps it out");
 }
 
 bool Session::only_explain() const { return setup_.options.explain; }
@@ -274,7 +285,7 @@ void Session::finish(const std::string& title) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
-  if (!setup_.scene.obstacle.empty()) run_->metric("deep_contact_steps_count", simulation_->deep_steps());
+  if (!setup_.scene.obstacle.empty()) note_deep_contact();
   if (checks_intersections()) run_->metric("intersections", intersections_);
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene, recoveries_);

@@ -80,7 +80,7 @@ TEST(Sag, ConvergesWithTheMesh) {
 TEST(Sag, OfHingesOnACutGridDropsTooFar) {
   const Problem problem = sag_problem(kQuick);
   Setting setting = problem.settings.front();
-  setting.element = "hinge";
+  setting.element = BendingElement::hinge;
   setting.load = 1;
   const Found found = problem.solve(setting);
   EXPECT_NEAR(found.value / found.reference, 1.22, 0.03) << setting.mesh;

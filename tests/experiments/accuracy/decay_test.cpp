@@ -91,7 +91,7 @@ Scene small_scene(DecayKind kind) {
   scene.mesh = "unionjack";
   scene.triangles = 32;
   scene.step = decay_period(scene) / 100;
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   scene.threads = 1;
   return scene;
 }
@@ -159,8 +159,8 @@ TEST_P(Swinging, StripHasTheBeamsFrequency) {
   scene.cloth.width = 0.015;
   scene.mesh = GetParam();
   scene.triangles = 240;
-  scene.integrator = "bdf2";
-  scene.device = "cpu";
+  scene.integrator = Integrator::bdf2;
+  scene.device = DeviceChoice::cpu;
   scene.threads = 1;
   constexpr double kLine = 0.01, kFree = 0.06;  // [m]
   const double omega = mode_frequency(scene.fabric.b2, scene.fabric.density, kFree);
@@ -221,7 +221,7 @@ TEST(DecayProblem, IsSolvedByAllButBackwardEuler) {
   for (const Setting& setting : problem.settings) {
     const Found found = problem.solve(setting);
     ++of_kind[std::lround(setting.load)];
-    if (setting.integrator == "implicit")
+    if (setting.integrator == Integrator::implicit)
       EXPECT_GT(found.error, 1) << setting.load;
     else
       EXPECT_LT(found.error, kTolerance) << setting.integrator << ' ' << setting.load;

@@ -88,7 +88,7 @@ Scene scene_of(const char* mesh, Buckling kind) {
   scene.law = "linear";
   scene.mesh = mesh;
   scene.threads = 1;
-  scene.device = "cpu";
+  scene.device = DeviceChoice::cpu;
   // On edge three or four cells across; aligned-45 has most of its vertices between the columns.
   scene.triangles = kind == Buckling::upright ? 80 : scene.mesh == "aligned-45" ? 640 : 320;
   scene.cloth.width = kLength / (kind == Buckling::upright ? 10 : 20);

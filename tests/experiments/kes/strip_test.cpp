@@ -155,7 +155,7 @@ TEST(KesStrip, DissipatesTheClosedForm) {
 // The chapter's element takes part of the twist for bending: on rows of equilateral triangles it is no plate.
 TEST(KesStrip, OfHingesOnEquilateralTrianglesIsNotTheLaw) {
   StripShape shape = small("equilateral");
-  shape.element = "hinge";
+  shape.element = BendingElement::hinge;
   EXPECT_GT(largest_difference(tested(shape, cotton("prandtl"), protocol())), kAgreement);
 }
 

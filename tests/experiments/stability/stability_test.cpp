@@ -19,7 +19,7 @@ Attempt hanging() {
   Attempt attempt{default_scene()};
   attempt.scene.cloth.length = 0.1;
   attempt.scene.triangles = 32;
-  attempt.scene.device = "cpu";
+  attempt.scene.device = DeviceChoice::cpu;
   attempt.scene.threads = 1;
   Pin edge;
   edge.low = {0, -1, -1};
@@ -58,7 +58,7 @@ TEST(Attempt, WithAMeshThatCannotBeIsRefused) {
 // membrane is stiffer, as the square of the stretch.
 TEST(Attempt, ThatOverstretchesAnExplicitMembraneDiverges) {
   Attempt attempt = hanging();
-  attempt.scene.integrator = "explicit";
+  attempt.scene.integrator = Integrator::explicit_euler;
   attempt.scene.fabric.damping = 0;
   attempt.scene.fabric.warp = attempt.scene.fabric.weft = 1;
   attempt.scene.fabric.shear = 0.1;
@@ -71,7 +71,7 @@ TEST(Attempt, ThatOverstretchesAnExplicitMembraneDiverges) {
 
 TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
   Attempt attempt = hanging();
-  attempt.scene.integrator = "semi-implicit";
+  attempt.scene.integrator = Integrator::semi_implicit;
   attempt.scene.step = 1e-3;
   attempt.scene.substeps = 10;
   const Finding f = find_out(attempt, {1, 200});

@@ -39,7 +39,7 @@ Trial pressed_sheet(const std::string& integrator, double lowest) {
   Scene scene = test::free_square(60);
   scene.cloth.length = 0.1;
   scene.law = "prandtl";
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.step = integrator == "implicit" ? 1.0 / 240 : 1e-3;
   scene.solver_tolerance = 1e-6;
   scene.cloth.position = {0, 0, scene.fabric.thickness};
@@ -164,7 +164,7 @@ TEST(Press, IsCountedWhereStepsAreTakenUnbalanced) {
 // soft: it is thrown off, not crushed.
 TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   Scene scene = test::free_square(200);
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1e-4;
   scene.gravity.setZero();
   scene.contact_stiffness = 1e6;
@@ -190,7 +190,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
 // Newton's first corrections overflow the energy, and so do all shorter ones.
 TEST(Equilibrium, ThatIsNotFoundIsReportedWithTheVertexThatIsFarthestFromIt) {
   Scene scene = test::hanging_square(40);
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.gravity = {0, 0, -1e140};
   const Trial trial(scene);
   const Failure failure = failure_of([&] { trial.after(1); });

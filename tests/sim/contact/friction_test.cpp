@@ -43,7 +43,7 @@ Trial on_ground(double slope, const std::string& integrator) {
   Scene scene = test::free_square(60);
   scene.cloth.length = 0.1;
   scene.law = "prandtl";
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.step = 1.0 / 240;
   tilt(scene, slope);
   scene.cloth.position = {0, 0, (1 - 1e-4 * std::cos(slope)) * scene.fabric.thickness};

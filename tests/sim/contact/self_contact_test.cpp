@@ -104,7 +104,7 @@ class SelfContactOf : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SelfContactOf, CarriesASheetThatLandsOnAnother) {
   Trial trial = two_sheets(2e-3, 200);
-  trial.scene.integrator = GetParam();
+  trial.scene.integrator = value_named<Integrator>(GetParam());
   const auto simulation = trial.after(60);
   const auto x = simulation->positions();
   for (int i : upper_vertices(trial)) {
@@ -126,10 +126,10 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SelfContactOf, ::testing::Values("implicit
 TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {
   Scene scene = test::free_square(40);
   scene.self_contact = true;
-  scene.integrator = "explicit";
+  scene.integrator = Integrator::explicit_euler;
   EXPECT_THROW(Trial(scene).simulation(), Error);
-  scene.integrator = "semi-implicit";
-  scene.implicit_every = "step";
+  scene.integrator = Integrator::semi_implicit;
+  scene.implicit_every = ImplicitEvery::step;
   EXPECT_THROW(Trial(scene).simulation(), Error);
 }
 

@@ -72,7 +72,7 @@ TEST(Start, OfAThicknessBeyondTheMeshIsAtRestOnTheFlatCloth) {
   Scene scene = test::free_square(200);  // edges of 2 cm
   scene.fabric.thickness = 0.05;
   scene.self_contact = true;
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.gravity.setZero();
   const Trial trial(scene);
   Cpu cpu(1);
@@ -173,7 +173,7 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
 TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
   for (const char* integrator : {"semi-implicit", "implicit"}) {
     Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.04}, 0});
-    trial.scene.integrator = integrator;
+    trial.scene.integrator = value_named<Integrator>(integrator);
     trial.scene.gravity.setZero();
     trial.scene.obstacle[1].from = 0.02;
     const auto simulation = trial.simulation();

@@ -13,7 +13,7 @@ inline Trial two_sheets(double gap, int triangles) {
   Scene scene = free_square(triangles);
   scene.law = "prandtl";
   scene.self_contact = true;
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 240;
   const ClothMesh lower =
       make_rectangle(1.4 * kUpperSide, 1.4 * kUpperSide, triangles, MeshFamily::random, 1);

@@ -18,8 +18,8 @@ constexpr int kSteps = 50;
 Scene busy_scene(const std::string& law, const std::string& element, const std::string& integrator) {
   Scene scene = test::hanging_square(1000);
   scene.law = law;
-  scene.element = element;
-  scene.integrator = integrator;
+  scene.element = value_named<BendingElement>(element);
+  scene.integrator = value_named<Integrator>(integrator);
   scene.air_drag = 0.02;
   scene.solver_tolerance = 1e-10;
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 10}};
@@ -39,7 +39,7 @@ Scene busy_scene(const std::string& law, const std::string& element, const std::
 }
 
 std::unique_ptr<Simulation> run_on(const std::string& device, Scene scene) {
-  scene.device = device;
+  scene.device = value_named<DeviceChoice>(device);
   return Trial(scene).after(kSteps);
 }
 
@@ -107,7 +107,7 @@ TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   scene.obstacle.clear();
   scene.solver_tolerance = 1e-5;
   const auto exact = run_on("cpu", scene)->positions();
-  scene.precision = "float";
+  scene.precision = Precision::fp32;
   EXPECT_LT(test::farthest(run_on("cuda", scene)->positions(), exact), kNear);
 }
 
@@ -118,7 +118,7 @@ Scene folding_strip(const std::string& integrator) {
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.self_contact = true;
   scene.step = 5e-3;
   scene.law = "prandtl";
@@ -173,7 +173,7 @@ TEST(Device, CudaWithoutAGpuIsTheMachinesFailureInOneLine) {
   std::string reason;
   if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
   Trial trial(test::hanging_square());
-  trial.scene.device = "cuda";
+  trial.scene.device = DeviceChoice::cuda;
   try {
     trial.simulation();
     FAIL() << "started on a GPU that is not there";
@@ -181,7 +181,7 @@ TEST(Device, CudaWithoutAGpuIsTheMachinesFailureInOneLine) {
     EXPECT_EQ(error.exit_code(), 1);
     EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
   }
-  trial.scene.device = "auto";
+  trial.scene.device = DeviceChoice::automatic;
   EXPECT_EQ(trial.simulation()->device().substr(0, 3), "cpu");
 }
 

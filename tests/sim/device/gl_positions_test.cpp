@@ -17,8 +17,8 @@ constexpr int kSteps = 50;
 
 Scene hanging(const std::string& device, const std::string& precision) {
   Scene scene = test::hanging_square(1000);
-  scene.device = device;
-  scene.precision = precision;
+  scene.device = value_named<DeviceChoice>(device);
+  scene.precision = value_named<Precision>(precision);
   scene.solver_tolerance = 1e-5;
   return scene;
 }

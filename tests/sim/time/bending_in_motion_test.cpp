@@ -26,7 +26,7 @@ struct Cantilever {
     constexpr int kRows = 2;
     const double cell = kLength / (cells - 0.5);
     Scene& scene = trial.scene;
-    scene.element = element;
+    scene.element = value_named<BendingElement>(element);
     scene.step = step;
     scene.solver_tolerance = 1e-4;
     scene.fabric.b2 = scene.fabric.density * 9.81 * std::pow(kLength, 3) / gamma;
@@ -191,7 +191,7 @@ TEST(History, IsCommittedOncePerSubstepAtThePositionsBeforeIt) {
     for (const char* integrator : {"semi-implicit", "explicit"}) {
       Scene scene = test::hanging_square(60);
       scene.law = law;
-      scene.integrator = integrator;
+      scene.integrator = value_named<Integrator>(integrator);
       scene.step = 1e-5;
       scene.fabric.damping = 0;
       Trial trial(scene);
@@ -199,7 +199,7 @@ TEST(History, IsCommittedOncePerSubstepAtThePositionsBeforeIt) {
       const auto simulation = trial.simulation();
       ASSERT_EQ(simulation->limits().substeps, 1);
       const CurvatureOperator op =
-          make_curvature_operator("shape", trial.cloth.mesh, trial.cloth.held(trial.scene, 0));
+          make_curvature_operator(BendingElement::shape, trial.cloth.mesh, trial.cloth.held(trial.scene, 0));
       Cpu cpu(1);
       Bending<double, Cpu> replay(cpu, trial.cloth.mesh, op,
                                   make_law_loop<double>(cpu, choose_law(law, scene.fabric.virgin_curve(), {}),
@@ -259,7 +259,7 @@ TEST(Scene, PaysForObstaclesHandlesAndTheImplicitSolveOnlyWhereItHasThem) {
   EXPECT_GT(bytes(scene, "moving handles"), 0u);
   EXPECT_GT(Trial(scene).simulation()->device_bytes(), plain);
   scene = test::hanging_square();
-  scene.integrator = "explicit";
+  scene.integrator = Integrator::explicit_euler;
   EXPECT_FALSE(part(Trial(scene).simulation()->parts(), "implicit solve").included);
 }
 
@@ -277,9 +277,9 @@ TEST(Scene, PartsAddUpToTheDevicesMemory) {
 
 TEST(ChapterForce, NeedsHinges) {
   Trial trial(test::hanging_square());
-  trial.scene.force = "chapter";
+  trial.scene.force = ForceConvention::chapter;
   EXPECT_THROW(trial.simulation(), Error);
-  trial.scene.element = "hinge";
+  trial.scene.element = BendingElement::hinge;
   EXPECT_NO_THROW(trial.after(20)->ledger());
 }
 

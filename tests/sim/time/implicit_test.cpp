@@ -19,7 +19,7 @@ using test::Trial;
 Scene soft_sheet(const std::string& law, const std::string& integrator, double step) {
   Scene scene = test::hanging_square(40);
   scene.law = law;
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.step = step;
   scene.fabric.warp = scene.fabric.weft = 10;
   scene.fabric.shear = 3;
@@ -69,7 +69,7 @@ Scene cantilever(const std::string& law, const std::string& integrator) {
   scene.cloth.length = 0.06;
   scene.cloth.width = 0.02;
   scene.law = law;
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   Pin clamp;
   clamp.low = {-1, -1, -1};
   clamp.high = {0.0101, 1, 1};
@@ -90,7 +90,7 @@ TEST(StiffPaper, StaysFiniteForAThousandLargeSteps) {
   scene.fabric.density = 0.1;
   scene.fabric.warp = scene.fabric.weft = 1e4;
   for (const char* integrator : {"implicit", "bdf2"}) {
-    scene.integrator = integrator;
+    scene.integrator = value_named<Integrator>(integrator);
     scene.step = 1.0 / 24;
     const auto simulation = Trial(scene).after(1000);
     for (const Eigen::Vector3d& x : simulation->positions()) {
@@ -104,7 +104,7 @@ TEST(StiffPaper, StaysFiniteForAThousandLargeSteps) {
 TEST(NewtonIterations, BeyondTheToleranceDoNotMatter) {
   Scene scene = test::hanging_square(100);
   scene.law = "prandtl";
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 60;
   scene.newton_velocity = 0;
   const auto shape = [&](double residual) {
@@ -123,7 +123,7 @@ TEST(Friction, NeverGivesEnergyBackInAnyImplicitStep) {
     if (std::string(law.name) == "wong") continue;  // it may: tests/sim/bending/wong_test.cpp
     Scene scene = test::hanging_square(40);
     scene.law = law.name;
-    scene.integrator = "implicit";
+    scene.integrator = Integrator::implicit;
     scene.step = 1.0 / 60;
     scene.fabric.k0 = 5;
     Trial trial(scene);
@@ -148,13 +148,13 @@ TEST(LinearSolvers, LeadToTheSameMotion) {
   for (int k = 0; k < 2; ++k) {
     Scene scene = test::hanging_square(200);
     scene.law = "prandtl";
-    scene.integrator = "implicit";
+    scene.integrator = Integrator::implicit;
     scene.step = 5e-3;
     scene.fabric.b1 *= 100;
     scene.fabric.b2 *= 100;
     scene.newton_residual = 1e-10;
     scene.newton_velocity = 0;
-    scene.linear_solver = k == 0 ? "multigrid" : "block-jacobi";
+    scene.linear_solver = k == 0 ? Preconditioning::multigrid : Preconditioning::block_jacobi;
     Trial trial(scene);
     test::ripple(trial.cloth, 1e-3);
     const auto simulation = trial.simulation();
@@ -205,7 +205,7 @@ TEST(Turned, SceneMovesAlike) {
   const auto moved = [&](const Eigen::Matrix3d& rotation) {
     Scene scene = test::hanging_square(40);
     scene.law = "prandtl";
-    scene.integrator = "bdf2";
+    scene.integrator = Integrator::bdf2;
     scene.step = 1.0 / 120;
     scene.fabric.k0 = 5;
     scene.newton_residual = 1e-11;
@@ -261,7 +261,7 @@ TEST(FailedStep, IsTakenAgainInHalvesAndCounted) {
 TEST(LinearSolvers, GiveTheSameCloth) {
   Scene scene = test::hanging_square(300);
   scene.law = "prandtl";
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 60;
   scene.newton_residual = 1e-10;
   scene.newton_velocity = 0;
@@ -274,9 +274,9 @@ TEST(LinearSolvers, GiveTheSameCloth) {
 
 TEST(Implicit, RefusesWhatHasNoPotentialOrNoErrorEstimate) {
   Scene chapter = test::hanging_square();
-  chapter.integrator = "implicit";
-  chapter.element = "hinge";
-  chapter.force = "chapter";
+  chapter.integrator = Integrator::implicit;
+  chapter.element = BendingElement::hinge;
+  chapter.force = ForceConvention::chapter;
   EXPECT_THROW(Trial(chapter).simulation(), Error);
 }
 

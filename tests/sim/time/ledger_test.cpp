@@ -23,7 +23,7 @@ Obstacle ground(double height) {
 Scene scene_of(const std::string& law, const std::string& integrator) {
   Scene scene = test::hanging_square();
   scene.law = law;
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.newton_residual = 1e-11;
   scene.newton_velocity = 0;
   return scene;
@@ -52,7 +52,7 @@ TEST_P(Balance, ClosesForASwingingCloth) {
   Trial trial(scene);
   test::ripple(trial.cloth, 3e-3);
   const Ledger ledger = trial.after(scene.is_implicit() ? 20 : 100)->ledger();
-  if (scene.integrator != "quasi-static") EXPECT_GT(ledger.kinetic, 0);
+  if (scene.integrator != Integrator::quasi_static) EXPECT_GT(ledger.kinetic, 0);
   EXPECT_LT(ledger.remainder_relative, kClosed);
   EXPECT_EQ(ledger.viscous, 0);
   EXPECT_EQ(ledger.handle_work, 0);
@@ -60,11 +60,11 @@ TEST_P(Balance, ClosesForASwingingCloth) {
 
 TEST_P(Balance, ClosesWithDampingAirMovingHandleMovingObstacleAndARelease) {
   Scene scene = scene_of(GetParam().law, GetParam().integrator);
-  if (scene.integrator == "explicit") {
+  if (scene.integrator == Integrator::explicit_euler) {
     scene.step = 1e-4;  // the contact shell is stiff
     scene.contact_stiffness = 1e6;
   }
-  const bool statics = scene.integrator == "quasi-static";
+  const bool statics = scene.integrator == Integrator::quasi_static;
   if (statics) scene.step = 0.01;
   scene.air_drag = 0.05;
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.02, 0.03, 0.01}, 20}};

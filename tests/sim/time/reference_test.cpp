@@ -181,7 +181,7 @@ TEST(Run, InSinglePrecisionStaysNearDoublePrecision) {
     trial.scene.law = law;
     trial.scene.solver_tolerance = 1e-5;
     const auto exact = trial.after(100)->positions();
-    trial.scene.precision = "float";
+    trial.scene.precision = Precision::fp32;
     const auto rounded = trial.after(100)->positions();
     EXPECT_GT(test::farthest(exact, trial.cloth.start), 0.01);
     EXPECT_LT(test::farthest(exact, rounded), kNear) << law;

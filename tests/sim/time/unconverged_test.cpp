@@ -13,7 +13,7 @@ constexpr double kRounding = 1e-10;
 
 Scene capped(int iterations) {
   Scene scene = test::hanging_square();
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 60;
   scene.newton_iterations = iterations;
   return scene;
@@ -42,7 +42,7 @@ TEST(UnconvergedSteps, AreNoneWhereTheLimitIsNotReached) {
 // Cloth that falls freely has no equilibrium: the search for one ends, and says so by counting.
 TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
   Scene scene = test::free_square();
-  scene.integrator = "bdf2";
+  scene.integrator = Integrator::bdf2;
   scene.step = 1.0 / 120;
   const auto simulation = Trial(scene).after(5);
   EXPECT_EQ(simulation->unbalanced_steps(), 0);
@@ -56,7 +56,7 @@ TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
 // is booked.
 TEST(HandsThatBringHome, AreThereInTime) {
   Scene scene = test::hanging_square();
-  scene.integrator = "implicit";
+  scene.integrator = Integrator::implicit;
   scene.step = 1.0 / 120;
   scene.seconds = 1;
   scene.air_drag = 1;
@@ -85,7 +85,7 @@ Scene weightless(const char* integrator) {
   Scene scene = test::free_square();
   scene.gravity.setZero();
   scene.law = "prandtl";
-  scene.integrator = integrator;
+  scene.integrator = value_named<Integrator>(integrator);
   scene.step = 1.0 / 120;
   scene.newton_velocity = 0;
   return scene;
@@ -112,7 +112,7 @@ TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
 TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   constexpr double kSpeed = 1e-4;  // [m/s]
   Scene scene = weightless(GetParam());
-  scene.precision = "float";
+  scene.precision = Precision::fp32;
   Pin hand;
   hand.low = {-1, -1, -1};
   hand.high = {1, 1, 1};

@@ -1,0 +1,18 @@
+// What a scene chooses in bending, with the names of scene files.
+#pragma once
+
+#include <array>
+
+#include "sim/base/enum_names.h"
+
+namespace hysteron {
+
+// How angles become curvatures: the tensor of a face, or the angle of a hinge over its length.
+enum class BendingElement { shape, hinge };
+constexpr std::array<const char*, 2> names(BendingElement) { return {"shape", "hinge"}; }
+
+// Forces: the gradient of the energy, or the chapter's formula, which is of hinges.
+enum class ForceConvention { energy, chapter };
+constexpr std::array<const char*, 2> names(ForceConvention) { return {"energy", "chapter"}; }
+
+}  // namespace hysteron

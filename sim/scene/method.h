@@ -1,0 +1,33 @@
+// How a scene is simulated: choices with the names of scene files, parsed where flags and files are read.
+#pragma once
+
+#include <array>
+
+#include "sim/base/enum_names.h"
+
+namespace hysteron {
+
+// semi_implicit: bending explicit, membrane and contact implicit.  implicit: backward Euler; bdf2: the same
+// with second order; quasi_static: equilibria; these three have every force at the end of the step.
+// explicit_euler: symplectic Euler, every force explicit.
+enum class Integrator { semi_implicit, implicit, bdf2, quasi_static, explicit_euler };
+constexpr std::array<const char*, 5> names(Integrator) {
+  return {"semi-implicit", "implicit", "bdf2", "quasi-static", "explicit"};
+}
+
+// How often semi_implicit solves: with every substep of bending, or once per step as the chapter has it.
+enum class ImplicitEvery { substep, step };
+constexpr std::array<const char*, 2> names(ImplicitEvery) { return {"substep", "step"}; }
+
+// Preconditioners of conjugate gradients.
+enum class Preconditioning { multigrid, block_jacobi };
+constexpr std::array<const char*, 2> names(Preconditioning) { return {"multigrid", "block-jacobi"}; }
+
+enum class DeviceChoice { automatic, cpu, cuda };
+constexpr std::array<const char*, 3> names(DeviceChoice) { return {"auto", "cpu", "cuda"}; }
+
+// double, float
+enum class Precision { fp64, fp32 };
+constexpr std::array<const char*, 2> names(Precision) { return {"double", "float"}; }
+
+}  // namespace hysteron

@@ -1,0 +1,78 @@
+// The cloth on one device in one precision: its state, the forces on it and what holds it, whichever
+// integrator moves it.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "sim/bending/bending.h"
+#include "sim/contact/contact.h"
+#include "sim/contact/self_contact.h"
+#include "sim/device/stage_clock.h"
+#include "sim/membrane/membrane.h"
+#include "sim/time/hands.h"
+#include "sim/time/ledger.h"
+#include "sim/time/vertex_ledger.h"
+
+namespace hysteron {
+
+// Counts since the start.
+struct StepCounts {
+  long parts = 0;               // into which steps were divided
+  long retried = 0;             // taken again in smaller parts
+  long unbalanced = 0;          // parts taken before Newton's method had converged
+  long deep = 0;                // parts with a vertex deeper than the cloth's thickness in an obstacle
+  long newton = 0, linear = 0;  // iterations
+};
+
+template <class Real>
+std::vector<Vec3<Real>> cast_to(const std::vector<Eigen::Vector3d>& values) {
+  std::vector<Vec3<Real>> result;
+  for (const auto& v : values) result.push_back(v.cast<Real>());
+  return result;
+}
+
+template <class Real, class Device>
+struct Body {
+  Body(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op);
+
+  std::unique_ptr<Device> device;
+  Scene scene;
+  Cloth cloth;
+  int vertices;
+  StageClock<Device> clock;
+  BlockRows<Real, Device> matrix;
+  Membrane<Real, Device> membrane;
+  Bending<Real, Device> bending;
+  std::optional<Contact<Real, Device>> contact;
+  std::optional<SelfContact<Real, Device>> self_contact;
+  Buffer<Vec3<Real>, Device> x, v;    // [m], [m/s]; v of held vertices: that of the coming stage
+  Buffer<Vec3<Real>, Device> before;  // x at the start of a stage; with contact only
+  Buffer<Real, Device> mass;          // [kg]
+  Buffer<char, Device> held;
+  Buffer<VertexLedger, Device> ledger;
+  Hands<Real, Device> hands;
+  StepCounts counts;
+
+  // A stage from `start` over h: what is held and how it moves, where obstacles go, where the cloth was.
+  void begin_stage(double start, Real h);
+  // Accepts the positions at the end of a stage for contact's history.
+  void end_stage(double time);
+  // Hands and obstacles that are due.
+  void meet(double start, Real h);
+  // Commands that are due in a step, on the state accepted last.
+  void carry_out_commands(double start, double end);
+
+  Ledger energies();  // at this moment
+  Ledger balance();   // since the start
+  std::size_t state_bytes() const;
+  bool is_finite();
+
+ private:
+  Ledger initial_;
+  double next_obstacle_ = 0, met_ = -1;          // when an obstacle appears next, and did last [s]
+  std::vector<Eigen::Vector3d> command_center_;  // of each bending element on the flat cloth; if needed
+  Buffer<double, Device> size_;                  // sum of all squares of the state
+};
+
+}  // namespace hysteron

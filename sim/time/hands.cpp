@@ -1,0 +1,118 @@
+#include "sim/time/hands.h"
+
+#include <algorithm>
+
+#include "sim/scene/motion.h"
+#include "sim/time/body.h"
+#include "sim/time/refusals.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs) {
+  bool homing = false;
+  for (const Pin& pin : scene.pin) {
+    moving_ |= !pin.motion.keys.empty() || pin.from > 0;
+    homing |= pin.home > 0;
+    for (double time : {pin.from, pin.until})
+      if (time > 0 && time < scene.seconds) times_.push_back(time);
+  }
+  std::sort(times_.begin(), times_.end());
+  if (!moving_) return;
+  const std::vector<Vec3<Real>> start = cast_to<Real>(cloth.start);
+  start_ = Buffer<Vec3<Real>, Device>(device, start);
+  if (homing) home_ = Buffer<Vec3<Real>, Device>(device, start);
+  pin_ = Buffer<int, Device>(device, cloth.pins(scene, 0));
+  if (with_arcs) arc_ = Buffer<Vec3<Real>, Device>(device, cloth.mesh.vertices());
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::grip(Body<Real, Device>& body, double start) {
+  if (start < next_) return;
+  const auto next = std::upper_bound(times_.begin(), times_.end(), start);
+  next_ = next == times_.end() ? 1e30 : *next;
+  const std::vector<int> pins = body.cloth.pins(body.scene, start);
+  std::vector<char> held;
+  for (int p : pins) held.push_back(p >= 0);
+  book(body, held);
+  if (body.contact) refuse_release(body, held, start);
+  body.held.upload(held);
+  if (moving_) take(body, pins, start);
+}
+
+// A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
+// held vertices.
+template <class Real, class Device>
+void Hands<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
+  const std::vector<char> before = body.held.download();
+  if (held == before) return;
+  const std::vector<Vec3<Real>> v = body.v.download();
+  const std::vector<Real> mass = body.mass.download();
+  for (int i = 0; i < body.vertices; ++i) {
+    const double kinetic = static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
+    if (held[i] != before[i]) work_ += held[i] ? -kinetic : kinetic;
+  }
+}
+
+// What a hand takes starts where it is.
+template <class Real, class Device>
+void Hands<Real, Device>::take(Body<Real, Device>& body, const std::vector<int>& pins, double time) {
+  const std::vector<int> before = pin_.download();
+  std::vector<Vec3<Real>> start = start_.download();
+  const std::vector<Vec3<Real>> x = body.x.download();
+  for (int i = 0; i < body.vertices; ++i) {
+    if (pins[i] < 0 || pins[i] == before[i]) continue;
+    const Placement at = placement(body.scene.pin[pins[i]].motion, time);
+    const Eigen::Vector3d now = x[i].template cast<double>() - at.translation;
+    start[i] = (at.rotation.transpose() * now / at.scale).template cast<Real>();
+  }
+  start_.upload(start);
+  pin_.upload(pins);
+}
+
+template <class Real, class Device>
+HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double start, double h) const {
+  HandPlacements<Real> result;
+  for (std::size_t p = 0; p < scene.pin.size(); ++p) {
+    const Motion& motion = scene.pin[p].motion;
+    const Placement from = placement(motion, start), at = placement(motion, start + h);
+    const Eigen::AngleAxisd turn(at.rotation * from.rotation.transpose());
+    const double home = home_share(scene.pin[p], start + h);
+    result.home[p] = static_cast<Real>(home);
+    result.homewards[p] = static_cast<Real>(home - home_share(scene.pin[p], start));
+    result.rotation[p] = (at.scale * at.rotation).template cast<Real>();
+    result.translation[p] = at.translation.template cast<Real>();
+    result.turn[p] = (turn.angle() * turn.axis()).template cast<Real>();
+    result.pivot[p] = at(motion.center).template cast<Real>();
+    result.shift[p] = (at(motion.center) - from(motion.center)).template cast<Real>();
+  }
+  return result;
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
+  if (!moving_) return;
+  const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
+  const int* pin = pin_.data();
+  const char* held = body.held.data();
+  const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = body.x.data();
+  Vec3<Real>*v = body.v.data(), *arc = arc_.data();
+  for_each(
+      *body.device, "handles", body.vertices, HYST_KERNEL(int i) {
+        if (!held[i]) return;
+        const int p = pin[i];
+        Vec3<Real> from = origin[i], more = Vec3<Real>::Zero();
+        if (home) {
+          from += placed.home[p] * (home[i] - origin[i]);
+          more = placed.homewards[p] * (placed.rotation[p] * (home[i] - origin[i]));
+        }
+        const Vec3<Real> end = placed.rotation[p] * from + placed.translation[p];
+        v[i] = (end - x[i]) / h;
+        if (arc) arc[i] = placed.turn[p].cross(end - placed.pivot[p]) + placed.shift[p] + more;
+      });
+}
+
+template class Hands<double, ThisDevice>;
+template class Hands<float, ThisDevice>;
+
+}  // namespace hysteron

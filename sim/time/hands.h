@@ -1,0 +1,58 @@
+// Hands: which vertices are held, and how those move.
+#pragma once
+
+#include <vector>
+
+#include "sim/device/device.h"
+#include "sim/scene/cloth.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+struct Body;
+
+// Travels with a kernel launch by value.
+template <class Real>
+struct HandPlacements {
+  Mat3<Real> rotation[kMostMovingPins];
+  Vec3<Real> translation[kMostMovingPins];
+  // Share of the way home that is done at the end of the step, and in it.
+  Real home[kMostMovingPins], homewards[kMostMovingPins];
+  // The way of a step as one screw: the hand turns by `turn` about a pivot that moves by `shift`.
+  Vec3<Real> turn[kMostMovingPins], pivot[kMostMovingPins], shift[kMostMovingPins];  // [rad], at the end [m]
+};
+
+template <class Real, class Device>
+class Hands {
+ public:
+  // with_arcs: for integrators that ask for the way along the hands' arcs.
+  Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
+
+  // Hands take hold and let go where that is due at `start`; Error::run where cloth is let go in an obstacle.
+  void grip(Body<Real, Device>& body, double start);
+  // Gives held vertices the constant velocity that brings them to their place at the end of the stage.
+  void move(Body<Real, Device>& body, double start, Real h);
+
+  bool any_moves() const { return moving_; }
+  // Of a stage: along the arcs as its end sees them, duration times velocity [m]; null if no hand moves.
+  const Vec3<Real>* arcs() const { return arc_.data(); }
+  double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
+  std::size_t bytes() const { return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes(); }
+
+ private:
+  void book(Body<Real, Device>& body, const std::vector<char>& held);
+  void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
+  HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
+
+  bool moving_ = false;
+  double next_ = 0;  // when hands take hold or let go next [s]
+  double work_ = 0;
+  std::vector<double> times_;         // of all that
+  Buffer<Vec3<Real>, Device> start_;  // where each hand has its vertices before it moves [m]
+  Buffer<Vec3<Real>, Device> home_;   // where vertices were at t = 0, if a hand brings them back there
+  Buffer<Vec3<Real>, Device> arc_;
+  Buffer<int, Device> pin_;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,135 @@
+#include "sim/time/implicit_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/base/error.h"
+#include "sim/time/make_linear_solver.h"
+#include "sim/time/refusals.h"
+#include "sim/time/step_control.h"
+
+namespace hysteron {
+
+namespace {
+
+// What a solve works on.
+template <class Real, class Device>
+VertexState<Real> vertices_of(Body<Real, Device>& body) {
+  return {body.x.data(), body.v.data(), body.held.data(), body.mass.data(), body.hands.arcs()};
+}
+
+}  // namespace
+
+template <class Real, class Device>
+ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
+    : body_(body),
+      solver_(
+          *body.device, body.scene, body.mass, body.matrix, body.membrane, body.bending,
+          body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
+          make_linear_solver<Real>(*body.device, body.scene, body.cloth,
+                                   body.scene.is_implicit() ? body.bending.law().largest_stiffness() : 0.0)),
+      tolerance_(body.scene.tolerance) {}
+
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::step(double start) {
+  tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
+}
+
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::become_static() {
+  solver_.become_static(body_.scene);
+  tolerance_ = 0;  // of steps in time
+}
+
+// Statics let the weight grow over the scene's `ramp` and fall over its `unload`: the cloth passes through
+// states of equilibrium.
+template <class Real, class Device>
+double ImplicitIntegrator<Real, Device>::load_share(double time) const {
+  const Scene& scene = body_.scene;
+  if (scene.integrator != Integrator::quasi_static) return 1;
+  if (scene.ramp > time) return time / scene.ramp;
+  return scene.unload > 0 ? std::max(0.0, 1 - (time - scene.ramp) / scene.unload) : 1;
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h) {
+  body_.begin_stage(start, static_cast<Real>(h));
+  body_.clock.begin(Stage::solve);
+  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h));
+  body_.clock.end(Stage::solve);
+  body_.counts.newton += outcome.iterations;
+  body_.counts.linear += outcome.linear_iterations;
+  body_.counts.unbalanced += outcome.unbalanced;
+  return outcome;
+}
+
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::accept(double end) {
+  body_.clock.begin(Stage::history);
+  solver_.accept(vertices_of(body_), body_.ledger.data());
+  body_.clock.end(Stage::history);
+  ++body_.counts.parts;
+  body_.end_stage(end);
+}
+
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
+  const NewtonOutcome outcome = attempt(start, h);
+  if (outcome.converged) return accept(start + h);
+  if (halvings == kMostHalvings) refuse_unbalanced(body_, solver_, start, h, outcome);
+  ++body_.counts.retried;
+  take_interval(start, h / 2, halvings + 1);
+  take_interval(start + h / 2, h / 2, halvings + 1);
+}
+
+// Parts whose estimated error stays below the tolerance; one that does not is taken again, shorter.
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
+  const double whole = body_.scene.step, end = start + whole, least = whole / (1 << kMostHalvings);
+  if (part_ <= 0) part_ = whole / 16;
+  for (double now = start; end - now > least / 2;) {
+    const double h = equal_part(end - now, part_);
+    const NewtonOutcome outcome = attempt(now, h);
+    const double error = outcome.converged ? solver_.local_error(vertices_of(body_)) : 1e30;
+    const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
+    if (outcome.converged && error <= tolerance_) {
+      accept(now + h);
+      now += h;
+    } else if (wanted < least) {
+      throw Error::run("tolerance = " + std::to_string(tolerance_) + " m cannot be met at t = " +
+                       std::to_string(now) + " s with steps of " + std::to_string(least) + " s or more");
+    } else {
+      ++body_.counts.retried;
+    }
+    part_ = wanted;
+  }
+}
+
+// Bending's force is that at the start of a stage, also where the stage is then taken in parts.
+template <class Real, class Device>
+void LaggedBending<Real, Device>::step(double start) {
+  Body<Real, Device>& body = this->body_;
+  const double whole = body.scene.step;
+  for (int k = 0; k < stages_; ++k) {
+    const double from = start + whole * k / stages_;
+    const Real h = static_cast<Real>(whole / stages_);
+    body.meet(from, h);
+    body.clock.begin(Stage::bending);
+    body.bending.commit(body.x.data(), body.v.data(), h);
+    body.clock.end(Stage::bending);
+    this->take_interval(from, static_cast<double>(h), 0);
+  }
+}
+
+template <class Real, class Device>
+void LaggedBending<Real, Device>::become_static() {
+  refuse_statics(this->body_.scene);
+}
+
+template class ImplicitIntegrator<double, ThisDevice>;
+template class ImplicitIntegrator<float, ThisDevice>;
+template class LaggedBending<double, ThisDevice>;
+template class LaggedBending<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,50 @@
+// Steps that are solved by Newton's method: `implicit`, `bdf2` and `quasi-static`, with every force at the
+// end of the step; and `semi-implicit` with self-contact, whose bending lags.
+#pragma once
+
+#include "sim/time/implicit_step.h"
+#include "sim/time/time_integrator.h"
+
+namespace hysteron {
+
+// One solve for the whole step, in halves where that fails, or in as many parts as the scene's tolerance asks
+// for.
+template <class Real, class Device>
+class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
+ public:
+  explicit ImplicitIntegrator(Body<Real, Device>& body);
+  void step(double start) override;
+  void become_static() override;
+  std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(body_.held.data()); }
+  std::size_t bytes() const override { return solver_.bytes(); }
+
+ protected:
+  // From start to start + h, in halves if it does not converge.
+  void take_interval(double start, double h, int halvings);
+  Body<Real, Device>& body_;
+
+ private:
+  void take_adaptive_step(double start);
+  NewtonOutcome attempt(double start, double h);
+  void accept(double end);
+  double load_share(double time) const;
+
+  ImplicitStep<Real, Device> solver_;
+  double tolerance_;  // 0: steps as given
+  double part_ = 0;   // of adaptive steps: the coming one [s]
+};
+
+// Bending explicit with its substeps, the rest solved to the end: layers are kept apart by the line search.
+template <class Real, class Device>
+class LaggedBending : public ImplicitIntegrator<Real, Device> {
+ public:
+  LaggedBending(Body<Real, Device>& body, const StepLimits& limits)
+      : ImplicitIntegrator<Real, Device>(body), stages_(limits.substeps) {}
+  void step(double start) override;
+  void become_static() override;
+
+ private:
+  int stages_;
+};
+
+}  // namespace hysteron

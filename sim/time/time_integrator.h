@@ -1,0 +1,35 @@
+// What moves a body from one state to the next.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/base/error.h"
+#include "sim/time/body.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron {
+
+template <class Real, class Device>
+class TimeIntegrator {
+ public:
+  virtual ~TimeIntegrator() = default;
+  virtual void step(double start) = 0;  // of the scene's length
+  // Steps are equilibria from now on; Error::request where there is no equilibrium solve.
+  virtual void become_static() = 0;
+  // Of the step accepted last, on each vertex [N]; empty where they are not known.
+  virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
+  virtual std::size_t bytes() const = 0;
+};
+
+[[noreturn]] inline void refuse_statics(const Scene& scene) {
+  throw Error::request("integrator = " + name_of(scene.integrator) +
+                       " has no equilibrium solve: use implicit | bdf2 | quasi-static");
+}
+
+// The one that the body's scene names.
+template <class Real, class Device>
+std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
+                                                              const StepLimits& limits);
+
+}  // namespace hysteron
