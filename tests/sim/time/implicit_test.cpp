@@ -265,11 +265,11 @@ TEST(LinearSolvers, GiveTheSameCloth) {
   scene.step = 1.0 / 60;
   scene.newton_residual = 1e-10;
   scene.newton_velocity = 0;
-  const auto shape = [&](const char* solver) {
+  const auto shape = [&](Preconditioning solver) {
     scene.linear_solver = solver;
     return Trial(scene).after(10)->positions();
   };
-  EXPECT_LT(test::farthest(shape("multigrid"), shape("block-jacobi")), 1e-8);  // [m]
+  EXPECT_LT(test::farthest(shape(Preconditioning::multigrid), shape(Preconditioning::block_jacobi)), 1e-8);  // [m]
 }
 
 TEST(Implicit, RefusesWhatHasNoPotentialOrNoErrorEstimate) {

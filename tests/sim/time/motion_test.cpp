@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Integrator, testing::Values("semi-implicit", "exp
 TEST_P(Integrator, FreeFallGainsExactlyTheWeightsMomentum) {
   for (const char* law : {"linear", "prandtl", "wong"}) {
     Scene scene = test::free_square();
-    scene.integrator = value_named<Integrator>(GetParam());
+    scene.integrator = value_named<hysteron::Integrator>(GetParam());
     scene.law = law;
     Trial trial(scene);
     test::ripple(trial.cloth, 3e-3);
@@ -62,7 +62,7 @@ TEST_P(Integrator, FreeFallGainsExactlyTheWeightsMomentum) {
 // v_n = n he g and x_n = x_0 + he sum v_k: the centre falls by g t (t + he)/2.
 TEST_P(Integrator, FlatClothFallsAsAPoint) {
   Scene scene = test::free_square();
-  scene.integrator = value_named<Integrator>(GetParam());
+  scene.integrator = value_named<hysteron::Integrator>(GetParam());
   const Trial trial(scene);
   const auto simulation = trial.after(50);
   const double t = simulation->time(), he = simulation->limits().substep;
@@ -74,7 +74,7 @@ TEST_P(Integrator, FlatClothFallsAsAPoint) {
 
 TEST(ExplicitIntegrator, KeepsAngularMomentumOfATumblingCloth) {
   Scene scene = test::free_square();
-  scene.integrator = Integrator::explicit_euler;
+  scene.integrator = hysteron::Integrator::explicit_euler;
   scene.law = "prandtl";
   scene.gravity.setZero();
   Trial trial(scene);
@@ -105,7 +105,7 @@ TEST(SemiImplicitIntegrator, AngularMomentumErrorShrinksWithTheStep) {
 TEST_P(Integrator, StepTurnsWithTheWorld) {
   for (const char* law : {"linear", "prandtl", "wong"}) {
     Scene scene = test::hanging_square();
-    scene.integrator = value_named<Integrator>(GetParam());
+    scene.integrator = value_named<hysteron::Integrator>(GetParam());
     scene.law = law;
     Trial trial(scene);
     test::ripple(trial.cloth, 3e-3);
@@ -123,7 +123,7 @@ TEST_P(Integrator, StepTurnsWithTheWorld) {
 
 TEST_P(Integrator, PinsStayWhereTheyAreToTheLastBit) {
   Scene scene = test::hanging_square();
-  scene.integrator = value_named<Integrator>(GetParam());
+  scene.integrator = value_named<hysteron::Integrator>(GetParam());
   const Trial trial(scene);
   const auto x = trial.after(50)->positions();
   int pinned = 0;
@@ -137,7 +137,7 @@ TEST_P(Integrator, PinsStayWhereTheyAreToTheLastBit) {
 
 TEST_P(Integrator, MovingHandleFollowsItsKeyframes) {
   Scene scene = test::hanging_square();
-  scene.integrator = value_named<Integrator>(GetParam());
+  scene.integrator = value_named<hysteron::Integrator>(GetParam());
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.02, {0.01, 0, 0.02}, 10}, {0.05, {0.02, 0.01, 0}, -20}};
   scene.pin[0].motion.axis = {0, 1, 1};
   scene.pin[0].motion.center = {0.05, 0.1, 0};
@@ -159,7 +159,7 @@ TEST_P(Integrator, MovingHandleFollowsItsKeyframes) {
 
 TEST_P(Integrator, ReleasedPinLetsItsVertexFallFromThenOn) {
   Scene scene = test::hanging_square();
-  scene.integrator = value_named<Integrator>(GetParam());
+  scene.integrator = value_named<hysteron::Integrator>(GetParam());
   for (Pin& pin : scene.pin) pin.until = 0.02;
   const Trial trial(scene);
   const auto simulation = trial.after(20);
