@@ -78,7 +78,8 @@ TEST(Compare, TunesItsFirstColumnToItsSecond) {
   ASSERT_EQ(line.find("fabric.damping="), 0u) << outcome.out;
   const Json scene = Json::parse(text_of(out / "manifest.json"))["scene"];
   const double found = scene["tuned"]["value"].get<double>();
-  EXPECT_NEAR(found / 2e-3, 1, 3e-3);  // two octaves, halved nine times: 0.27 %
+  const double bracket = std::log(4.0) / 512, four_digits = 5e-4;  // relative, after nine halvings
+  EXPECT_NEAR(found / 2e-3, 1, bracket + four_digits);
   EXPECT_EQ(scene["columns"][0]["name"], "linear+" + line);
   EXPECT_TRUE(fs::exists(out / ("linear+" + line) / "manifest.json"));
 }
