@@ -41,31 +41,12 @@ hysteron() {
   command "$program" "$@"
 }
 
-# A number of a column of a comparison: metric_of FOLDER COLUMN METRIC.
-metric_of() {
-  awk -F, -v column="$2" -v metric="$3" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == metric) at = i }
-    $1 == column { print $at + 0 }' "$1/table.csv"
-}
-
-# Whether a linear strip, matched in stiffness, loses less to this viscosity in its first 0.4 s than the hysteretic
-# one to friction: loses_less DAMPING.
-loses_less() {
-  local folder=$out/.tuning viscous friction
-  command "$program" compare swing --quick --no-images --quiet --resume --triangles 100 --out "$folder" \
-    --laws "linear+fabric.damping=$1,prandtl" "${more[@]}" >&2
-  viscous=$(metric_of "$folder" "linear+fabric.damping=$1" viscous_J)
-  friction=$(metric_of "$folder" prandtl bending_friction_J)
-  awk "BEGIN { exit !($viscous < $friction) }"
-}
-
-# The viscosity with which both lose as much: bisection in the logarithm of fabric.damping [s].
+# fabric.damping=SECONDS with which a linear strip, matched in stiffness, loses as much to viscosity in its first
+# 0.4 s as the hysteretic one to friction.
 tuned_damping() {
-  local low=1e-5 high=1e-1 middle
-  for _ in $(seq 9); do
-    middle=$(awk "BEGIN { printf \"%.4g\", sqrt($low * $high) }")
-    if loses_less "$middle"; then low=$middle; else high=$middle; fi
-  done
-  printf '%s' "$middle"
+  command "$program" compare swing --quick --no-images --quiet --triangles 100 --out "$out/.tuning" \
+    --laws linear,prandtl --compare.tune fabric.damping=1e-5:1e-1 \
+    --compare.tune-metric viscous_J=bending_friction_J "${more[@]}" | grep '^fabric\.damping='
 }
 
 # 4.2(b), 4.3, 4.4: laws alone.
@@ -79,9 +60,10 @@ draw_crumple() {
 # Damping of oscillations: viscosity tuned for one swing against friction in bending.
 draw_swing() {
   local damping
+  say "tuning fabric.damping of the strip with viscosity"
   damping=$(tuned_damping)
   rm -rf "$out/.tuning"
-  hysteron compare swing --laws "linear,linear+fabric.damping=$damping,pabst,obrien,prandtl" "$@" \
+  hysteron compare swing --laws "linear,linear+$damping,pabst,obrien,prandtl" "$@" \
     --out "$out/compare-swing"
 }
 

@@ -1,11 +1,15 @@
-// `hysteron report`: a run's folder, or a folder of runs, as one page.
+// `hysteron report`: a run's folder, or a folder of runs, as one page; what documentation takes from runs and
+// from the tables of keys.
 #include <iostream>
 
+#include "experiments/report/key_tables.h"
+#include "experiments/report/marked_numbers.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -21,7 +25,7 @@ struct ReportFlags {
 
 // clang-format off
 const KeyRow<ReportFlags> kRows[] = {
-    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page, or a report.html below it, is missing or stale"},
+    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page, a report.html below it, a number that the documentation beside it takes from it, or a table of keys is missing or stale"},
     {"self-contained", at<&ReportFlags::self_contained>, "", any(), "", "embed pictures instead of linking them: a page that can be sent alone"},
 };
 // clang-format on
@@ -35,14 +39,65 @@ fs::path folder_of(const std::string& name) {
   return folder;
 }
 
-int check(const fs::path& folder) {
+std::ostream& complain() { return std::cerr << "hysteron report: "; }
+
+bool are_pages_stale(const fs::path& folder) {
   const std::vector<StalePage> stale = stale_pages(folder);
   for (const StalePage& page : stale) {
-    std::cerr << "hysteron report: " << page.page.string()
-              << (page.missing ? " is missing; write it" : " is not what its folder says now; write it again")
-              << ": hysteron report " << page.folder.string() << std::endl;
+    complain() << page.page.string()
+               << (page.missing ? " is missing; write it"
+                                : " is not what its folder says now; write it again")
+               << ": hysteron report " << page.folder.string() << std::endl;
   }
-  return stale.empty() ? 0 : kStale;
+  return !stale.empty();
+}
+
+bool are_numbers_stale(const fs::path& results) {
+  const std::vector<StaleNumber> stale = stale_numbers(results);
+  for (const StaleNumber& number : stale) {
+    complain() << number.file.string() << ":" << number.line << ": \"" << number.found << "\" must be \""
+               << number.expected << "\"; write it again: hysteron report " << results.string() << std::endl;
+  }
+  return !stale.empty();
+}
+
+bool are_keys_stale(const fs::path& folder, const std::vector<KeyPage>& pages) {
+  bool any = false;
+  for (const KeyPage& page : pages) {
+    if (!page.stale) continue;
+    complain() << page.file.string()
+               << ": the tables of keys are not what --help says now; write them again: "
+               << "hysteron report " << folder.string() << std::endl;
+    any = true;
+  }
+  return any;
+}
+
+int check(const fs::path& folder) {
+  const std::vector<KeyPage> documentation = key_pages(folder);
+  if (!documentation.empty()) return are_keys_stale(folder, documentation) ? kStale : 0;
+  const bool pages = are_pages_stale(folder), numbers = !has_manifest(folder) && are_numbers_stale(folder);
+  return pages || numbers ? kStale : 0;
+}
+
+void write_keys(const std::vector<KeyPage>& documentation) {
+  for (const KeyPage& page : documentation) {
+    AtomicFile file(page.file.string());
+    file.stream() << page.text;
+    file.commit();
+    std::cout << page.file.string() << std::endl;
+  }
+}
+
+void write(const fs::path& folder, PageForm form) {
+  const std::vector<KeyPage> documentation = key_pages(folder);
+  if (!documentation.empty()) return write_keys(documentation);
+  if (has_manifest(folder)) {
+    std::cout << write_report(folder, form).string() << std::endl;
+    return;
+  }
+  std::cout << write_gallery(folder, form).string() << std::endl;
+  for (const fs::path& page : write_numbers(folder)) std::cout << page.string() << std::endl;
 }
 
 std::vector<KeyDescription> own_keys() {
@@ -60,12 +115,10 @@ int run_report(const CommandLine& line) {
   int exit_code = 0;
   for (const std::string& name : line.names) {
     const fs::path folder = folder_of(name);
-    if (flags.check) {
+    if (flags.check)
       exit_code = std::max(exit_code, check(folder));
-    } else {
-      const bool one_run = has_manifest(folder);
-      std::cout << (one_run ? write_report(folder, form) : write_gallery(folder, form)).string() << std::endl;
-    }
+    else
+      write(folder, form);
   }
   return exit_code;
 }
@@ -73,12 +126,14 @@ int run_report(const CommandLine& line) {
 }  // namespace
 
 Experiment report() {
-  return {
-      .name = "report",
-      .question = "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html",
-      .run = run_report,
-      .own_keys = own_keys,
-      .names = "DIR"};
+  return {.name = "report",
+          .question =
+              "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html, and "
+              "its numbers "
+              "in the README.md and docs/ beside it; the tables of keys in a folder of documentation",
+          .run = run_report,
+          .own_keys = own_keys,
+          .names = "DIR"};
 }
 
 }  // namespace hysteron::experiments

@@ -1,0 +1,156 @@
+#include "experiments/compare/plan.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "experiments/workbench/compare/matching.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
+constexpr const char* kCompared[] = {"drape", "swing", "crease", "fold", "crumple"};
+
+// Flags that are the page's own; all others are the columns'.
+bool is_own(const std::string& path) {
+  static const std::vector<std::string> kNames = {"laws", "fabrics", "integrators", "out",
+                                                  "json", "quiet",   "resume",      "threads"};
+  return path.starts_with("compare.") || std::find(kNames.begin(), kNames.end(), path) != kNames.end();
+}
+
+LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::string& law) {
+  LawRequest request{law, fabric.virgin_curve(), {}};
+  for (const Flag& flag : line.flags)
+    if (flag.path == "param")
+      request.parameters[flag.text.substr(0, flag.text.find('='))] =
+          flag.text.substr(flag.text.find('=') + 1);
+  return request;
+}
+
+std::string exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+// The fabric of a column before any matching, and its law.
+struct ColumnFabric {
+  Fabric fabric;
+  std::string law;
+};
+
+ColumnFabric fabric_of(const CommandLine& line) {
+  Setup setup{default_scene(), {}};
+  const std::string file = last_text(line.flags, "scene", "");
+  if (!file.empty()) apply_scene_file(setup.scene, file, {});
+  std::vector<Flag> of_fabric;
+  for (const Flag& flag : line.flags)
+    if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
+  apply_flags(setup.scene, of_fabric);
+  return {setup.scene.fabric, last_text(line.flags, "law", setup.scene.law)};
+}
+
+CommandLine with(CommandLine line, const LawVariant& variant) {
+  line.flags = with_later(line.flags, variant.flags);
+  return line;
+}
+
+// Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
+// goes with it.
+std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, const std::string& to,
+                          const CompareChoice& choice, double& scale) {
+  scale = 1;
+  const Match match = match_named(choice.match);
+  if (match == Match::fabric) return {};
+  const CommandLine line = with(inner, variant);
+  const auto [fabric, law] = fabric_of(line);
+  scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
+  return {{"fabric.b1", exactly(scale * fabric.b1)}, {"fabric.b2", exactly(scale * fabric.b2)}};
+}
+
+// Colours mean the same in all columns, though fabrics have different transition curvatures.
+Flag shared_range(const CommandLine& inner, const std::vector<LawVariant>& variants) {
+  double k0 = 0;
+  for (const LawVariant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
+  return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
+}
+
+// What the experiment is asked for beside what it would be asked for alone.
+std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
+                                     const std::filesystem::path& out, bool is_reference) {
+  std::vector<Flag> flags = {{"plain", "true"}};
+  std::string look = last_text(inner.flags, "look", "cloth");
+  if (!choice.no_outlines) look += ",silhouette";
+  if (!choice.to.empty() && choice.difference == "curvature") {
+    if (is_reference)
+      flags.push_back({"export", "ply"});
+    else
+      look += ",difference", flags.push_back({"reference", (out / choice.to).string()});
+  }
+  flags.push_back({"look", look});
+  if (last_text(inner.flags, "size", "").empty()) flags.push_back({"size", "840x630"});
+  return flags;
+}
+
+std::vector<std::string> words_of(const CommandLine& line) {
+  std::vector<std::string> words = {line.experiment};
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return words;
+}
+
+}  // namespace
+
+CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
+  CommandLine inner = line;
+  inner.names.clear();
+  const std::string what = line.names.front();
+  inner.experiment =
+      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "swing";
+  std::erase_if(inner.flags, [](const Flag& f) { return is_own(f.path); });
+  if (inner.experiment != what) inner.flags.push_back({"scene", what});
+  if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
+  if (!choice.integrators.empty()) inner.flags.push_back({"integrator", choice.integrators});
+  const bool others = !choice.fabrics.empty() || !choice.integrators.empty();
+  const std::string laws =
+      !choice.laws.empty() || others ? choice.laws : last_text(inner.flags, "law", kLaws);
+  if (!laws.empty()) inner.flags.push_back({"law", laws});
+  return inner;
+}
+
+Plan plan_of(const CommandLine& inner, const std::vector<LawVariant>& variants, const CompareChoice& choice,
+             const std::filesystem::path& out) {
+  Plan plan;
+  std::set<std::string> laws;
+  for (const LawVariant& variant : variants) {
+    const std::string law = last_text(variant.flags, "law", "");
+    if (plan.reference != "prandtl") plan.reference = law;
+    laws.insert(law);
+  }
+  plan.laws = laws.size();
+  const Flag range = shared_range(inner, variants);
+  plan.varied = varied_of(variants);
+  for (const LawVariant& variant : variants) {
+    double scale = 1;
+    std::vector<Flag> own = variant.flags;
+    for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
+    SweepColumn column;
+    column.name = variant.name.empty() ? inner.experiment : variant.name;
+    if (column.name == choice.to) plan.to = static_cast<int>(plan.columns.size());
+    own.push_back(range);
+    for (const Flag& flag : asked_for_the_page(inner, choice, out, column.name == choice.to))
+      own.push_back(flag);
+    plan.lines.push_back(inner);
+    plan.lines.back().flags = with_later(inner.flags, own);
+    column.words = words_of(plan.lines.back());
+    column.folder = out / column.name;
+    plan.columns.push_back(std::move(column));
+    plan.scales.push_back(scale);
+  }
+  if (!choice.to.empty() && plan.to < 0)
+    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)");
+  return plan;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,45 @@
+// The columns of a comparison: what each of them is asked for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/sweep_columns.h"
+
+namespace hysteron::experiments {
+
+struct CompareChoice {
+  std::string laws, fabrics, integrators;
+  std::string to;  // column that others differ from; "": no such rows
+  std::string difference = "picture";
+  int rows = 4;
+  bool no_outlines = false;
+  int jobs = 0;
+  bool resume = false;
+  std::string match = "energy";
+  double match_curvature = 100;  // [1/m], the KES tester's reading point
+  std::string video = "none";
+  std::string tune, tune_metric;
+};
+
+// The line as the experiment itself would get it: lists become its --law, --fabric and --integrator.
+CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
+
+struct Plan {
+  std::vector<CommandLine> lines;  // of the columns
+  std::vector<SweepColumn> columns;
+  std::vector<double> scales;
+  std::string reference;  // law that stiffness is matched to
+  std::size_t laws = 0;   // different ones
+  int to = -1;            // the column that is subtracted, -1: none
+  std::string varied;     // "law", where columns differ by it alone
+};
+
+// A column for each variant of that line, in OUT/<name>/.  Throws Error::request if the column to subtract is
+// none of them.
+Plan plan_of(const CommandLine& inner, const std::vector<LawVariant>& variants, const CompareChoice& choice,
+             const std::filesystem::path& out);
+
+}  // namespace hysteron::experiments

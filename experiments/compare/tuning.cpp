@@ -1,0 +1,119 @@
+#include "experiments/compare/tuning.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// NaN unless all of it is one.
+double number_in(const std::string& text) {
+  double value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return failure == std::errc() && end == text.data() + text.size() ? value : std::nan("");
+}
+
+std::string four_digits(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string middle_of(const std::string& low, const std::string& high) {
+  return four_digits(std::sqrt(number_in(low) * number_in(high)));
+}
+
+// A column with one more key, "linear+fabric.damping=1e-3".
+LawVariant with_key(LawVariant variant, const std::string& key, const std::string& number) {
+  variant.name += "+" + key + "=" + number;
+  variant.flags.push_back({key, number});
+  return variant;
+}
+
+double metric_in(const SweepColumn& column, const std::string& metric) {
+  if (!column.stopped.empty()) throw Error::run("compare.tune: " + column.name + ": " + column.stopped);
+  const Json metrics = column.manifest.value("metrics", Json::object());
+  if (!metrics.contains(metric) || !metrics[metric].is_number())
+    throw Error::request(column.name + " has no metric " + metric +
+                         " that is a number (--compare.tune-metric)");
+  return metrics[metric].get<double>();
+}
+
+}  // namespace
+
+Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics) {
+  const auto refuse = [&](const std::string& must) {
+    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)");
+  };
+  const std::size_t equals = key_and_bracket.find('='), colon = key_and_bracket.find(':', equals);
+  if (equals == 0 || colon == std::string::npos)
+    throw refuse("KEY=LOW:HIGH, such as fabric.damping=1e-5:1e-1");
+  Tuning tuning;
+  tuning.key = key_and_bracket.substr(0, equals);
+  tuning.low = key_and_bracket.substr(equals + 1, colon - equals - 1);
+  tuning.high = key_and_bracket.substr(colon + 1);
+  const double low = number_in(tuning.low), high = number_in(tuning.high);
+  if (!(low > 0 && low < high && std::isfinite(high))) throw refuse("a bracket with 0 < LOW < HIGH");
+  if (metrics.empty())
+    throw Error::request(
+        "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
+        "second "
+        "column");
+  const std::size_t between = metrics.find('=');
+  tuning.metric = metrics.substr(0, between);
+  tuning.target = between == metrics.npos ? metrics : metrics.substr(between + 1);
+  return tuning;
+}
+
+std::string tuned(const Tuning& tuning, const Excess& excess) {
+  const double at_low = excess(tuning.low), at_high = excess(tuning.high);
+  if ((at_low < 0) == (at_high < 0))
+    throw Error::request(tuning.metric + " is " + (at_low < 0 ? "below" : "not below") +
+                         " the second column's " + tuning.target + " at both ends of " + tuning.key + " = " +
+                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)");
+  std::string low = tuning.low, high = tuning.high, middle;
+  for (int i = 0; i < kBisections; ++i) {
+    middle = middle_of(low, high);
+    ((excess(middle) < 0) == (at_low < 0) ? low : high) = middle;
+  }
+  return middle;
+}
+
+Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& variants, CompareChoice choice,
+                       SweepJobs jobs, const Options& options) {
+  const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
+  if (variants.size() < 2)
+    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)");
+  const auto say = [&](const std::string& line) {
+    if (!options.quiet) std::cerr << line << std::endl;
+  };
+  CommandLine line = inner;
+  line.flags = with_later(line.flags, {{"no-images", "true"}});
+  choice.to.clear();
+  const Excess excess = [&](const std::string& number) {
+    Plan plan = plan_of(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
+                        std::filesystem::path(options.out) / "tries");
+    run_columns(
+        plan.columns, jobs, [](const SweepColumn&) {}, say);
+    jobs.resume = true;  // the second column is the same in every try
+    const double own = metric_in(plan.columns[0], tuning.metric),
+                 target = metric_in(plan.columns[1], tuning.target);
+    say(tuning.key + "=" + number + ": " + tuning.metric + " " + four_digits(own) + ", target " +
+        four_digits(target));
+    return own - target;
+  };
+  const std::string number = tuned(tuning, excess);
+  variants[0] = with_key(variants[0], tuning.key, number);
+  (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
+  return {{"column", variants[0].name},
+          {"key", tuning.key},
+          {"value", number_in(number)},
+          {"metric", tuning.metric},
+          {"target", tuning.target}};
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,37 @@
+// One number of a comparison's first column, chosen so that a metric of that column is one of the second.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/compare/plan.h"
+
+namespace hysteron::experiments {
+
+struct Tuning {
+  std::string key;             // of a scene or an experiment, a positive number: "fabric.damping"
+  std::string low, high;       // between which it lies, as given
+  std::string metric, target;  // of the first column, of the second
+};
+
+// From "fabric.damping=1e-5:1e-1" (compare.tune) and "viscous_J=bending_friction_J" (compare.tune-metric; one
+// name is the same metric of both).  Throws Error::request.
+Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics);
+
+// By how much the metric exceeds the target, with that number.
+using Excess = std::function<double(const std::string& number)>;
+
+// Bisects the bracket in the logarithm kBisections times, to numbers of four significant digits, and returns
+// the last of them, as it was tried.  Throws Error::request if the excess has the same sign at both ends.
+inline constexpr int kBisections = 9;  // four decades to 1.8 %
+std::string tuned(const Tuning& tuning, const Excess& excess);
+
+// Does so for the choice's compare.tune: the first two columns run without pictures in OUT/tries with each
+// number, then the first variant gets the last number, which goes to stdout, "fabric.damping=0.004839".
+// Returns what the manifest keeps.  Throws Error::request, Error::run where a try could not go on, and what
+// running throws.
+Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& variants, CompareChoice choice,
+                       SweepJobs jobs, const Options& options);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,87 @@
+#include "experiments/report/key_tables.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
+#include "sim/scene/keys.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBegin = "<!-- keys:begin -->", kEnd = "<!-- keys:end -->";
+
+// A cell must not end at a bar.
+std::string cell(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '|' ? std::string("\\|") : std::string(1, c);
+  return safe;
+}
+
+std::string allowed(const KeyDescription& key) {
+  if (key.choices.empty()) return key.range.text() == "finite" ? "" : key.range.text();
+  return "`" + join(key.choices, "`, `") + "`";
+}
+
+std::string usual_of(const BoundKey& key) {
+  if (const auto* flag = std::get_if<bool*>(&key.field)) return **flag ? "true" : "false";
+  return key.description.usual;
+}
+
+std::string table_of(const Keys& keys) {
+  std::string table = "\n| key | type | unit | allowed | default | |\n|---|---|---|---|---|---|\n";
+  for (const BoundKey& key : keys) {
+    const KeyDescription& what = key.description;
+    const std::string type = what.choices.empty() ? what.type : "choice";
+    for (const std::string& text :
+         {"`" + what.path + "`", type, what.unit, allowed(what), usual_of(key), what.doc})
+      table += text.empty() ? "| " : "| " + cell(text) + " ";
+    table += "|\n";
+  }
+  return table;
+}
+
+std::string section(const std::string& title, const Keys& keys) {
+  return "\n### " + title + "\n" + table_of(keys);
+}
+
+}  // namespace
+
+std::string key_tables() {
+  Scene scene = default_scene();
+  Pin pin;
+  Obstacle obstacle;
+  Keyframe keyframe;
+  Command command;
+  Phase phase;
+  return section("Scene", bind_scene(scene)) + section("`[[pin]]`", bind_pin(pin)) +
+         section("`[[obstacle]]`", bind_obstacle(obstacle)) +
+         section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
+         section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) + "\n";
+}
+
+std::vector<KeyPage> key_pages(const fs::path& folder) {
+  std::vector<KeyPage> pages;
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    if (entry.path().extension() != ".md") continue;
+    KeyPage page{entry.path(), whole_file(entry.path(), "cannot read " + entry.path().string())};
+    const std::size_t begin = page.text.find(kBegin), first = begin + kBegin.size();
+    if (begin == page.text.npos) continue;
+    const std::size_t end = page.text.find(kEnd, first);
+    if (end == page.text.npos)
+      throw Error::request(page.file.string() + " has " + std::string(kBegin) + " without " +
+                           std::string(kEnd) + " below it");
+    const std::string tables = "\n" + key_tables();
+    page.stale = page.text.compare(first, end - first, tables) != 0;
+    page.text.replace(first, end - first, tables);
+    pages.push_back(std::move(page));
+  }
+  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  std::sort(pages.begin(), pages.end(), [](const KeyPage& a, const KeyPage& b) { return a.file < b.file; });
+  return pages;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,77 @@
+// The tables of keys in documentation.
+#include "experiments/report/key_tables.h"
+
+#include "sim/base/error.h"
+#include "sim/scene/keys.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const char* const kEmpty = "# Keys\n\n<!-- keys:begin -->\n<!-- keys:end -->\n\nAfter them.\n";
+
+TEST(KeyTables, HaveALineForEveryKeyOfAScene) {
+  const std::string tables = key_tables();
+  for (const KeyDescription& key : scene_keys())
+    EXPECT_NE(tables.find("\n| `" + key.path + "` | "), std::string::npos) << key.path;
+  for (const char* table : {"[[pin]]", "[[obstacle]]", "`keys`", "[[command]]", "[[phase]]"})
+    EXPECT_NE(tables.find(table), std::string::npos) << table;
+}
+
+TEST(KeyTables, SayUnitRangeChoicesDefaultAndPurpose) {
+  const std::string tables = key_tables();
+  for (const char* line : {"| `fabric.b2` | number | N m | >= 0 | 1.157e-05 | bending rigidity B",
+                           "| `element` | choice | | `shape`, `hinge` | shape | bending element |",
+                           "| `self-contact` | flag | | | false | ", "| `radius` | number | m | > 0 | 0.1 | ",
+                           "| `kind` | choice | | `ground`, `sphere`, ", "| `scale` | number | | > 0 | 1 | "})
+    EXPECT_NE(tables.find(line), std::string::npos) << line;
+}
+
+TEST(KeyTables, OfMarkdownHaveAsManyCellsInEveryLine) {
+  std::istringstream lines(key_tables());
+  int rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('|')) continue;
+    int bars = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+    EXPECT_EQ(bars, 7) << line;
+    ++rows;
+  }
+  EXPECT_GT(rows, 80);
+}
+
+TEST(ReportOfDocumentation, WritesTheTablesBetweenTheirCommentsAndChecksThem) {
+  const Folder folder;
+  const fs::path page = folder.path() / "scenes.md";
+  std::ofstream(page) << kEmpty;
+  std::ofstream(folder.path() / "laws.md") << "# Laws\n";
+  const Outcome stale = program("report --check " + folder.path().string());
+  EXPECT_EQ(stale.exit_code, 4);
+  EXPECT_EQ(stale.err,
+            "hysteron report: " + page.string() +
+                ": the tables of keys are not what --help says now; write them again: hysteron report " +
+                folder.path().string() + "\n");
+  EXPECT_EQ(text_of(page), kEmpty) << "--check writes nothing";
+  const Outcome written = program("report " + folder.path().string());
+  EXPECT_EQ(written.exit_code, 0) << written.err;
+  EXPECT_EQ(written.out, page.string() + "\n");
+  EXPECT_EQ(text_of(page),
+            "# Keys\n\n<!-- keys:begin -->\n" + key_tables() + "<!-- keys:end -->\n\nAfter them.\n");
+  EXPECT_EQ(program("report --check " + folder.path().string()).exit_code, 0);
+  EXPECT_EQ(text_of(folder.path() / "laws.md"), "# Laws\n");
+}
+
+TEST(ReportOfDocumentation, RefusesTablesWithoutTheirEnd) {
+  const Folder folder;
+  std::ofstream(folder.path() / "scenes.md") << "<!-- keys:begin -->\n";
+  const Outcome outcome = program("report " + folder.path().string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("scenes.md has <!-- keys:begin --> without <!-- keys:end --> below it"),
+            std::string::npos)
+      << outcome.err;
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
