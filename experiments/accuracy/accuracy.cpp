@@ -77,11 +77,6 @@ Solution solved(const Problem& problem, Run& run) {
   return solution;
 }
 
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
-}
-
 int run_accuracy(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags));
@@ -109,7 +104,7 @@ Experiment accuracy() {
       .name = "accuracy",
       .question = "error against run time, against references of their own; orders; the cheapest settings",
       .run = run_accuracy,
-      .own_keys = own_keys};
+      .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

@@ -157,11 +157,6 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
   return 0;
 }
 
-std::vector<KeyDescription> own_keys() {
-  BenchOptions own;
-  return descriptions(bind(kRows, own));
-}
-
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own),
@@ -190,7 +185,7 @@ Experiment bench() {
           .question = "time and memory of a step: a hanging square, three laws",
           .run = run_bench,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -143,11 +143,6 @@ void plot(Session& session, const Table& table, const Southwell& found, double r
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 320); }
 
-std::vector<KeyDescription> own_keys() {
-  B choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_buckle(const CommandLine& line) {
   B choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -181,7 +176,7 @@ Experiment buckle() {
           .question = "strip that buckles under its own weight, upright or on its edge",
           .run = run_buckle,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -68,11 +68,6 @@ void plot(Session& session) {
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 128); }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_cantilever(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -140,7 +135,7 @@ Experiment cantilever() {
           .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
           .run = run_cantilever,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -193,11 +193,6 @@ int crease_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_crease(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return crease_laws(line, laws);
@@ -212,7 +207,7 @@ Experiment crease() {
           .question = "crease recovery (ISO 2313): fold, load, release",
           .run = run_crease,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

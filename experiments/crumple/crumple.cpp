@@ -176,11 +176,6 @@ int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_crumple(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return crumple_laws(line, laws);
@@ -195,7 +190,7 @@ Experiment crumple() {
           .question = "crushed, opened, spread and hung: wrinkles that stay",
           .run = run_crumple,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

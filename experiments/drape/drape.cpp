@@ -178,11 +178,6 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
-std::vector<KeyDescription> own_keys() {
-  DrapeChoice choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_drape(const CommandLine& line) {
   DrapeChoice choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -249,7 +244,7 @@ Experiment drape() {
           .question = "Cusick's drape test: a disc of cloth over a pedestal",
           .run = run_drape,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

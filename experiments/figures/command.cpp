@@ -33,13 +33,6 @@ std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
   return captions;
 }
 
-std::vector<KeyDescription> own_keys() {
-  Options options;
-  std::vector<KeyDescription> keys = descriptions(bind_output_options(options));
-  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
-  return keys;
-}
-
 int run_figures(const CommandLine& line) {
   Options options;
   options.out = "out/figures";
@@ -73,7 +66,7 @@ Experiment figures() {
   return {.name = "figures",
           .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
           .run = run_figures,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<bind_output_options, fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -196,11 +196,6 @@ Answer identify(const FitFlags& flags) {
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
 
-std::vector<KeyDescription> own_keys() {
-  FitFlags flags;
-  return descriptions(bind_flags(flags));
-}
-
 int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
@@ -232,7 +227,7 @@ Experiment fit() {
   return {.name = "fit",
           .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
           .run = run_fit,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<bind_flags>};
 }
 
 }  // namespace hysteron::experiments

@@ -276,11 +276,6 @@ int fold_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, request.setup, request.keys, page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_fold(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return fold_laws(line, laws);
@@ -295,7 +290,7 @@ Experiment fold() {
           .question = "repeated folding (De Mattia): loops and fatigue",
           .run = run_fold,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

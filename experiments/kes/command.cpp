@@ -182,13 +182,6 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
   return keys;
 }
 
-std::vector<KeyDescription> own_keys() {
-  KesFlags flags;
-  std::vector<KeyDescription> keys = descriptions(keys_of(flags));
-  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
-  return keys;
-}
-
 int run_kes(const CommandLine& line) {
   KesFlags flags;
   set_keys(line, keys_of(flags), [&] {
@@ -223,7 +216,7 @@ Experiment kes() {
   return {.name = "kes",
           .question = "virtual KES-FB2 pure bending of laws alone: B, 2HB, residual curvature, loops",
           .run = run_kes,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of, fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

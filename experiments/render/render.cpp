@@ -303,11 +303,6 @@ class FramesAndSheet {
   render::PngWriter writer_;
 };
 
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
-}
-
 int run_render(const CommandLine& line) {
   F flags;
   flags.options.out = "out/render";
@@ -332,7 +327,7 @@ Experiment render_files() {
   return {.name = "render",
           .question = "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera",
           .run = run_render,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<keys_of>,
           .names = "FILES"};
 }
 

@@ -45,11 +45,6 @@ int check(const fs::path& folder) {
   return stale.empty() ? 0 : kStale;
 }
 
-std::vector<KeyDescription> own_keys() {
-  ReportFlags flags;
-  return descriptions(bind(kRows, flags));
-}
-
 int run_report(const CommandLine& line) {
   ReportFlags flags;
   set_keys(line, bind(kRows, flags));
@@ -77,7 +72,7 @@ Experiment report() {
       .name = "report",
       .question = "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html",
       .run = run_report,
-      .own_keys = own_keys,
+      .own_keys = own_keys_of<kRows>,
       .names = "DIR"};
 }
 

@@ -70,11 +70,6 @@ std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& r
   return cells;
 }
 
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
-}
-
 int run_stability(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags), [&] {
@@ -114,7 +109,7 @@ Experiment stability() {
   return {.name = "stability",
           .question = "maps of what stays stable, over stiffness, step, mesh and extreme scenes",
           .run = run_stability,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

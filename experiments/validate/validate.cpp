@@ -171,11 +171,6 @@ void measure_bending_lengths(const F& flags, Run& run) {
   file.commit();
 }
 
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
-}
-
 int run_validate(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags), [&] {
@@ -204,7 +199,7 @@ Experiment validate() {
   return {.name = "validate",
           .question = "the model against measurements: drape coefficients, bending lengths",
           .run = run_validate,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

@@ -111,8 +111,8 @@ class Estimate {
 }  // namespace
 
 Errors errors_of(const std::string& experiment, const Json& metrics, const std::vector<Repeated>& repeats) {
-  const Headlines& headlines = *headlines_of(experiment);
-  Errors errors = Estimate(headlines.metrics, metrics, repeats).errors();
+  const Headlines& headlines = headlines_of(experiment);
+  Errors errors = Estimate(headlines.with_errors(), metrics, repeats).errors();
   const bool meshed =
       std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) { return r.repeat.name == "mesh"; });
   if (!meshed) errors.missing.push_back("mesh and draw: the cloth's triangles come from a file");

@@ -119,7 +119,7 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
 
 std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
                                int draws) {
-  const Headlines& headlines = *headlines_of(experiment);
+  const Headlines& headlines = headlines_of(experiment);
   std::vector<Repeat> repeats;
   const bool meshed = !from_a_file(scene);
   // The longest first: they run side by side.
@@ -137,7 +137,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
 void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const auto stage = run.stage("errors");
   run.keep();
-  const Headlines& headlines = *headlines_of(line.experiment);
+  const Headlines& headlines = headlines_of(line.experiment);
   const std::vector<Repeat> repeats =
       repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
   std::vector<SweepColumn> columns;
@@ -156,13 +156,13 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
                                                : column.stopped));
       },
       [&](const std::string& line) { run.progress("errors: " + line); });
-  write_table(run, headlines.metrics, repeats, columns);
+  write_table(run, headlines.with_errors(), repeats, columns);
   std::vector<Repeated> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
   const Errors errors = errors_of(line.experiment, run.metrics(), found);
   for (const auto& [name, value] : errors.metrics.items()) run.metric(name, value);
   if (!errors.missing.empty()) run.note("errors_missing", errors.missing);
-  for (const std::string& name : headlines.metrics)
+  for (const std::string& name : headlines.with_errors())
     if (is_headline(run.metrics(), name)) run.progress(with_errors(run.metrics(), name));
   for (const std::string& sentence : errors.missing) run.progress("errors: " + sentence);
 }

@@ -20,14 +20,35 @@ void expect_in(const std::string& text, const std::string& part) {
 
 TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
   const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
-                                                         {"drape_coefficient_percent_step_error", -0.8},
+                                                         {"drape_coefficient_percent_step_error", 0.8},
                                                          {"drape_coefficient_percent_mesh_error", 0.61},
                                                          {"node_count", 8},
                                                          {"settled", true}}));
-  expect_in(words, "drape coefficient             86.0 ± 0.8 (step) ± 0.61 (mesh) %\n");
+  expect_in(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n");
   expect_in(words, "folds                         8\n");
   expect_in(words, "at rest\n");
   EXPECT_EQ(words.find("NOT"), std::string::npos);
+}
+
+TEST(ResultWords, ShowErrorsInTheUnitOfTheirNumber) {
+  const Json manifest = {{"experiment", "fold"},
+                         {"complete", true},
+                         {"scene", Json::object()},
+                         {"metrics",
+                          {{"2HB_N", 9.377e-4},
+                           {"2HB_N_step_error", 7.1e-9},
+                           {"2HB_N_mesh_error", 6.4e-6},
+                           {"2HB_N_draw_error", 7e-7}}}};
+  expect_in(result_words(manifest),
+            "2HB                           0.938 mN ± 7e-06 step ± 0.006 mesh ± 7e-04 draw\n");
+}
+
+TEST(ResultWords, OfAFitShowItsStandardError) {
+  const Json manifest = {{"experiment", "swing"},
+                         {"complete", true},
+                         {"scene", Json::object()},
+                         {"metrics", {{"decay_exponent", 2.0412}, {"decay_exponent_stderr", 0.0523}}}};
+  expect_in(result_words(manifest), "exponent of decay             2.04 ± 0.05\n");
 }
 
 TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {
