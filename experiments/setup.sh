@@ -14,6 +14,7 @@ program_packages=(
   "libeigen3-dev|vectors and matrices"
   "libcli11-dev|command line"
   "libfmt-dev|numbers in texts"
+  "libkainjow-mustache-dev|templates of pages"
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"

@@ -1,6 +1,8 @@
 // Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius,
 // hangs over its rim; the drape coefficient is the share of the free ring that its shadow still covers.
-#include <cstdio>
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
 
 #include "experiments/drape/outline.h"
 #include "experiments/workbench/session/session.h"
@@ -110,9 +112,8 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice) {
   const double radius = session.scene().cloth.radius;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
-  char text[160];
-  std::snprintf(text, sizeof text, "%s, law %s\nshadow from above: drape coefficient %.1f %%",
-                session.scene().fabric.name.c_str(), session.scene().law.c_str(), found);
+  const std::string text = fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %",
+                                       session.scene().fabric.name, session.scene().law, found);
   render::draw_caption(shadow, text, render::Corner::top_left);
   render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
   render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);
@@ -206,10 +207,8 @@ int run_drape(const CommandLine& line) {
   };
   question.to_rest = true;
   question.progress = [&](const Snapshot& m) {
-    char text[120];
-    std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time,
-                  covered, m.fastest);
-    return std::string(text);
+    return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
+                       m.fastest);
   };
   const bool settled = session.simulate(question);
 

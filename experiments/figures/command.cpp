@@ -1,5 +1,8 @@
 // `hysteron figures`: the chapter's figures as pictures, curves and captions in one folder.
+#include <fmt/core.h>
+
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/figures/figures.h"
 #include "experiments/workbench/app/experiment.h"
@@ -13,16 +16,15 @@ namespace {
 // The curves and named points of a figure, one point per row.
 void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
   AtomicFile file(path.string());
-  file.stream().precision(12);
+  const auto row = [&](const std::string& name, double x, double y) {
+    file.stream() << fmt::format("\"{}\",{:.12g},{:.12g}\n", name, x, y);
+  };
   file.stream() << "curve,curvature [1/m],moment [mN]\n";
-  for (const render::Series& series : plot.series) {
-    if (series.label.empty()) continue;
-    for (std::size_t i = 0; i < series.x.size(); ++i)
-      file.stream() << "\"" << series.label << "\"," << series.x[i] << "," << series.y[i] << "\n";
-  }
-  for (const render::Mark& mark : plot.marks) {
-    if (mark.dot) file.stream() << "\"point " << mark.text << "\"," << mark.x << "," << mark.y << "\n";
-  }
+  for (const render::Series& series : plot.series)
+    for (std::size_t i = 0; i < series.x.size() && !series.label.empty(); ++i)
+      row(series.label, series.x[i], series.y[i]);
+  for (const render::Mark& mark : plot.marks)
+    if (mark.dot) row("point " + mark.text, mark.x, mark.y);
   file.commit();
 }
 

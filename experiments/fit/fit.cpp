@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "experiments/fit/curve.h"
@@ -210,9 +211,7 @@ int run_fit(const CommandLine& line) {
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   if (!flags.options.json) {
     std::cout << summary(answer.fits);
     for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";

@@ -2,6 +2,7 @@
 // assets.
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/kes/kes.h"
 #include "experiments/kes/output.h"
@@ -57,9 +58,7 @@ constexpr int kQuickSteps = 1000, kQuickStripSteps = 18;
 Keys keys_of(KesFlags& flags) {
   Keys keys = bind(kRows, flags);
   for (const BoundKey& key : bind(kStripRows, flags)) keys.push_back(key);
-  const Keys output = bind_output_options(flags.options);
-  keys.insert(keys.end(), output.begin(), output.end());
-  return keys;
+  return with_output_options(keys, flags.options);
 }
 
 // All that can be tested: a strip gets no orders on its way.
@@ -203,9 +202,7 @@ int run_kes(const CommandLine& line) {
   write_metrics(run, results);
   write_tables(run, results, flags.protocol);
   if (!flags.options.no_images) write_plots(run, results, flags.protocol);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   if (!flags.options.json) print_table(results);
   return 0;
 }

@@ -2,9 +2,9 @@
 #include <iostream>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery.h"
-#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 

@@ -5,16 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/error_words.h"
-#include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
 namespace {
 
 // "86.0 % ± 0.10 step ± 0.6 mesh ± 0.8 draw"; "" where the run has no such number.
-std::string value_words(const Headline& headline, const Json& metrics) {
-  const Json value = metrics.value(headline.metric, Json());
-  if (value.is_string()) return value.get<std::string>();
+std::string value_words(const Headline& headline, const Metrics& metrics) {
+  const MetricValue& value = metrics[headline.metric];
+  if (value.is_text()) return value.text();
   return value.is_number() ? headline_words(metrics, headline).text() : "";
 }
 
@@ -24,15 +24,15 @@ std::string row(const std::string& words, const std::string& value) {
 }
 
 // What a comparison's columns were asked for.
-std::string question_of(const Json& manifest) {
-  const std::string own = manifest.value("experiment", "");
-  return own == "compare" ? manifest.at("scene").value("compared", own) : own;
+std::string question_of(const Manifest& manifest) {
+  const bool compares = manifest.experiment == "compare" && !manifest.scene.compared.empty();
+  return compares ? manifest.scene.compared : manifest.experiment;
 }
 
 // Laws or fabrics whose metrics are called NAME.KEY, in their order.
-std::vector<std::string> names_in(const Json& metrics) {
+std::vector<std::string> names_in(const Metrics& metrics) {
   std::vector<std::string> names;
-  for (const auto& [key, value] : metrics.items()) {
+  for (const auto& [key, value] : metrics) {
     const std::size_t dot = key.rfind('.');
     if (dot == key.npos) continue;
     const std::string name = key.substr(0, dot);
@@ -41,14 +41,14 @@ std::vector<std::string> names_in(const Json& metrics) {
   return names;
 }
 
-Json metrics_of(const std::string& name, const Json& metrics) {
-  Json own = Json::object();
-  for (const auto& [key, value] : metrics.items())
-    if (key.starts_with(name + ".")) own[key.substr(name.size() + 1)] = value;
+Metrics metrics_of(const std::string& name, const Metrics& metrics) {
+  Metrics own;
+  for (const auto& [key, value] : metrics)
+    if (key.starts_with(name + ".")) own.set(key.substr(name.size() + 1), value);
   return own;
 }
 
-std::string one_line(const std::string& experiment, const Json& metrics) {
+std::string one_line(const std::string& experiment, const Metrics& metrics) {
   std::string text;
   for (const Headline& headline : headlines_of(experiment).all) {
     const std::string value = value_words(headline, metrics);
@@ -60,19 +60,18 @@ std::string one_line(const std::string& experiment, const Json& metrics) {
 
 }  // namespace
 
-std::string unrest_words(const Json& metrics) {
-  if (!metrics.is_object() || metrics.value("settled", Json()) != Json(false)) return "";
+std::string unrest_words(const Metrics& metrics) {
+  if (!metrics["settled"].is(false)) return "";
   std::string text = "NOT at rest";
-  const Json fastest = metrics.value("fastest_m_per_s", Json()),
-             limit = metrics.value("settling_limit_m_per_s", Json());
-  if (fastest.is_number()) text += fmt::format(": fastest vertex {:.3g} mm/s", 1e3 * fastest.get<double>());
+  const MetricValue &fastest = metrics["fastest_m_per_s"], &limit = metrics["settling_limit_m_per_s"];
+  if (fastest.is_number()) text += fmt::format(": fastest vertex {:.3g} mm/s", 1e3 * fastest.number());
   if (fastest.is_number() && limit.is_number())
-    text += fmt::format(", limit {:.3g} mm/s", 1e3 * limit.get<double>());
+    text += fmt::format(", limit {:.3g} mm/s", 1e3 * limit.number());
   return text;
 }
 
-std::string result_words(const Json& manifest) {
-  const Json metrics = manifest.value("metrics", Json::object());
+std::string result_words(const Manifest& manifest) {
+  const Metrics& metrics = manifest.metrics;
   const std::string experiment = question_of(manifest);
   std::string text;
   for (const Headline& headline : headlines_of(experiment).all) {
@@ -85,18 +84,17 @@ std::string result_words(const Json& manifest) {
   }
   const std::string unrest = unrest_words(metrics);
   if (!unrest.empty()) text += "  " + unrest + "\n";
-  if (metrics.value("settled", Json()) == Json(true)) text += "  at rest\n";
-  if (!manifest.value("complete", false)) text += "  INCOMPLETE: the run did not come to its end\n";
+  if (metrics["settled"].is(true)) text += "  at rest\n";
+  if (!manifest.complete) text += "  INCOMPLETE: the run did not come to its end\n";
   return text;
 }
 
 std::string closing_words(const std::filesystem::path& folder) {
-  const Json manifest = read_manifest(folder / "manifest.json");
-  const std::string fabric = fabric_name(manifest);
-  const Json law = manifest.value("law", Json());
-  std::string text = manifest.value("experiment", "run");
+  const Manifest manifest = read_manifest(folder / "manifest.json");
+  const std::string& fabric = manifest.scene.fabric.name;
+  std::string text = manifest.experiment;
   if (!fabric.empty()) text += ": " + fabric;
-  if (law.is_string()) text += (fabric.empty() ? ": law " : ", law ") + law.get<std::string>();
+  if (manifest.law) text += (fabric.empty() ? ": law " : ", law ") + *manifest.law;
   text += "\n" + result_words(manifest) + row("folder", folder.string());
   const std::pair<const char*, const char*> places[] = {
       {"report", "report.html"}, {"contact sheet", "sheet.png"}, {"picture sequence", "frames"}};

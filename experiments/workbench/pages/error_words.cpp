@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
@@ -17,9 +18,7 @@ struct Source {
 };
 constexpr Source kSources[] = {{kStepError, "step"}, {kMeshError, "mesh"}, {kDrawError, "draw"}};
 
-bool is_number(const Json& metrics, const std::string& name) {
-  return metrics.contains(name) && metrics[name].is_number() && std::isfinite(metrics[name].get<double>());
-}
+bool is_number(const Metrics& metrics, const std::string& name) { return metrics[name].is_number(); }
 
 // The power of ten that an error is rounded to.
 int place_of(double error) {
@@ -39,19 +38,15 @@ std::string rounded(double x, int place) {
 std::string rounded_error(double error) { return error > 0 ? rounded(error, place_of(error)) : "0"; }
 
 // With the decimals of its largest error, in another unit.
-std::string value_text(const Json& value, double largest, double scale) {
-  if (value.is_number_integer() && scale == 1) return value.dump();
-  if (largest > 0) return rounded(scale * value.get<double>(), place_of(largest));
-  return shown(scale == 1 ? value : Json(scale * value.get<double>()));
-}
-
-std::string spaced(const std::string& a, const std::string& b) {
-  return a + (a.empty() || b.empty() ? "" : " ") + b;
+std::string value_text(const MetricValue& value, double largest, double scale) {
+  if (value.is_integer() && scale == 1) return shown(value);
+  if (largest > 0) return rounded(scale * value.number(), place_of(largest));
+  return shown(scale == 1 ? value : MetricValue(scale * value.number()));
 }
 
 // Value and errors of a headline whose errors were asked for.
-HeadlineWords scaled_words(const Json& metrics, const std::string& name, double scale) {
-  const auto error_of = [&](const std::string& key) { return scale * std::abs(metrics[key].get<double>()); };
+HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, double scale) {
+  const auto error_of = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
   HeadlineWords words;
   double largest = 0;
   std::string unknown;
@@ -59,32 +54,32 @@ HeadlineWords scaled_words(const Json& metrics, const std::string& name, double 
     const std::string key = name + source.ending;
     if (is_number(metrics, key)) {
       largest = std::max(largest, error_of(key));
-      words.errors = spaced(words.errors, "± " + rounded_error(error_of(key)) + " " + source.word);
+      words.errors = joined({words.errors, "± " + rounded_error(error_of(key)), source.word}, " ");
     } else {
       unknown += (unknown.empty() ? "" : " and ") + std::string(source.word);
     }
   }
   if (!unknown.empty()) words.errors += (words.errors.empty() ? "" : ", ") + unknown + " error unknown";
   if (const std::string path = name + kPathDifference; is_number(metrics, path))
-    words.errors += std::string(", other path ") + (metrics[path].get<double>() < 0 ? "-" : "+") +
+    words.errors += std::string(", other path ") + (metrics[path].number() < 0 ? "-" : "+") +
                     rounded_error(error_of(path));
   if (const std::string mean = name + kDrawMean, error = name + kDrawMeanError;
       is_number(metrics, mean) && is_number(metrics, error))
     words.errors += ", mean of draws " + value_text(metrics[mean], error_of(error), scale) + " ± " +
                     rounded_error(error_of(error));
-  words.value = value_text(metrics.at(name), largest, scale);
+  words.value = value_text(metrics[name], largest, scale);
   return words;
 }
 
 }  // namespace
 
-bool is_headline(const Json& metrics, const std::string& name) {
+bool is_headline(const Metrics& metrics, const std::string& name) {
   return is_number(metrics, name) &&
          std::any_of(std::begin(kSources), std::end(kSources),
                      [&](const Source& source) { return metrics.contains(name + source.ending); });
 }
 
-std::string headline_of(const Json& metrics, const std::string& name) {
+std::string headline_of(const Metrics& metrics, const std::string& name) {
   for (const char* ending :
        {kStepError, kMeshError, kDrawError, kDrawMeanError, kDrawMean, kPathDifference}) {
     const std::string end = ending;
@@ -95,31 +90,31 @@ std::string headline_of(const Json& metrics, const std::string& name) {
   return "";
 }
 
-std::string HeadlineWords::text() const { return spaced(spaced(value, unit), errors); }
+std::string HeadlineWords::text() const { return joined({value, unit, errors}, " "); }
 
-HeadlineWords headline_words(const Json& metrics, const std::string& name) {
+HeadlineWords headline_words(const Metrics& metrics, const std::string& name) {
   HeadlineWords words = scaled_words(metrics, name, 1);
   words.unit = split_unit(name).unit;
   return words;
 }
 
-HeadlineWords headline_words(const Json& metrics, const Headline& headline) {
+HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
   HeadlineWords words;
   const std::string name = headline.metric, fitted = name + kStandardError;
   if (is_headline(metrics, name)) {
     words = scaled_words(metrics, name, headline.scale);
   } else if (is_number(metrics, fitted)) {
-    const double error = headline.scale * std::abs(metrics[fitted].get<double>());
-    words = {value_text(metrics.at(name), error, headline.scale), "", "± " + rounded_error(error)};
+    const double error = headline.scale * std::abs(metrics[fitted].number());
+    words = {value_text(metrics[name], error, headline.scale), "", "± " + rounded_error(error)};
   } else {
-    words.value = fmt::format(fmt::runtime(headline.format), headline.scale * metrics.at(name).get<double>());
+    words.value = fmt::format(fmt::runtime(headline.format), headline.scale * metrics[name].number());
   }
   words.unit = headline.unit;
   return words;
 }
 
-std::string with_errors(const Json& metrics, const std::string& name) {
-  if (!is_headline(metrics, name)) return metric_text(name, metrics.at(name).get<double>());
+std::string with_errors(const Metrics& metrics, const std::string& name) {
+  if (!is_headline(metrics, name)) return metric_text(name, metrics[name].number());
   return split_unit(name).name + " " + headline_words(metrics, name).text();
 }
 

@@ -21,7 +21,8 @@ struct Reading {
   std::string key, text;
 
   [[noreturn]] void refuse(const std::string& allowed) const {
-    throw Error::request("law " + choice.name + ": " + key + " = " + text + " must be " + allowed);
+    throw Error::request("law " + choice.name + ": " + key + " = " + text + " must be " + allowed)
+        .of(key, text);
   }
 
   double number(double low, double high, const std::string& allowed) const {
@@ -117,31 +118,33 @@ std::string shown(double x) {
 
 // What concerns several numbers at once.
 void check(const LawChoice& choice, LawUse use) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error::request("law " + choice.name + ": " + what);
+  const auto refuse = [&](const std::string& key, double value, const std::string& why) {
+    throw Error::request("law " + choice.name + ": " + key + " = " + shown(value) + why)
+        .of(key, shown(value));
   };
   const double m0 = choice.curve.friction_moment();
   if (choice.fatigue.m_inf > m0) {
-    refuse("fatigue.m-inf = " + shown(choice.fatigue.m_inf) + " N must be in [0, " + shown(m0) +
-           "] N, the friction moment (b1 - b2) k0/2");
+    refuse("fatigue.m-inf", choice.fatigue.m_inf,
+           " N must be in [0, " + shown(m0) + "] N, the friction moment (b1 - b2) k0/2");
   }
   if (choice.fatigue.on() && choice.name == "prandtl" && use == LawUse::cloth) {
-    if (choice.stack && choice.depth != 8)
-      refuse("stack = " + shown(choice.depth) + " must be 8 with fatigue");
+    if (choice.stack && choice.depth != 8) refuse("stack", choice.depth, " must be 8 with fatigue");
     if (!choice.stack && choice.stops != 8 && choice.stops != 16)
-      refuse("stops = " + shown(choice.stops) + " must be 8 or 16 with fatigue");
+      refuse("stops", choice.stops, " must be 8 or 16 with fatigue");
   }
   if ((choice.name == "kim" || choice.name == "narain") && choice.yield == 0)
-    refuse("yield must be given and > 0 1/m where k0 is 0");
+    throw Error::request("law " + choice.name + ": yield must be given and > 0 1/m where k0 is 0")
+        .of("yield", "0");
   if (choice.name == "spring") {
     // Folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000 times.
     constexpr double kLeast = 0.01;
     const double angle = choice.curve.k0 * choice.height;
     if (!(angle >= kLeast && angle < 2 * std::numbers::pi)) {
-      refuse(
-          "height = " + shown(choice.height) + " m and k0 = " + shown(choice.curve.k0) +
-          " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; folded "
-          "further, springs matched at a smaller one are so stiff that they crush the triangles");
+      refuse("height", choice.height,
+             " m and k0 = " + shown(choice.curve.k0) +
+                 " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; "
+                 "folded "
+                 "further, springs matched at a smaller one are so stiff that they crush the triangles");
     }
   }
 }
@@ -176,7 +179,8 @@ LawChoice choose_law(const std::string& name, const VirginCurve& curve, const La
       for (const std::string& allowed : law_parameter_names(name))
         list += (list.empty() ? "" : ", ") + allowed;
       throw Error::request("law " + name + ": unknown parameter " + key + " = " + text +
-                           "; allowed: " + (list.empty() ? "none" : list));
+                           "; allowed: " + (list.empty() ? "none" : list))
+          .of(key, text);
     }
     p->read({choice, use, key, text});
   }
