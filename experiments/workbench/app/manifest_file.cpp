@@ -9,8 +9,6 @@
 namespace hysteron::experiments {
 namespace {
 
-// --- Writing
-
 Json to_json(const MetricValue& value) {
   return std::visit(
       [](const auto& known) -> Json {
@@ -64,7 +62,17 @@ Json to_json(const Curve& curve) {
           {"caption", curve.caption}};
 }
 
-// --- Reading
+// Entries that only some runs have.
+void add_what_some_have(const Manifest& m, Json& json) {
+  if (m.substeps) json["substeps"] = *m.substeps;
+  for (const auto& [key, value] : m.own) json[key] = *value;
+  if (m.series) json["series"] = *m.series;
+  if (m.frames) json["frames"] = to_json(*m.frames);
+  for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
+  if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
+  if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
+  if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
+}
 
 // Null if there is nothing.
 const Json& at(const Json& json, const char* key) {
@@ -192,6 +200,19 @@ std::optional<Frames> frames_of(const Json& json) {
   return frames;
 }
 
+// Entries that only some runs have.
+void take_what_some_have(const Json& json, Manifest& m) {
+  m.substeps = known_at<int>(json, "substeps");
+  if (at(json, "series").is_array()) m.series = texts_at(json, "series");
+  m.frames = frames_of(at(json, "frames"));
+  for (const Json& curve : at(json, "curves"))
+    m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
+                        text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
+  m.film_missing = text_at(json, "film_missing");
+  m.plots_missing = texts_at(json, "plots_missing");
+  m.errors_missing = texts_at(json, "errors_missing");
+}
+
 // The first key without which a JSON is no manifest; "" if it has all.
 std::string missing_in(const Json& json) {
   const Json& program = at(json, "hysteron");
@@ -224,14 +245,7 @@ Json to_json(const Manifest& m) {
   json["bytes_device"] = to_json(m.bytes_device);
   json["energy"] = to_json(m.energy);
   json["state_hash"] = to_json(m.state_hash);
-  if (m.substeps) json["substeps"] = *m.substeps;
-  for (const auto& [key, value] : m.own) json[key] = *value;
-  if (m.series) json["series"] = *m.series;
-  if (m.frames) json["frames"] = to_json(*m.frames);
-  for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
-  if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
-  if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
-  if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
+  add_what_some_have(m, json);
   json["metrics"] = to_json(m.metrics);
   json["files"] = m.files;
   json["complete"] = m.complete;
@@ -263,15 +277,7 @@ Manifest manifest_of(const Json& json) {
   m.bytes_device = known_at<std::int64_t>(json, "bytes_device");
   m.energy = numbers_at(json, "energy");
   m.state_hash = known_at<std::string>(json, "state_hash");
-  m.substeps = known_at<int>(json, "substeps");
-  if (at(json, "series").is_array()) m.series = texts_at(json, "series");
-  m.frames = frames_of(at(json, "frames"));
-  for (const Json& curve : at(json, "curves"))
-    m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
-                        text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
-  m.film_missing = text_at(json, "film_missing");
-  m.plots_missing = texts_at(json, "plots_missing");
-  m.errors_missing = texts_at(json, "errors_missing");
+  take_what_some_have(json, m);
   m.metrics = metrics_of(at(json, "metrics"));
   m.files = texts_at(json, "files");
   m.complete = is_true_at(json, "complete");
