@@ -6,6 +6,7 @@
 #include <string>
 
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_words.h"
 #include "sim/base/error.h"
 
@@ -14,23 +15,16 @@ namespace {
 using namespace hysteron;
 using namespace hysteron::experiments;
 
-// The experiment that a message names itself, "drape: ..."; "" if none.
-std::string experiment_in(const std::string& message) {
-  for (const Experiment& experiment : hysteron::experiments::experiments()) {
-    if (message.starts_with(std::string(experiment.name) + ": ")) return experiment.name;
-  }
-  return "";
-}
-
 // "hysteron drape: fabric.b2 = -1 N m must be >= 0 (drape.toml:7)"
 int fail(const std::string& experiment, const std::string& message, int exit_code) {
-  const std::string named = experiment_in(message);
-  std::cerr << "hysteron"
-            << (!named.empty()       ? " "
-                : experiment.empty() ? ": "
-                                     : " " + experiment + ": ")
-            << message << std::endl;
+  std::cerr << "hysteron" << (experiment.empty() ? "" : " ") << experiment << ": " << message << std::endl;
   return exit_code;
+}
+
+int fail(const std::string& experiment, const Error& error) {
+  if (error.experiment().empty()) return fail(experiment, error.what(), error.exit_code());
+  std::cerr << "hysteron " << error.what() << std::endl;
+  return error.exit_code();
 }
 
 // With --json stdout is for JSON alone.
@@ -57,7 +51,7 @@ int main(int count, char** words) {
   } catch (const Error& error) {
     constexpr int kCouldNotGoOn = 3;  // what was written so far is kept
     if (error.exit_code() == kCouldNotGoOn) say_last_words(line);
-    return fail(experiment, error.what(), error.exit_code());
+    return fail(experiment, error);
   } catch (const std::bad_alloc&) {
     return fail(experiment, "out of memory; use fewer triangles (--triangles)", 1);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -13,6 +13,8 @@ program_packages=(
   "git|names the commit in every manifest"
   "libeigen3-dev|vectors and matrices"
   "libcli11-dev|command line"
+  "libfmt-dev|numbers in texts"
+  "libkainjow-mustache-dev|templates of pages"
   "libtomlplusplus-dev|scene and fabric files"
   "nlohmann-json3-dev|manifests"
   "libceres-dev|least squares of hysteron fit"

@@ -1,8 +1,9 @@
 #include "render/caption.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -31,11 +32,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value == 0 ? 0.0 : value);
-  return text;
-}
+std::string number_text(double value) { return fmt::format("{:.3g}", value == 0 ? 0.0 : value); }
 
 // With the unit that leaves a number from 1 to below 1000.
 std::string length_text(double metres) {

@@ -2,6 +2,8 @@
 
 #define EGL_NO_PROTOTYPES
 #define EGL_NO_X11
+#include <fmt/core.h>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -92,9 +94,8 @@ Candidate describe_device(EGLDeviceEXT device, int index) {
 }
 
 Error egl_error(const char* attempted) {
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%04x", static_cast<unsigned>(egl().GetError()));
-  return Error::machine(std::string(attempted) + " fails with EGL error " + code);
+  return Error::machine(
+      fmt::format("{} fails with EGL error 0x{:04x}", attempted, static_cast<unsigned>(egl().GetError())));
 }
 
 class EglContext : public Offscreen {

@@ -1,4 +1,5 @@
-# Writes OUTPUT, a C++ file that holds the bytes of every file in FILES (separated by |).
+# Writes OUTPUT, a C++ file that holds the bytes of every file in FILES (separated by |), for the function
+# embedded_file() of namespace hysteron::NAMESPACE that HEADER declares.
 string(REPLACE "|" ";" FILES "${FILES}")
 set(arrays "")
 set(cases "")
@@ -14,13 +15,13 @@ foreach(file IN LISTS FILES)
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE "${OUTPUT}" "// Written by render/embed.cmake.
-#include \"render/shaders/embedded.h\"
+#include \"${HEADER}\"
 
 #include <string>
 
 #include \"sim/base/error.h\"
 
-namespace hysteron::render {
+namespace hysteron::${NAMESPACE} {
 namespace {
 
 ${arrays}
@@ -36,5 +37,5 @@ std::span<const unsigned char> embedded_file(std::string_view name) {
 ${cases}  throw Error::machine(\"looking for \" + std::string(name) + \": it is not embedded in this binary\");
 }
 
-}  // namespace hysteron::render
+}  // namespace hysteron::${NAMESPACE}
 ")

@@ -1,7 +1,8 @@
 #include "render/gnuplot.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "render/color_map.h"
@@ -13,9 +14,7 @@ namespace hysteron::render::gnuplot {
 namespace {
 
 std::string hex(const Rgb8& color) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02X%02X%02X", color[0], color[1], color[2]);
-  return text;
+  return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
 }
 
 // A gnuplot string: single quotes are doubled, line ends become spaces.
@@ -98,12 +97,7 @@ bool has_content(const std::string& file) {
 
 }  // namespace
 
-std::string number(double value) {
-  if (!std::isfinite(value)) return "NaN";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "NaN"; }
 
 std::string label_text(const std::string& text) { return single_quoted(unmarked(text, "\\")); }
 

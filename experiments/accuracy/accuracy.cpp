@@ -1,6 +1,8 @@
 // `hysteron accuracy`: error against run time, for problems with references of their own.
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "experiments/accuracy/output.h"
 #include "experiments/workbench/app/experiment.h"
@@ -24,12 +26,7 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(F& flags) {
-  Keys keys = bind(kRows, flags);
-  const Keys output = bind_output_options(flags.options);
-  keys.insert(keys.end(), output.begin(), output.end());
-  return keys;
-}
+Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 std::vector<Problem> problems_of(const F& flags) {
   const Effort effort{flags.options.quick, value_named<DeviceChoice>(flags.device)};
@@ -45,7 +42,9 @@ std::vector<Problem> problems_of(const F& flags) {
     if (found == all.end()) {
       std::string known;
       for (const Problem& problem : all) known += (known.empty() ? "" : ", ") + problem.name;
-      throw Error::request("accuracy: problem = " + name + " is not one of: " + known);
+      throw Error::request("problem = " + name + " is not one of: " + known)
+          .of("problem", name)
+          .in("accuracy");
     }
     chosen.push_back(*found);
   }
@@ -69,17 +68,12 @@ Solution solved(const Problem& problem, Run& run) {
   for (const Setting& setting : problem.settings) {
     solution.solved.push_back({setting, tried(problem, setting)});
     const Found& found = solution.solved.back().found;
-    char numbers[80];
-    std::snprintf(numbers, sizeof numbers, ": error %.3g, %.3g s", found.error, found.seconds);
-    run.progress(problem.name + ", " + describe(solution, setting) +
-                 (found.failed.empty() ? numbers : ": " + found.failed));
+    const std::string what = found.failed.empty()
+                                 ? fmt::format("error {:.3g}, {:.3g} s", found.error, found.seconds)
+                                 : found.failed;
+    run.progress(fmt::format("{}, {}: {}", problem.name, describe(solution, setting), what));
   }
   return solution;
-}
-
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
 }
 
 int run_accuracy(const CommandLine& line) {
@@ -95,9 +89,7 @@ int run_accuracy(const CommandLine& line) {
   }
   write_accuracy_metrics(run, solutions);
   if (!flags.options.no_images) draw_accuracy(run, solutions);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   if (!flags.options.json) print_accuracy(solutions);
   return 0;
 }
@@ -109,7 +101,7 @@ Experiment accuracy() {
       .name = "accuracy",
       .question = "error against run time, against references of their own; orders; the cheapest settings",
       .run = run_accuracy,
-      .own_keys = own_keys};
+      .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

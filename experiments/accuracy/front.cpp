@@ -1,30 +1,21 @@
 #include "experiments/accuracy/front.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
+
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
 bool is_static(const Setting& s) { return s.integrator == Integrator::quasi_static; }
 
-std::string formatted(const char* format, double value) {
-  char text[60];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string duration(double seconds) {
-  if (seconds >= 1e-3) return formatted("1/%.0f s", 1 / seconds);
-  return formatted("%.2g ms", 1e3 * seconds);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  if (seconds >= 1e-3) return fmt::format("1/{:.0f} s", 1 / seconds);
+  return fmt::format("{:.2g} ms", 1e3 * seconds);
 }
 
 std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
@@ -41,7 +32,7 @@ std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
     if (s.mesh != base.mesh) words.push_back(s.mesh);
   }
   if (s.law != base.law) words.push_back(s.law);
-  if (s.load != base.load) words.push_back(solution.problem.load + " = " + formatted("%g", s.load));
+  if (s.load != base.load) words.push_back(solution.problem.load + " = " + fmt::format("{:g}", s.load));
   if (s.precision != base.precision) words.push_back(name_of(s.precision));
   return words;
 }
@@ -49,9 +40,9 @@ std::vector<std::string> words_of(const Solution& solution, const Setting& s) {
 // Settings of a group differ in the size, or in the step, alone.
 std::string group_of(const Solution& solution, const Setting& s, bool in_space) {
   std::vector<std::string> words = words_of(solution, s);
-  words.push_back(in_space ? duration(s.step) : formatted("%.0f triangles", s.triangles));
-  words.push_back(formatted("tolerance %g", s.tolerance));
-  return joined(words);
+  words.push_back(in_space ? duration(s.step) : std::to_string(s.triangles) + " triangles");
+  words.push_back(fmt::format("tolerance {:g}", s.tolerance));
+  return join(words, ", ");
 }
 
 void add_orders(const Solution& solution, bool in_space, std::vector<Order>& orders) {
@@ -121,17 +112,17 @@ std::string series_of(const Solution& solution, const Setting& setting) {
   if (setting.element != base.element) return name_of(setting.element) + ", every mesh";
   if (!is_static(base) && setting.mesh != base.mesh) return "other meshes";
   if (setting.precision != base.precision) return name_of(setting.precision);
-  return joined(words_of(solution, setting));
+  return join(words_of(solution, setting), ", ");
 }
 
 std::string describe(const Solution& solution, const Setting& s) {
   std::vector<std::string> words = words_of(solution, s);
-  words.push_back(formatted("%.0f triangles", s.triangles));
+  words.push_back(std::to_string(s.triangles) + " triangles");
   if (!is_static(s)) words.push_back(duration(s.step));
   const Setting& base = solution.problem.settings.front();
-  if (is_static(s) && s.step != base.step) words.push_back(formatted("%.0f load steps", 1 / s.step));
-  if (s.tolerance != base.tolerance) words.push_back(formatted("tolerance %g", s.tolerance));
-  return joined(words);
+  if (is_static(s) && s.step != base.step) words.push_back(fmt::format("{:.0f} load steps", 1 / s.step));
+  if (s.tolerance != base.tolerance) words.push_back(fmt::format("tolerance {:g}", s.tolerance));
+  return join(words, ", ");
 }
 
 }  // namespace hysteron::experiments

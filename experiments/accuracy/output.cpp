@@ -1,70 +1,64 @@
 #include "experiments/accuracy/output.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
 #include "render/plot.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 namespace {
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+// What is not finite is said, not left out.
+std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 void write_table(Run& run, const std::vector<Solution>& solutions) {
-  AtomicFile file(run.path("table.csv").string());
-  file.stream()
-      << "problem,factor,setting,mesh,element,law,load,integrator,implicit every,step [s],tolerance,"
-         "precision,device,triangles,value,reference,error,reference uncertainty,steps,computing [s],"
-         "memory [byte],on front,failed\n";
+  CsvFile file(run.path("table.csv"),
+               "problem,factor,setting,mesh,element,law,load,integrator,implicit every,step [s],tolerance,"
+               "precision,device,triangles,value,reference,error,reference uncertainty,steps,computing [s],"
+               "memory [byte],on front,failed");
   for (const Solution& solution : solutions) {
     const auto front = pareto_front(solution);
     for (std::size_t i = 0; i < solution.solved.size(); ++i) {
       const auto& [s, f] = solution.solved[i];
       const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-      file.stream() << row_of({solution.problem.name,
-                               s.factor,
-                               describe(solution, s),
-                               s.mesh,
-                               name_of(s.element),
-                               s.law,
-                               number(s.load),
-                               name_of(s.integrator),
-                               name_of(s.implicit_every),
-                               number(s.step),
-                               number(s.tolerance),
-                               name_of(s.precision),
-                               name_of(s.device),
-                               number(f.triangles),
-                               number(f.value),
-                               number(f.reference),
-                               number(f.error),
-                               number(f.uncertainty),
-                               std::to_string(f.steps),
-                               number(f.seconds),
-                               std::to_string(f.bytes),
-                               on_front ? "yes" : "no",
-                               f.failed});
+      file.row({solution.problem.name,
+                s.factor,
+                describe(solution, s),
+                s.mesh,
+                name_of(s.element),
+                s.law,
+                number(s.load),
+                name_of(s.integrator),
+                name_of(s.implicit_every),
+                number(s.step),
+                number(s.tolerance),
+                name_of(s.precision),
+                name_of(s.device),
+                number(f.triangles),
+                number(f.value),
+                number(f.reference),
+                number(f.error),
+                number(f.uncertainty),
+                f.steps,
+                number(f.seconds),
+                f.bytes,
+                on_front ? "yes" : "no",
+                f.failed});
     }
   }
   file.commit();
 }
 
 void write_orders(Run& run, const std::vector<Solution>& solutions) {
-  AtomicFile file(run.path("orders.csv").string());
-  file.stream() << "problem,in,group,from,to,error from,error to,order\n";
+  CsvFile file(run.path("orders.csv"), "problem,in,group,from,to,error from,error to,order");
   for (const Solution& solution : solutions)
     for (const Order& o : observed_orders(solution))
-      file.stream() << row_of({solution.problem.name, o.in, o.group, number(o.from), number(o.to),
-                               number(o.error_from), number(o.error_to), number(o.order)});
+      file.row({solution.problem.name, o.in, o.group, number(o.from), number(o.to), number(o.error_from),
+                number(o.error_to), number(o.order)});
   file.commit();
 }
 
@@ -73,18 +67,15 @@ std::string cheapest_text(const Solution& solution, double target) {
   const auto best = cheapest(solution, target);
   if (!best) return "none";
   const Solved& solved = solution.solved[*best];
-  char text[40];
-  std::snprintf(text, sizeof text, ": %.2g s", solved.found.seconds);
-  return describe(solution, solved.setting) + text;
+  return fmt::format("{}: {:.2g} s", describe(solution, solved.setting), solved.found.seconds);
 }
 
 void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
-  AtomicFile file(run.path("cheapest.csv").string());
-  file.stream() << "problem,10 %,3 %,1 %,0.3 %\n";
+  CsvFile file(run.path("cheapest.csv"), "problem,10 %,3 %,1 %,0.3 %");
   for (const Solution& solution : solutions) {
-    std::vector<std::string> row = {solution.problem.name};
+    std::vector<CsvField> row = {solution.problem.name};
     for (double target : kTargets) row.push_back(cheapest_text(solution, target));
-    file.stream() << row_of(row);
+    file.row(row);
   }
   file.commit();
 }
@@ -155,21 +146,20 @@ void draw_accuracy(Run& run, const std::vector<Solution>& solutions) {
 
 void print_accuracy(const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
-    std::printf("\n%s: %s\nerror: %s; reference: %s\n", solution.problem.name.c_str(),
-                solution.problem.title.c_str(), solution.problem.error.c_str(),
-                solution.problem.reference.c_str());
+    fmt::print("\n{}: {}\nerror: {}; reference: {}\n", solution.problem.name, solution.problem.title,
+               solution.problem.error, solution.problem.reference);
     const auto front = pareto_front(solution);
     for (std::size_t i = 0; i < solution.solved.size(); ++i) {
       const auto& [setting, found] = solution.solved[i];
       const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-      std::printf("%c %-58s", on_front ? '*' : ' ', describe(solution, setting).c_str());
+      fmt::print("{} {:<58}", on_front ? '*' : ' ', describe(solution, setting));
       if (found.failed.empty())
-        std::printf(" %10.4f %% %9.3f s %8ld steps\n", 100 * found.error, found.seconds, found.steps);
+        fmt::print(" {:10.4f} % {:9.3f} s {:8} steps\n", 100 * found.error, found.seconds, found.steps);
       else
-        std::printf(" %s\n", found.failed.c_str());
+        fmt::print(" {}\n", found.failed);
     }
     for (double target : kTargets)
-      std::printf("cheapest within %4.1f %%: %s\n", 100 * target, cheapest_text(solution, target).c_str());
+      fmt::print("cheapest within {:4.1f} %: {}\n", 100 * target, cheapest_text(solution, target));
   }
 }
 

@@ -1,8 +1,11 @@
 // Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/bench/law_cost.h"
 #include "experiments/workbench/app/experiment.h"
@@ -110,18 +113,16 @@ Json measure(Simulation& simulation, const Scene& scene, int triangles, int step
   row["bytes_per_triangle"] = static_cast<double>(simulation.device_bytes()) / triangles;
   row["bytes_per_step"] = bytes;
   row["fraction_of_copy_bandwidth"] = bytes / (1e-3 * median) / simulation.copy_bandwidth();
-  char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation.state_hash()));
-  row["state_hash"] = hash;
+  row["state_hash"] = fmt::format("{:016x}", simulation.state_hash());
   return row;
 }
 
 void print(const Json& row) {
-  std::printf("%8d %-7s %-6s %-8s %3d %7.1f %10.3f %9.1f   %s\n", row["triangles"].get<int>(),
-              row["precision"].get<std::string>().c_str(), row["element"].get<std::string>().c_str(),
-              row["law"].get<std::string>().c_str(), row["substeps"].get<int>(),
-              row["solver_iterations"].get<double>(), row["ms_per_step"].get<double>(),
-              row["bytes_per_triangle"].get<double>(), row["device"].get<std::string>().c_str());
+  fmt::print("{:8} {:<7} {:<6} {:<8} {:3} {:7.1f} {:10.3f} {:9.1f}   {}\n", row["triangles"].get<int>(),
+             row["precision"].get<std::string>(), row["element"].get<std::string>(),
+             row["law"].get<std::string>(), row["substeps"].get<int>(),
+             row["solver_iterations"].get<double>(), row["ms_per_step"].get<double>(),
+             row["bytes_per_triangle"].get<double>(), row["device"].get<std::string>());
   std::fflush(stdout);
 }
 
@@ -147,19 +148,14 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
     std::cout << rows.dump(2) << std::endl;
     return 0;
   }
-  std::printf("%-18s element  largest  rms [%% of M0]  ns/element  bytes/element\n", "law");
+  fmt::print("{:<18} element  largest  rms [% of M0]  ns/element  bytes/element\n", "law");
   for (const Json& row : rows) {
-    std::printf("%-18s %-7s %8.2f %8.2f %12.3f %10.0f\n", row["law"].get<std::string>().c_str(),
-                row["element"].get<std::string>().c_str(), row["largest_error_percent_of_M0"].get<double>(),
-                row["rms_error_percent_of_M0"].get<double>(), row["ns_per_element"].get<double>(),
-                row["history_bytes_per_element"].get<double>());
+    fmt::print("{:<18} {:<7} {:8.2f} {:8.2f} {:12.3f} {:10.0f}\n", row["law"].get<std::string>(),
+               row["element"].get<std::string>(), row["largest_error_percent_of_M0"].get<double>(),
+               row["rms_error_percent_of_M0"].get<double>(), row["ns_per_element"].get<double>(),
+               row["history_bytes_per_element"].get<double>());
   }
   return 0;
-}
-
-std::vector<KeyDescription> own_keys() {
-  BenchOptions own;
-  return descriptions(bind(kRows, own));
 }
 
 int run_bench(const CommandLine& line) {
@@ -172,7 +168,7 @@ int run_bench(const CommandLine& line) {
   Scene scene = setup.scene;
   scene.substeps = common_substeps(setup.scene, cloth);
   if (!setup.options.json)
-    std::printf("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
+    fmt::print("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
   for (const Case& c : kCases) {
     take(c, scene);
     const auto simulation = make_simulation(scene, cloth);
@@ -190,7 +186,7 @@ Experiment bench() {
           .question = "time and memory of a step: a hanging square, three laws",
           .run = run_bench,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -1,10 +1,9 @@
 // What laws cost, as a table and bars.
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiments/bench/law_cost.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "render/plot.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 
 namespace hysteron::experiments {
@@ -13,15 +12,15 @@ namespace {
 constexpr double kBarWidth = 0.38;
 
 void write_table(Run& run, const Json& rows) {
-  AtomicFile file(run.path("table.csv").string());
-  std::vector<std::string> head;
+  std::vector<CsvField> head;
   for (const auto& [key, value] : rows.front().items()) head.push_back(key);
-  file.stream() << row_of(head);
+  CsvFile file(run.path("table.csv"), head);
   for (const Json& row : rows) {
-    std::vector<std::string> fields;
+    std::vector<CsvField> fields;
     for (const auto& [key, value] : row.items())
-      fields.push_back(value.is_string() ? value.get<std::string>() : number_field(value.get<double>()));
-    file.stream() << row_of(fields);
+      fields.push_back(value.is_string() ? CsvField(value.get<std::string>())
+                                         : CsvField(value.get<double>()));
+    file.row(fields);
   }
   file.commit();
 }

@@ -1,8 +1,9 @@
 // A strip clamped at one end buckles under its own weight: upright on its clamp, or sideways from level on
 // its edge.  How heavy it must be, beside the theory of beams; and pictures of a strip as it buckles.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/specimens/buckling.h"
 #include "experiments/workbench/session/session.h"
@@ -63,10 +64,8 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
   const BucklingStrip strip = measured_strip(scene, kind, length);
   const auto simulation = make_simulation(strip.scene, strip.cloth);
   Southwell found = approach_threshold(strip, *simulation);
-  char text[100];
-  std::snprintf(text, sizeof text, "critical Gamma %.4f from %zu states, %d triangles", found.critical_gamma,
-                found.gamma.size(), strip.cloth.mesh.faces());
-  session.run().progress(text);
+  session.run().progress(fmt::format("critical Gamma {:.4f} from {} states, {} triangles",
+                                     found.critical_gamma, found.gamma.size(), strip.cloth.mesh.faces()));
   return found;
 }
 
@@ -82,10 +81,7 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
     return {gamma(m.time), last};
   };
   question.progress = [&](const Snapshot& m) {
-    char text[100];
-    std::snprintf(text, sizeof text, "Gamma %.3f  the end has moved by %.4f of the length", gamma(m.time),
-                  last);
-    return std::string(text);
+    return fmt::format("Gamma {:.3f}  the end has moved by {:.4f} of the length", gamma(m.time), last);
   };
   session.simulate(question);
 }
@@ -143,11 +139,6 @@ void plot(Session& session, const Table& table, const Southwell& found, double r
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 320); }
 
-std::vector<KeyDescription> own_keys() {
-  B choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_buckle(const CommandLine& line) {
   B choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -181,7 +172,7 @@ Experiment buckle() {
           .question = "strip that buckles under its own weight, upright or on its edge",
           .run = run_buckle,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -1,9 +1,10 @@
 // A strip clamped level at one end sags under its own weight, which grows slowly and is taken away again: how
 // far, and what remains, beside the elastica with the same law; and the bending length of ASTM D1388, half
 // the overhang whose end hangs 41.5 degrees below the clamp.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/workbench/session/session.h"
@@ -68,11 +69,6 @@ void plot(Session& session) {
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 128); }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_cantilever(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -110,10 +106,8 @@ int run_cantilever(const CommandLine& line) {
     return {load_at(scene, m.time), drop, elastica_drop(m.time)};
   };
   question.progress = [&](const Snapshot& m) {
-    char text[100];
-    std::snprintf(text, sizeof text, "load %.2f  drop %.4f of the length, elastica %.4f",
-                  load_at(scene, m.time), drops.last, elastica_drop(m.time));
-    return std::string(text);
+    return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}", load_at(scene, m.time),
+                       drops.last, elastica_drop(m.time));
   };
   session.simulate(question);
 
@@ -140,7 +134,7 @@ Experiment cantilever() {
           .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
           .run = run_cantilever,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -2,8 +2,9 @@
 //
 //   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
 //   OUT/sheet.png
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 
 #include "experiments/compare/plan.h"
@@ -13,7 +14,6 @@
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/pages/report.h"
-#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -46,17 +46,17 @@ std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& co
   const auto shared = [&](const auto& read) {
     std::string text;
     for (const SweepColumn& c : columns) {
-      if (!c.manifest.is_object()) continue;
-      const std::string own = read(c.manifest.at("scene"));
+      if (!c.manifest) continue;
+      const std::string own = read(c.manifest->scene);
       if (!text.empty() && own != text) return std::string();
       text = own;
     }
     return text;
   };
   std::string what;
-  for (const std::string& text : {shared([](const Json& s) { return s.at("fabric").value("name", ""); }),
-                                  shared([](const Json& s) { return s.value("law", ""); }),
-                                  shared([](const Json& s) { return s.value("integrator", ""); })})
+  for (const std::string& text : {shared([](const SceneRecord& s) { return s.fabric.name; }),
+                                  shared([](const SceneRecord& s) { return s.law.value_or(""); }),
+                                  shared([](const SceneRecord& s) { return s.integrator; })})
     if (!text.empty()) what += (what.empty() ? ": " : ", ") + text;
   return title + what;
 }
@@ -64,10 +64,7 @@ std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& co
 void write_table(Run& run, const Plan& plan) {
   std::vector<ComparisonRow> rows;
   for (const SweepColumn& c : plan.columns) {
-    rows.push_back({c.name, {}, c.stopped});
-    const Json metrics =
-        c.manifest.is_object() ? c.manifest.value("metrics", Json::object()) : Json::object();
-    for (const auto& [key, value] : metrics.items()) rows.back().metrics.emplace_back(key, value);
+    rows.push_back({c.name, c.manifest ? c.manifest->metrics : Metrics(), c.stopped});
   }
   write_comparison_table(run, plan.varied, rows);
 }
@@ -76,19 +73,12 @@ std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan)
   if (plan.laws < 2) return {};
   if (choice.match == "fabric")
     return {"No stiffness is matched: a difference between laws may be one of stiffness alone."};
-  char text[120];
-  if (choice.match == "energy")
-    std::snprintf(text, sizeof text, "Matched to %s: equal work to bend from flat to %g 1/m; b1, b2 times",
-                  plan.reference.c_str(), choice.match_curvature);
-  else
-    std::snprintf(text, sizeof text, "Matched to %s: equal stiffness at rest; b1, b2 times",
-                  plan.reference.c_str());
-  std::string note = text;
-  for (std::size_t c = 0; c < plan.columns.size(); ++c) {
-    std::snprintf(text, sizeof text, "%s %.3g (%s)", c ? "," : "", plan.scales[c],
-                  plan.columns[c].name.c_str());
-    note += text;
-  }
+  const std::string equal = choice.match == "energy"
+                                ? fmt::format("work to bend from flat to {:g} 1/m", choice.match_curvature)
+                                : "stiffness at rest";
+  std::string note = fmt::format("Matched to {}: equal {}; b1, b2 times", plan.reference, equal);
+  for (std::size_t c = 0; c < plan.columns.size(); ++c)
+    note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], plan.columns[c].name);
   return {note};
 }
 
@@ -147,10 +137,7 @@ int run_compare(const CommandLine& line) {
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
   run_columns(
-      plan.columns, jobs,
-      [&](const SweepColumn& c) {
-        run.progress(c.name + ": " + (c.kept ? "kept" : c.stopped.empty() ? "done" : c.stopped));
-      },
+      plan.columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
       [&](const std::string& line) { run.progress(line); });
   write_table(run, plan);
   if (!options.no_images) {

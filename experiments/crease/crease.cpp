@@ -1,14 +1,15 @@
 // Crease recovery (ISO 2313, AATCC 66): a specimen is folded, loaded, let go, and opens again; with
 // `--law all`, or several laws apart by commas, each of them, on one page.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "experiments/crease/specimen.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/session/session.h"
-#include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
@@ -97,9 +98,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
     return {recovered.opening.back(), force};
   };
   question.progress = [&](const Snapshot& m) {
-    char text[100];
-    std::snprintf(text, sizeof text, "t = %.3f s  opening %.1f degree", m.time, recovered.opening.back());
-    return std::string(text);
+    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening.back());
   };
   return question;
 }
@@ -116,9 +115,7 @@ std::vector<render::Series> published(double end) {
 }
 
 std::string caption_of(const Recovered& recovered) {
-  char text[120];
-  std::snprintf(text, sizeof text, "%.0f deg (law alone %.0f)", recovered.opening.back(), recovered.of_law);
-  return text;
+  return fmt::format("{:.0f} deg (law alone {:.0f})", recovered.opening.back(), recovered.of_law);
 }
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }
@@ -193,11 +190,6 @@ int crease_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_crease(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return crease_laws(line, laws);
@@ -212,7 +204,7 @@ Experiment crease() {
           .question = "crease recovery (ISO 2313): fold, load, release",
           .run = run_crease,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

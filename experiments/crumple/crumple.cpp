@@ -1,9 +1,11 @@
 // Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
 // Figure 4.1); with `--law all`, or several laws apart by commas, each of them, on one page.  The scene's
 // file says how: crumple-sphere, crumple-tube, crumple-fist, or one's own.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
@@ -80,10 +82,8 @@ Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
     return {last.ridges, last.curvature, last.residual};
   };
   question.progress = [&](const Snapshot& m) {
-    char text[120];
-    std::snprintf(text, sizeof text, "t = %.3f s  %s  residual curvature %.1f 1/m  ridges %.2f m", m.time,
-                  session.scene().phase_at(m.time).c_str(), last.residual, last.ridges);
-    return std::string(text);
+    return fmt::format("t = {:.3f} s  {}  residual curvature {:.1f} 1/m  ridges {:.2f} m", m.time,
+                       session.scene().phase_at(m.time), last.residual, last.ridges);
   };
   return question;
 }
@@ -116,9 +116,7 @@ std::vector<std::pair<std::string, render::Plot>> plots_of(const std::string& ti
 }
 
 std::string caption_of(const RidgeMetrics& w) {
-  char text[160];
-  std::snprintf(text, sizeof text, "curvature %.1f 1/m, residual %.1f 1/m", w.curvature, w.residual);
-  return text;
+  return fmt::format("curvature {:.1f} 1/m, residual {:.1f} 1/m", w.curvature, w.residual);
 }
 
 void draw(Session& session, const RidgeMetrics& wrinkles, LawOutcome& outcome) {
@@ -176,11 +174,6 @@ int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_crumple(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return crumple_laws(line, laws);
@@ -195,7 +188,7 @@ Experiment crumple() {
           .question = "crushed, opened, spread and hung: wrinkles that stay",
           .run = run_crumple,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -165,11 +165,6 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
   return broken_limits(diff.worst, flags.limits).empty() ? 0 : kBeyondLimit;
 }
 
-std::vector<KeyDescription> own_keys() {
-  DiffFlags flags;
-  return descriptions(bind(kRows, flags));
-}
-
 int run_diff(const CommandLine& line) {
   DiffFlags flags;
   set_keys(line, bind(kRows, flags));
@@ -193,7 +188,7 @@ Experiment diff() {
   return {.name = "diff",
           .question = "how far two pictures, or two folders of them, differ",
           .run = run_diff,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .names = "A.png B.png"};
 }
 

@@ -45,11 +45,9 @@ std::string heading(const FolderDiff& diff, const DiffFlags& flags, const std::s
 }
 
 std::string cards(const Measures& worst) {
-  std::string html = "<div class=\"cards\">\n";
-  for (const Measure& m : all_measures())
-    html += "<div class=\"card\"><b>" + shown(worst.*m.value) + "</b><span>" + escaped(m.column) +
-            "</span></div>\n";
-  return html + "</div>\n";
+  std::vector<Card> cards;
+  for (const Measure& m : all_measures()) cards.push_back({shown(worst.*m.value), {}, m.column});
+  return html_cards(cards);
 }
 
 std::string meanings(const DiffFlags& flags) {
@@ -104,25 +102,19 @@ std::string most_different(const FolderDiff& diff, const DiffFlags& flags) {
   return html;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  AtomicFile file(path.string());
-  file.stream() << text;
-  file.commit();
-}
-
 }  // namespace
 
 void write_folder_diff(const FolderDiff& diff, const DiffFlags& flags, const std::string& command) {
-  std::vector<std::string> head = {"picture"};
-  for (const Measure& m : all_measures()) head.push_back(m.column);
-  std::string csv = row_of(head);
-  for (const FolderDiff::Row& row : diff.rows) {
-    std::vector<std::string> fields = {row.name};
-    for (const Measure& m : all_measures()) fields.push_back(number_field(row.measures.*m.value));
-    csv += row_of(fields);
-  }
   const fs::path out = flags.out;
-  write_text(out / "diff.csv", csv);
+  std::vector<CsvField> head = {"picture"};
+  for (const Measure& m : all_measures()) head.push_back(m.column);
+  CsvFile file(out / "diff.csv", head);
+  for (const FolderDiff::Row& row : diff.rows) {
+    std::vector<CsvField> fields = {row.name};
+    for (const Measure& m : all_measures()) fields.push_back(row.measures.*m.value);
+    file.row(fields);
+  }
+  file.commit();
   const std::string differing = "Most different, by FLIP";
   write_text(out / "diff.html",
              html_page(diff.a.string() + " against " + diff.b.string(),

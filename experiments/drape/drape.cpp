@@ -1,6 +1,8 @@
 // Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius,
 // hangs over its rim; the drape coefficient is the share of the free ring that its shadow still covers.
-#include <cstdio>
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
 
 #include "experiments/drape/outline.h"
 #include "experiments/workbench/session/session.h"
@@ -54,8 +56,8 @@ Setup defaults() {
   // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-5;
-  // A quarter of what a scene takes for cotton broad: a third fewer of Newton's iterations, the coefficient to
-  // 0.02 points.  At 1e6 limp cloth sinks in by more than its thickness.
+  // A quarter of what a scene takes for cotton broad: a third fewer of Newton's iterations, the coefficient
+  // to 0.02 points.  At 1e6 limp cloth sinks in by more than its thickness.
   scene.contact_stiffness = 1e7;
   setup.options.camera_direction = {0.35, -1.0, 0.62};
   setup.options.camera_fov = 24;
@@ -109,9 +111,8 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice) {
   const double radius = session.scene().cloth.radius;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
-  char text[160];
-  std::snprintf(text, sizeof text, "%s, law %s\nshadow from above: drape coefficient %.1f %%",
-                session.scene().fabric.name.c_str(), session.scene().law.c_str(), found);
+  const std::string text = fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %",
+                                       session.scene().fabric.name, session.scene().law, found);
   render::draw_caption(shadow, text, render::Corner::top_left);
   render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
   render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);
@@ -177,11 +178,6 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
-std::vector<KeyDescription> own_keys() {
-  DrapeChoice choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_drape(const CommandLine& line) {
   DrapeChoice choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
@@ -210,10 +206,8 @@ int run_drape(const CommandLine& line) {
   };
   question.to_rest = true;
   question.progress = [&](const Snapshot& m) {
-    char text[120];
-    std::snprintf(text, sizeof text, "t = %.3f s  drape coefficient %.1f %%  fastest %.4f m/s", m.time,
-                  covered, m.fastest);
-    return std::string(text);
+    return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
+                       m.fastest);
   };
   const bool settled = session.simulate(question);
 
@@ -248,7 +242,7 @@ Experiment drape() {
           .question = "Cusick's drape test: a disc of cloth over a pedestal",
           .run = run_drape,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

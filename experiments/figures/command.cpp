@@ -1,5 +1,8 @@
 // `hysteron figures`: the chapter's figures as pictures, curves and captions in one folder.
+#include <fmt/core.h>
+
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/figures/figures.h"
 #include "experiments/workbench/app/experiment.h"
@@ -13,16 +16,15 @@ namespace {
 // The curves and named points of a figure, one point per row.
 void write_curves(const std::filesystem::path& path, const render::Plot& plot) {
   AtomicFile file(path.string());
-  file.stream().precision(12);
+  const auto row = [&](const std::string& name, double x, double y) {
+    file.stream() << fmt::format("\"{}\",{:.12g},{:.12g}\n", name, x, y);
+  };
   file.stream() << "curve,curvature [1/m],moment [mN]\n";
-  for (const render::Series& series : plot.series) {
-    if (series.label.empty()) continue;
-    for (std::size_t i = 0; i < series.x.size(); ++i)
-      file.stream() << "\"" << series.label << "\"," << series.x[i] << "," << series.y[i] << "\n";
-  }
-  for (const render::Mark& mark : plot.marks) {
-    if (mark.dot) file.stream() << "\"point " << mark.text << "\"," << mark.x << "," << mark.y << "\n";
-  }
+  for (const render::Series& series : plot.series)
+    for (std::size_t i = 0; i < series.x.size() && !series.label.empty(); ++i)
+      row(series.label, series.x[i], series.y[i]);
+  for (const render::Mark& mark : plot.marks)
+    if (mark.dot) row("point " + mark.text, mark.x, mark.y);
   file.commit();
 }
 
@@ -31,13 +33,6 @@ std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures)
     captions.push_back({figure.name + ".png", figure.plot.title, figure.caption});
   return captions;
-}
-
-std::vector<KeyDescription> own_keys() {
-  Options options;
-  std::vector<KeyDescription> keys = descriptions(bind_output_options(options));
-  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
-  return keys;
 }
 
 int run_figures(const CommandLine& line) {
@@ -73,7 +68,7 @@ Experiment figures() {
   return {.name = "figures",
           .question = "the chapter's Figures 4.2(b), 4.3 and 4.4 from the program's own laws",
           .run = run_figures,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<bind_output_options, fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

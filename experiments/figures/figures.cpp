@@ -2,9 +2,10 @@
 // ends of the quadratic branches that begin there; g reversal between Ma and 2 Ma; h, f residual curvatures.
 #include "experiments/figures/figures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
@@ -89,12 +90,6 @@ Plot empty_plot(const std::string& title, double low_k, double high_k, double lo
   return plot;
 }
 
-std::string text(const char* format, double a, double b = 0, double c = 0) {
-  char line[400];
-  std::snprintf(line, sizeof line, format, a, b, c);
-  return line;
-}
-
 // What all figures of one fabric share.
 struct Chapter {
   std::string fabric;
@@ -149,7 +144,7 @@ Figure figure_4_2b(const Chapter& c) {
   return {"figure-4-2b",
           "The virgin curve, Eq. 4.2, by the law `pabst`: M = b1 K + c1 K² up to the transition curvature K0 "
           "(point a), M0 + b2 K beyond, odd in K; quantities of positive curvature green, of negative red. " +
-              text("b1 = %.4g N m, b2 = %.4g N m, K0 = %.4g/m. ", c.curve.b1, c.curve.b2, k0) +
+              fmt::format("b1 = {:.4g} N m, b2 = {:.4g} N m, K0 = {:.4g}/m. ", c.curve.b1, c.curve.b2, k0) +
               "The chapter prints b1 ≤ b2. With its own c1 < 0, K0 = (b2 − b1)/(2 c1) would then be "
               "negative, and stiffness, which it says falls to b2, would grow: it must be b1 ≥ b2, as drawn.",
           plot};
@@ -180,9 +175,10 @@ Figure figure_4_3(const Chapter& c) {
       "The loop by the law `prandtl`: first bending o-a-c, then c-a′ and d-b′ on the quadratic curves of "
       "Eqs. 4.4 and 4.5, each over 2 K0 and 2 Ma, C1 at a, a′, b and b′; b is the elastic limit of first "
       "bending the other way. " +
-          text("Km = %.4g/m, K0′ = Km − 2 K0 = %.4g/m. ", km, inner) +
-          text("f, where the moment is zero: %.6g/m = M0/b2 in closed form, %.6g/m on the computed branch. ",
-               f, root) +
+          fmt::format("Km = {:.4g}/m, K0′ = Km − 2 K0 = {:.4g}/m. ", km, inner) +
+          fmt::format("f, where the moment is zero: {:.6g}/m = M0/b2 in closed form, {:.6g}/m on the "
+                      "computed branch. ",
+                      f, root) +
           "The law `wong` gives the same loop. The chapter promises the coefficients for partial reversals "
           "and does not give them; this full loop needs none.",
       plot};
@@ -205,7 +201,7 @@ Figure figure_4_4a(const Chapter& c) {
   return {"figure-4-4a",
           "The bilinear model of Anandjiwala and Leaf 1991 by the law `bilinear`: slope Ma/K0 along o-a, b2 "
           "along a-c and a′-f, and Ma/K0 over 2 K0 after each reversal, along c-a′, d-b′ and g-h. " +
-              text("Ma/K0 = %.4g N m, b2 = %.4g N m.", c.ma / k0, c.curve.b2),
+              fmt::format("Ma/K0 = {:.4g} N m, b2 = {:.4g} N m.", c.ma / k0, c.curve.b2),
           plot};
 }
 
@@ -240,8 +236,8 @@ std::string residuals(const Chapter& c, double km) {
     const Trace whole = trace(law, c.curve, {km, -km});
     const double root = residual_by_root(trace(law, c.curve, {km, -km}, {}, 1));
     const double formula = c.residual(law, km, whole.moment[kSteps]);
-    sentence += std::string(law) + text(": %.6g/m by formula, %.6g/m on the computed branch; ", formula,
-                                        std::abs(root) < 1e-9 * km ? 0 : root);
+    sentence += std::string(law) + fmt::format(": {:.6g}/m by formula, {:.6g}/m on the computed branch; ",
+                                               formula, std::abs(root) < 1e-9 * km ? 0 : root);
   }
   sentence.resize(sentence.size() - 2);
   return "Residual curvature, " + sentence + ". ";
@@ -259,7 +255,7 @@ Figure figure_4_4b(const Chapter& c) {
   plot.marks.push_back({"residual curvature", left, 0, 0.3, -0.8, "#B07800"});
   return {
       "figure-4-4b",
-      text("Recovery from K = %.4g/m < K0. ", km) +
+      fmt::format("Recovery from K = {:.4g}/m < K0. ", km) +
           "The chapter, arguing with the bilinear model, has the moment come back along o-a and nothing "
           "remain. Its quadratic branch (4.3.2) does not do that. " +
           residuals(c, km) +
@@ -277,9 +273,9 @@ Figure figure_4_4c(const Chapter& c) {
   plot.marks.push_back({"h", h, 0, 0.2, -0.8});
   return {
       "figure-4-4c",
-      text("Recovery from g, K = %.4g/m, M = %.3g Ma: along g-h, parallel to o-a, to the residual "
-           "curvature at h. ",
-           kg, mg / c.ma) +
+      fmt::format("Recovery from g, K = {:.4g}/m, M = {:.3g} Ma: along g-h, parallel to o-a, to the residual "
+                  "curvature at h. ",
+                  kg, mg / c.ma) +
           residuals(c, kg) +
           "The chapter speaks of a residual bending moment: where the external forces are gone the moment "
           "is zero, and what remains is curvature.",
@@ -293,12 +289,14 @@ Figure figure_4_4d(const Chapter& c) {
   plot.marks.push_back(above("c", km, mm));
   plot.marks.push_back(beside("a′", inner, mm - 2 * c.ma, 0.9));
   plot.marks.push_back({"f", f, 0, 0.7, -0.8});
-  return {"figure-4-4d",
-          text("Recovery from c, K = %.4g/m, M = %.3g Ma: along c-a′, parallel to o-a, over 2 K0, then along "
-               "a′-f with slope b2. ",
-               km, mm / c.ma) +
-              residuals(c, km) + "In this case both models leave M0/b2, the fabric's HB/B.",
-          plot};
+  return {
+      "figure-4-4d",
+      fmt::format(
+          "Recovery from c, K = {:.4g}/m, M = {:.3g} Ma: along c-a′, parallel to o-a, over 2 K0, then along "
+          "a′-f with slope b2. ",
+          km, mm / c.ma) +
+          residuals(c, km) + "In this case both models leave M0/b2, the fabric's HB/B.",
+      plot};
 }
 
 }  // namespace
@@ -306,8 +304,9 @@ Figure figure_4_4d(const Chapter& c) {
 std::vector<Figure> chapter_figures(const Fabric& fabric) {
   const VirginCurve curve = fabric.virgin_curve();
   if (!(curve.b1 > curve.b2 && curve.b2 > 0 && curve.k0 > 0)) {
-    throw Error::request("figures: " + fabric.name +
-                         " has no hysteresis loop to draw; it needs b1 > b2 > 0 " + "and k0 > 0");
+    throw Error::request(fabric.name + " has no hysteresis loop to draw; it needs b1 > b2 > 0 " +
+                         "and k0 > 0")
+        .in("figures");
   }
   const double m0 = curve.friction_moment();
   const Chapter c{fabric.name, curve, m0, curve.elastic_limit_moment(), 2.5 * curve.k0 + m0 / curve.b2};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "experiments/fit/curve.h"
@@ -196,11 +197,6 @@ Answer identify(const FitFlags& flags) {
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
 
-std::vector<KeyDescription> own_keys() {
-  FitFlags flags;
-  return descriptions(bind_flags(flags));
-}
-
 int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
@@ -215,9 +211,7 @@ int run_fit(const CommandLine& line) {
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   if (!flags.options.json) {
     std::cout << summary(answer.fits);
     for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
@@ -232,7 +226,7 @@ Experiment fit() {
   return {.name = "fit",
           .question = "identify a fabric from a measured loop, virgin curve, KES pair or profile",
           .run = run_fit,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<bind_flags>};
 }
 
 }  // namespace hysteron::experiments

@@ -1,8 +1,9 @@
 #include "experiments/fit/identification.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/scene/key_table.h"
 
@@ -28,11 +29,7 @@ double Identification::largest_moment() const {
   return largest;
 }
 
-std::string rounded(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
+std::string rounded(double x) { return fmt::format("{:.4g}", x); }
 
 std::string Assumptions::ratio_source() const {
   return "assumed: b2/b1 = " + number_text(ratio) +

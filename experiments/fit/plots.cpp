@@ -1,7 +1,8 @@
 // Data beside the law, and what the law leaves of them.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/fit/report.h"
 #include "render/panels.h"
@@ -40,9 +41,7 @@ render::Axis axis(const std::string& label, const std::vector<double>& values) {
 }
 
 std::string share_text(const Identification& fit) {
-  char text[32];
-  std::snprintf(text, sizeof text, "rms %.3g %%", 100 * fit.residual_rms() / fit.largest_moment());
-  return text;
+  return fmt::format("rms {:.3g} %", 100 * fit.residual_rms() / fit.largest_moment());
 }
 
 // The law's curve in the order of the data, from the virgin state if that comes first.

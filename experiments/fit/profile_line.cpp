@@ -19,7 +19,7 @@ constexpr double kBackwards = 0.02;  // noise of x in a strip that hangs straigh
 constexpr int kNear = 8;             // segments searched to both sides of where a point lies by its chord
 
 // A sagging strip runs on to the right or down, never back to the left.
-void check_order(const Profile& profile, const std::vector<int>& lines, const std::string& file) {
+void check_order(const Profile& profile, const Table& table) {
   const auto& p = profile.points;
   const double span = (p.back() - p.front()).norm();
   double furthest = p[0].x();
@@ -27,29 +27,31 @@ void check_order(const Profile& profile, const std::vector<int>& lines, const st
     const Eigen::Vector2d way = p[i] - p[i - 1];
     furthest = std::max(furthest, p[i].x());
     if (way.x() - way.y() > 0 && p[i].x() > furthest - kBackwards * span) continue;
-    throw Error::request("fit: " + file + ":" + std::to_string(lines[i]) + ": the point " +
-                         number_text(p[i].x()) + ", " + number_text(p[i].y()) + " m lies back from " +
-                         number_text(p[i - 1].x()) + ", " + number_text(p[i - 1].y()) +
-                         " m, the row before: a profile goes from the clamp to the free end, on or down");
+    throw table.refusal(
+        i, "the point " + number_text(p[i].x()) + ", " + number_text(p[i].y()) + " m lies back from " +
+               number_text(p[i - 1].x()) + ", " + number_text(p[i - 1].y()) +
+               " m, the row before: a profile goes from the clamp to the free end, on or down");
   }
 }
 
-void check_profile(const Profile& profile, const std::vector<int>& lines, const std::string& file) {
+void check_profile(const Profile& profile, const Table& table) {
+  const auto refused = [&](const std::string& what) {
+    return Error::request(table.file + ": " + what).in(table.reader);
+  };
   const auto& p = profile.points;
   if (static_cast<int>(p.size()) < kFewestPoints) {
-    throw Error::request("fit: " + file + ": " + std::to_string(p.size()) + " points, at least " +
-                         std::to_string(kFewestPoints) + " are needed");
+    throw refused(std::to_string(p.size()) + " points, at least " + std::to_string(kFewestPoints) +
+                  " are needed");
   }
   const double span = (p.back() - p.front()).norm();
   if (span < kShortest || span > kLongest) {
-    throw Error::request("fit: " + file + ": the profile spans " + number_text(span) + " m, must be in [" +
-                         number_text(kShortest) + ", " + number_text(kLongest) + "] m; x and y are metres");
+    throw refused("the profile spans " + number_text(span) + " m, must be in [" + number_text(kShortest) +
+                  ", " + number_text(kLongest) + "] m; x and y are metres");
   }
-  check_order(profile, lines, file);
+  check_order(profile, table);
   if (p.back().y() < p.front().y()) return;
-  throw Error::request("fit: " + file + ": the free end is at y = " + number_text(p.back().y()) +
-                       " m, not below the clamp's " + number_text(p.front().y()) +
-                       " m; y points up, the strip sags");
+  throw refused("the free end is at y = " + number_text(p.back().y()) + " m, not below the clamp's " +
+                number_text(p.front().y()) + " m; y points up, the strip sags");
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -97,7 +99,7 @@ Profile read_profile(const std::filesystem::path& file) {
   Profile profile{file.filename().string(), {}};
   for (std::size_t i = 0; i < table.lines.size(); ++i)
     profile.points.emplace_back(table.columns[0].values[i], table.columns[1].values[i]);
-  check_profile(profile, table.lines, file.string());
+  check_profile(profile, table);
   return profile;
 }
 

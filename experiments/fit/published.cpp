@@ -69,9 +69,12 @@ VirginNumbers read_virgin(const std::filesystem::path& file) {
   const Table table = read_csv(file, {kB1, kC1}, {}, "fit");
   const std::vector<double>&b1 = table.find(kB1)->values, &c1 = table.find(kC1)->values;
   for (std::size_t i = 0; i < c1.size(); ++i) {
-    const std::string place = "fit: " + file.string() + ":" + std::to_string(table.lines[i]);
-    check_c1(c1[i], place + ": c1");
-    check_rigidity(b1[i], place + ": b1");
+    try {
+      check_c1(c1[i], "c1");
+      check_rigidity(b1[i], "b1");
+    } catch (const Error& error) {
+      throw table.refusal(i, error.what());
+    }
   }
   return {mean_of(b1), mean_of(c1)};
 }

@@ -1,8 +1,9 @@
 #include "experiments/fit/report.h"
 
-#include <algorithm>
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/csv.h"
 #include "sim/scene/key_table.h"
@@ -23,20 +24,17 @@ std::vector<Row> rows_of(const Identification& found) {
           {"k0_per_m", "k0", "1/m", &found.k0}};
 }
 
-// Not a number stands for "none", which JSON calls null.
-Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
-
 void add_metrics(Run& run, const Identification& found, const std::string& prefix) {
   for (const Row& row : rows_of(found)) {
     run.metric(prefix + row.metric, row.estimate->value);
-    run.metric(prefix + row.metric + "_stderr", number_or_null(row.estimate->standard_error));
+    run.metric(prefix + row.metric + "_stderr", row.estimate->standard_error);
   }
   run.metric(prefix + "undetermined", found.undetermined());
   run.metric(prefix + "2HB_N", 2 * found.curve().friction_moment());
   run.metric(prefix + "residual_rms_N", found.residual_rms());
   run.metric(prefix + "residual_rms_percent", 100 * found.residual_rms() / found.largest_moment());
   run.metric(prefix + "iterations", found.iterations);
-  for (const auto& [name, value] : found.further) run.metric(prefix + name, number_or_null(value));
+  for (const auto& [name, value] : found.further) run.metric(prefix + name, value);
 }
 
 void write_rows(Run& run, const std::vector<Identification>& fits) {
@@ -53,21 +51,15 @@ void write_rows(Run& run, const std::vector<Identification>& fits) {
 }
 
 std::string percent_text(const Identification& fit) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * fit.residual_rms() / fit.largest_moment());
-  return text;
+  return fmt::format("{:.2g} %", 100 * fit.residual_rms() / fit.largest_moment());
 }
 
 std::string with_error(const Row& row) {
-  char text[96];
   const Estimate& e = *row.estimate;
-  if (std::isfinite(e.standard_error)) {
-    std::snprintf(text, sizeof text, "  %s = %.4g +- %.2g %s", row.name, e.value, e.standard_error, row.unit);
-  } else {
-    std::snprintf(text, sizeof text, "  %s = %.4g %s", row.name, e.value, row.unit);
-  }
-  return std::string(text) + (e.determined ? "" : "  (" + e.confidence + "; the data do not determine it)") +
-         "\n";
+  const std::string error =
+      std::isfinite(e.standard_error) ? fmt::format(" +- {:.2g}", e.standard_error) : "";
+  return fmt::format("  {} = {:.4g}{} {}{}\n", row.name, e.value, error, row.unit,
+                     e.determined ? "" : "  (" + e.confidence + "; the data do not determine it)");
 }
 
 std::string summary_of(const Identification& found) {
@@ -103,9 +95,9 @@ void report_stops(Run& run, const std::vector<Stop>& stops) {
     table.columns[0].values.push_back(stops[j].threshold);
     table.columns[1].values.push_back(stops[j].stiffness);
     run.metric(name + "_threshold_per_m", stops[j].threshold);
-    run.metric(name + "_threshold_per_m_stderr", number_or_null(stops[j].threshold_error));
+    run.metric(name + "_threshold_per_m_stderr", stops[j].threshold_error);
     run.metric(name + "_stiffness_N_m", stops[j].stiffness);
-    run.metric(name + "_stiffness_N_m_stderr", number_or_null(stops[j].stiffness_error));
+    run.metric(name + "_stiffness_N_m_stderr", stops[j].stiffness_error);
   }
   write_csv(run.path("stops.csv"), table);
 }

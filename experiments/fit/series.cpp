@@ -159,9 +159,8 @@ MomentSeries read_series(const std::filesystem::path& file, double ripple) {
     for (std::size_t i = 0; i < time->values.size(); ++i) {
       series.seconds.push_back(i == 0 ? 0 : time->values[i] - time->values[i - 1]);
       if (series.seconds.back() >= 0) continue;
-      throw Error::request("fit: " + file.string() + ":" + std::to_string(table.lines[i]) +
-                           ": time = " + number_text(time->values[i]) + " s must be >= " +
-                           number_text(time->values[i - 1]) + " s, the time of the row before");
+      throw table.refusal(i, "time = " + number_text(time->values[i]) + " s must be >= " +
+                                 number_text(time->values[i - 1]) + " s, the time of the row before");
     }
   }
   prepare(series, ripple);

@@ -1,8 +1,8 @@
 #include "experiments/fold/flexing_machine.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace hysteron::experiments {
@@ -89,10 +89,8 @@ bool FlexingMachine::pictured() const {
 }
 
 std::string FlexingMachine::progress(const Snapshot& moment) const {
-  char text[160];
-  std::snprintf(text, sizeof text, "t = %.3f s  cycles %zu  crown %.0f 1/m  recovery %.1f degree",
-                moment.time, cycle_.size(), curvature_, reading_.recovery_angle);
-  return text;
+  return fmt::format("t = {:.3f} s  cycles {}  crown {:.0f} 1/m  recovery {:.1f} degree", moment.time,
+                     cycle_.size(), curvature_, reading_.recovery_angle);
 }
 
 void FlexingMachine::finish() {

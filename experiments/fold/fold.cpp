@@ -1,9 +1,11 @@
 // Repeated folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after many
 // folds, and what they leave in the cloth; with `--law all`, or several laws apart by commas, each on one
 // page.
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/fold/flexing_machine.h"
 #include "experiments/fold/material.h"
@@ -80,9 +82,7 @@ render::Axis friction_axis() { return {"2HB [mN]"}; }
 // The last cycle as metrics and for the page; the first number, with its `unit`, stands in the caption.
 LawOutcome note(Run& run, std::vector<std::pair<std::string, double>> numbers, const char* unit) {
   LawOutcome outcome;
-  char text[80];
-  std::snprintf(text, sizeof text, "%.3g %s", numbers[0].second, unit);
-  outcome.caption = text;
+  outcome.caption = fmt::format("{:.3g} {}", numbers[0].second, unit);
   for (const auto& [name, value] : numbers) run.metric(name, value);
   outcome.numbers = std::move(numbers);
   return outcome;
@@ -233,9 +233,7 @@ LawOutcome fold_law(const CommandLine& line, const Request& request) {
     draw("plot_2HB", {"2HB, " + what(scene), cycles_axis(), friction_axis(), {outcome.series[0]}});
     draw("plot_set", {"Residual curvature, " + what(scene), cycles_axis(), set_axis(), {outcome.series[1]}});
   }
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return outcome;
 }
 
@@ -276,11 +274,6 @@ int fold_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
   return compare_laws(line, request.setup, request.keys, page);
 }
 
-std::vector<KeyDescription> own_keys() {
-  C choice;
-  return descriptions(bind(kRows, choice));
-}
-
 int run_fold(const CommandLine& line) {
   const std::vector<LawVariant> laws = variants_of(line);
   if (laws.size() > 1) return fold_laws(line, laws);
@@ -295,7 +288,7 @@ Experiment fold() {
           .question = "repeated folding (De Mattia): loops and fatigue",
           .run = run_fold,
           .simulates = true,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<kRows>,
           .defaults = defaults};
 }
 

@@ -2,6 +2,7 @@
 // assets.
 #include <algorithm>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/kes/kes.h"
 #include "experiments/kes/output.h"
@@ -57,9 +58,7 @@ constexpr int kQuickSteps = 1000, kQuickStripSteps = 18;
 Keys keys_of(KesFlags& flags) {
   Keys keys = bind(kRows, flags);
   for (const BoundKey& key : bind(kStripRows, flags)) keys.push_back(key);
-  const Keys output = bind_output_options(flags.options);
-  keys.insert(keys.end(), output.begin(), output.end());
-  return keys;
+  return with_output_options(keys, flags.options);
 }
 
 // All that can be tested: a strip gets no orders on its way.
@@ -182,13 +181,6 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
   return keys;
 }
 
-std::vector<KeyDescription> own_keys() {
-  KesFlags flags;
-  std::vector<KeyDescription> keys = descriptions(keys_of(flags));
-  for (const KeyDescription& key : fabric_keys()) keys.push_back(key);
-  return keys;
-}
-
 int run_kes(const CommandLine& line) {
   KesFlags flags;
   set_keys(line, keys_of(flags), [&] {
@@ -210,9 +202,7 @@ int run_kes(const CommandLine& line) {
   write_metrics(run, results);
   write_tables(run, results, flags.protocol);
   if (!flags.options.no_images) write_plots(run, results, flags.protocol);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   if (!flags.options.json) print_table(results);
   return 0;
 }
@@ -223,7 +213,7 @@ Experiment kes() {
   return {.name = "kes",
           .question = "virtual KES-FB2 pure bending of laws alone: B, 2HB, residual curvature, loops",
           .run = run_kes,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of, fabric_keys>};
 }
 
 }  // namespace hysteron::experiments

@@ -1,10 +1,9 @@
 #include "experiments/kes/output.h"
 
-#include <cmath>
-#include <cstdio>
-#include <iostream>
+#include <fmt/core.h>
 
-#include "sim/base/atomic_file.h"
+#include <cmath>
+
 #include "sim/base/csv.h"
 #include "sim/scene/fabric_reader.h"
 
@@ -24,12 +23,7 @@ std::string moment_column(const KesResult& result) {
   return (result.name.empty() ? result.law : result.name) + " moment [N]";
 }
 
-std::string formatted(const char* format, double value) {
-  if (std::isnan(value)) return "-";
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string four_digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4g}", value); }
 
 // Every so many rows, and all where a leg ends.
 std::vector<std::size_t> shown_rows(const KesWalk& walk, int steps) {
@@ -85,17 +79,17 @@ void write_minor_loops(Run& run, const std::vector<KesFabric>& fabrics, const Ke
 }
 
 void write_readings(Run& run, const std::vector<KesFabric>& fabrics) {
-  AtomicFile file(run.path("table.csv").string());
-  file.stream() << "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
-                   "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma\n";
+  CsvFile file(run.path("table.csv"),
+               "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
+               "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma");
   for (const KesFabric& fabric : fabrics) {
     for (const KesResult& result : fabric.results) {
       const KesReading& r = result.test.reading;
-      file.stream() << fabric.fabric.name << "," << result.law;
+      std::vector<CsvField> fields = {fabric.fabric.name, result.law};
       for (double value : {r.rigidity, r.loop_width, r.residual, r.residual_by_formula, r.loop_area})
-        file.stream() << "," << (std::isnan(value) ? "" : formatted("%.9g", value));
-      for (int count : result.test.recovery_cases) file.stream() << "," << count;
-      file.stream() << "\n";
+        fields.push_back(std::isnan(value) ? "" : fmt::format("{:.9g}", value));
+      for (int count : result.test.recovery_cases) fields.push_back(count);
+      file.row(fields);
     }
   }
   file.commit();
@@ -107,12 +101,10 @@ double published(const Fabric& fabric, const std::string& name, const std::strin
   return found != fabric.published.end() && found->second.unit == unit ? found->second.value * si : NAN;
 }
 
-Json number_or_null(double value) { return std::isnan(value) ? Json() : Json(value); }
-
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  std::printf("%-19s", name.c_str());
-  for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
-  std::printf("\n");
+  fmt::print("{:<19}", name);
+  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
+  fmt::print("\n");
 }
 
 }  // namespace
@@ -124,10 +116,10 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       const std::string p = prefix(result);
       run.metric(p + "B_N_m", r.rigidity);
       run.metric(p + "2HB_N", r.loop_width);
-      run.metric(p + "residual_curvature_per_m", number_or_null(r.residual));
-      run.metric(p + "residual_by_formula_per_m", number_or_null(r.residual_by_formula));
+      run.metric(p + "residual_curvature_per_m", r.residual);
+      run.metric(p + "residual_by_formula_per_m", r.residual_by_formula);
       run.metric(p + "loop_area_J_per_m2", r.loop_area);
-      run.metric(p + "loop_area_change_percent", number_or_null(100 * r.area_change));
+      run.metric(p + "loop_area_change_percent", 100 * r.area_change);
       run.metric(p + "reversals_elastic", result.test.recovery_cases[0]);
       run.metric(p + "reversals_partial", result.test.recovery_cases[1]);
       run.metric(p + "reversals_full_slip", result.test.recovery_cases[2]);
@@ -150,21 +142,19 @@ void print_table(const std::vector<KesFabric>& fabrics) {
               {"B [N m]", "2HB [N]", "residual [1/m]", "by formula", "area [J/m2]", "reversals *"});
     const double b = published(fabric.fabric, "B", "gf cm^2/cm", kGramForceSquareCentimetrePerCentimetre);
     const double width = published(fabric.fabric, "2HB", "gf cm/cm", kGramForceCentimetrePerCentimetre);
-    if (!std::isnan(b) && !std::isnan(width))
-      print_row("published", {formatted("%.4g", b), formatted("%.4g", width)});
+    if (!std::isnan(b) && !std::isnan(width)) print_row("published", {four_digits(b), four_digits(width)});
     for (const KesResult& result : fabric.results) {
       const KesReading& r = result.test.reading;
       std::string cases;
       for (int count : result.test.recovery_cases)
         cases += (cases.empty() ? "" : "/") + std::to_string(count);
-      print_row(result.law, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
-                             formatted("%.4g", r.residual), formatted("%.4g", r.residual_by_formula),
-                             formatted("%.4g", r.loop_area), cases});
+      print_row(result.law, {four_digits(r.rigidity), four_digits(r.loop_width), four_digits(r.residual),
+                             four_digits(r.residual_by_formula), four_digits(r.loop_area), cases});
       print_strips(amplitude_of(result), result.strips);
     }
-    std::printf("\n");
+    fmt::print("\n");
   }
-  std::printf("* of all loops, by the moment at the reversal: |M| <= Ma / <= 2 Ma / > 2 Ma\n");
+  fmt::print("* of all loops, by the moment at the reversal: |M| <= Ma / <= 2 Ma / > 2 Ma\n");
 }
 
 }  // namespace hysteron::experiments

@@ -1,7 +1,8 @@
 // Small multiples of the KES loops: a panel per law.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/kes/output.h"
 #include "render/panels.h"
@@ -16,12 +17,6 @@ constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
 constexpr double kSettled = 0.01;  // change of the area from cycle to cycle that counts as settled
 constexpr double kMilli = 1e3;     // moments are drawn in mN
 constexpr double kHeadroom = 1.7;  // of the axis over the largest moment of `prandtl`
-
-std::string formatted(const char* format, double value) {
-  char text[60];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 render::Series curve(const std::vector<double>& curvature, const std::vector<double>& moment, int steps,
                      const std::string& color, double width) {
@@ -56,13 +51,14 @@ std::vector<std::string> remarks(const KesResult& result, double shown_moment) {
   if (std::abs(result.test.reading.area_change) > kSettled) lines.push_back("not settled");
   const double largest = largest_moment(result.test);
   if (kMilli * largest > shown_moment)
-    lines.push_back("cut: reaches " + formatted("%.2g mN", kMilli * largest));
+    lines.push_back("cut: reaches " + fmt::format("{:.2g} mN", kMilli * largest));
   return lines;
 }
 
 std::vector<std::string> readings(const KesReading& r) {
-  return {formatted("B = %.4g µN m", 1e6 * r.rigidity), formatted("2HB = %.4g mN", kMilli * r.loop_width),
-          formatted("residual %.4g /m", r.residual), formatted("area %.3g J/m²", r.loop_area)};
+  return {fmt::format("B = {:.4g} µN m", 1e6 * r.rigidity),
+          fmt::format("2HB = {:.4g} mN", kMilli * r.loop_width),
+          fmt::format("residual {:.4g} /m", r.residual), fmt::format("area {:.3g} J/m²", r.loop_area)};
 }
 
 render::Panels empty_grid(const KesFabric& fabric, const KesProtocol& p, const std::string& what) {
@@ -78,9 +74,9 @@ render::Panels empty_grid(const KesFabric& fabric, const KesProtocol& p, const s
 render::Panels loops(const KesFabric& fabric, const KesProtocol& p) {
   render::Panels grid = empty_grid(fabric, p, "KES-FB2 pure bending");
   grid.subtitle = "from rest, then " + std::to_string(p.cycles) + " cycles" +
-                  formatted(" to ±%.4g/m", p.amplitude) + formatted(" at %.4g/(m s);", p.rate) +
-                  formatted(" B from %.4g", p.slope_from) + formatted(" to %.4g/m,", p.slope_to) +
-                  formatted(" 2HB at %.4g/m.", p.width_at) + "  Blue: the law, grey: prandtl";
+                  fmt::format(" to ±{:.4g}/m", p.amplitude) + fmt::format(" at {:.4g}/(m s);", p.rate) +
+                  fmt::format(" B from {:.4g}", p.slope_from) + fmt::format(" to {:.4g}/m,", p.slope_to) +
+                  fmt::format(" 2HB at {:.4g}/m.", p.width_at) + "  Blue: the law, grey: prandtl";
   for (const KesResult& result : fabric.results) {
     render::Panel panel{result.law, {}, readings(result.test.reading), remarks(result, grid.y.high)};
     panel.series = {whole_walk(fabric.reference, p.steps, kReferenceColor, 5),
@@ -96,7 +92,7 @@ render::Panels minor_loops(const KesFabric& fabric, const KesProtocol& p, MinorL
       empty_grid(fabric, p, amplitudes ? "Settled loops of several amplitudes" : "Partial reversals");
   grid.subtitle =
       (amplitudes ? "last of " + std::to_string(p.cycles) + " cycles from rest."
-                  : formatted("from %.4g/m part of the way back, and to it again.", p.amplitude)) +
+                  : fmt::format("from {:.4g}/m part of the way back, and to it again.", p.amplitude)) +
       std::string("  Grey: the law's loop of the full amplitude");
   for (const KesResult& result : fabric.results) {
     render::Panel panel{result.law, {whole_walk(result.test, p.steps, kReferenceColor, 4)}, {}, {}};

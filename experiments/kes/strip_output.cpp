@@ -1,8 +1,9 @@
 #include "experiments/kes/strip_output.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/base/csv.h"
 
@@ -17,19 +18,13 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-std::string formatted(const char* format, double value) {
-  if (!std::isfinite(value)) return "-";
-  char text[40];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
+std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:+.2f} %", value) : "-"; }
 
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  std::printf("%-19s", name.c_str());
-  for (const std::string& cell : cells) std::printf(" %13s", cell.c_str());
-  std::printf("\n");
+  fmt::print("{:<19}", name);
+  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
+  fmt::print("\n");
 }
 
 // Mean curvature between the clamps over that of the gauge, at the amplitude, minus 1 [percent].
@@ -43,14 +38,14 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
   const StripTest& test = strip.test;
   run.metric(p + "strip_B_N_m", test.reading.rigidity);
   run.metric(p + "strip_2HB_N", test.reading.loop_width);
-  run.metric(p + "strip_residual_curvature_per_m", number_or_null(test.reading.residual));
+  run.metric(p + "strip_residual_curvature_per_m", test.reading.residual);
   run.metric(p + "strip_loop_area_J_per_m2", test.reading.loop_area);
-  run.metric(p + "strip_B_difference_percent", number_or_null(d.rigidity));
-  run.metric(p + "strip_2HB_difference_percent", number_or_null(d.loop_width));
-  run.metric(p + "strip_residual_difference_percent", number_or_null(d.residual));
-  run.metric(p + "strip_loop_area_difference_percent", number_or_null(d.loop_area));
+  run.metric(p + "strip_B_difference_percent", d.rigidity);
+  run.metric(p + "strip_2HB_difference_percent", d.loop_width);
+  run.metric(p + "strip_residual_difference_percent", d.residual);
+  run.metric(p + "strip_loop_area_difference_percent", d.loop_area);
   run.metric(p + "strip_largest_moment_difference_percent", 100 * largest_difference(test));
-  run.metric(p + "strip_free_curvature_difference_percent", number_or_null(bend_between(strip)));
+  run.metric(p + "strip_free_curvature_difference_percent", bend_between(strip));
   run.metric(p + "strip_largest_clamp_force_N_per_m", test.largest_force);
   run.metric(p + "strip_triangles_count", strip.triangles);
   run.metric(p + "strip_spacing_m", strip.spacing);
@@ -64,20 +59,21 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
 
 StripDifference difference(const StripTest& strip, double amplitude) {
   const double moment = largest(strip.law_moment);
-  const auto percent = [](double a, double b, double scale) {
+  const auto difference_percent = [](double a, double b, double scale) {
     return std::abs(b) > kNothing * scale ? 100 * (a / b - 1) : NAN;
   };
   const KesReading &own = strip.reading, &law = strip.law_reading;
-  return {percent(own.rigidity, law.rigidity, moment / amplitude),
-          percent(own.loop_width, law.loop_width, 2 * moment), percent(own.residual, law.residual, amplitude),
-          percent(own.loop_area, law.loop_area, 4 * moment * amplitude)};
+  return {difference_percent(own.rigidity, law.rigidity, moment / amplitude),
+          difference_percent(own.loop_width, law.loop_width, 2 * moment),
+          difference_percent(own.residual, law.residual, amplitude),
+          difference_percent(own.loop_area, law.loop_area, 4 * moment * amplitude)};
 }
 
 void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
                          const std::vector<StripResult>& strips) {
   for (const StripResult& strip : strips) {
     const std::string p = prefix + strip.prefix;
-    if (!strip.renderer.empty()) run.note("renderer", strip.renderer);
+    if (!strip.renderer.empty()) run.manifest().renderer = strip.renderer;
     if (strip.failure.empty())
       write_metrics_of(run, p, strip, difference(strip.test, amplitude));
     else
@@ -103,16 +99,15 @@ void write_strip_table(Run& run, const std::string& ending, const std::vector<St
 void print_strips(double amplitude, const std::vector<StripResult>& strips) {
   for (const StripResult& strip : strips) {
     if (!strip.failure.empty()) {
-      std::printf("  %s: %s\n", strip.mesh.c_str(), strip.failure.c_str());
+      fmt::print("  {}: {}\n", strip.mesh, strip.failure);
       continue;
     }
     const KesReading& r = strip.test.reading;
-    print_row("  strip " + strip.mesh, {formatted("%.4g", r.rigidity), formatted("%.4g", r.loop_width),
-                                        formatted("%.4g", r.residual), "", formatted("%.4g", r.loop_area)});
+    print_row("  strip " + strip.mesh, {four_digits(r.rigidity), four_digits(r.loop_width),
+                                        four_digits(r.residual), "", four_digits(r.loop_area)});
     const StripDifference d = difference(strip.test, amplitude);
     print_row("    against the law",
-              {formatted("%+.2f %%", d.rigidity), formatted("%+.2f %%", d.loop_width),
-               formatted("%+.2f %%", d.residual), "", formatted("%+.2f %%", d.loop_area)});
+              {percent(d.rigidity), percent(d.loop_width), percent(d.residual), "", percent(d.loop_area)});
   }
 }
 

@@ -1,6 +1,6 @@
 #include "experiments/kes/strip_pictures.h"
 
-#include <cstdio>
+#include <fmt/core.h>
 
 #include "render/look.h"
 
@@ -55,9 +55,8 @@ void StripPictures::watch(std::size_t row, Simulation& simulation) {
   StripPicture picture;
   picture.letter = static_cast<char>('a' + taken_.size());
   picture.curvature = strip_.walk.rows[row].curvature;
-  char caption[80];
-  std::snprintf(caption, sizeof caption, "%s   %.0f/m, %s", picture.letter.c_str(), picture.curvature,
-                strip_.scene.mesh.c_str());
+  const std::string caption =
+      fmt::format("{}   {:.0f}/m, {}", picture.letter, picture.curvature, strip_.scene.mesh);
   const double turn = picture.curvature / strip_.walk.rows[rows_[1]].curvature;
   const auto camera = render::Camera::framing(
       framed(turn, width, kShown), setup_.options.camera_direction.cast<float>(), kFieldOfView,

@@ -38,11 +38,6 @@ void take_fabric(LawFlags& flags, const std::string& origin) {
   flags.k0 = fabric.k0;
 }
 
-std::vector<KeyDescription> own_keys() {
-  LawFlags flags;
-  return descriptions(bind(kRows, flags));
-}
-
 int run_law(const CommandLine& line) {
   LawFlags flags;
   const Keys keys = bind(kRows, flags);
@@ -69,7 +64,7 @@ Experiment law() {
   return {.name = "law",
           .question = "one law alone: curvatures in, moments out (CSV)",
           .run = run_law,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<kRows>};
 }
 
 }  // namespace hysteron::experiments

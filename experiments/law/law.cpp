@@ -1,8 +1,9 @@
 #include "experiments/law/law.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <iostream>
-#include <sstream>
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -15,16 +16,13 @@ constexpr const char* kCurvature = "curvature [1/m]";
 constexpr const char* kTime = "time [s]";
 constexpr const char* kEdit = "edit";
 
-std::string with_unit(double value, const char* unit) {
-  std::ostringstream text;
-  text << value << " " << unit;
-  return text.str();
-}
+std::string with_unit(double value, const char* unit) { return fmt::format("{:g} {}", value, unit); }
 
 void check_curve(const VirginCurve& curve) {
   const auto refuse = [](const char* name, double value, const char* unit, const std::string& allowed) {
-    throw Error::request(std::string("law: --") + name + " = " + with_unit(value, unit) + " must be " +
-                         allowed);
+    throw Error::request(std::string("--") + name + " = " + with_unit(value, unit) + " must be " + allowed)
+        .of(name, fmt::format("{:g}", value))
+        .in("law");
   };
   if (!(curve.b2 >= 0) || !std::isfinite(curve.b2)) refuse("b2", curve.b2, "N m", "finite and >= 0");
   if (!(curve.b1 >= curve.b2) || !std::isfinite(curve.b1))
@@ -32,53 +30,46 @@ void check_curve(const VirginCurve& curve) {
   if (!(curve.k0 >= 0) || !std::isfinite(curve.k0)) refuse("k0", curve.k0, "1/m", "finite and >= 0");
 }
 
-// "law: k.csv:3: "
-std::string in_row(const Table& table, const std::filesystem::path& file, size_t row) {
-  return "law: " + file.string() + ":" + std::to_string(table.lines[row]) + ": ";
-}
-
-void check_time(const Table& table, const std::filesystem::path& file) {
+void check_time(const Table& table) {
   const Column* time = table.find(kTime);
   if (!time) return;
   for (size_t row = 1; row < time->values.size(); ++row) {
     if (time->values[row] < time->values[row - 1]) {
-      throw Error::request(in_row(table, file, row) + "time = " + with_unit(time->values[row], "s") +
-                           " must be >= " + with_unit(time->values[row - 1], "s") +
-                           ", the time of the row before");
+      throw table.refusal(row, "time = " + with_unit(time->values[row], "s") + " must be >= " +
+                                   with_unit(time->values[row - 1], "s") + ", the time of the row before");
     }
   }
 }
 
-void check_edit(const Table& table, const std::filesystem::path& file) {
+void check_edit(const Table& table) {
   const Column* edit = table.find(kEdit);
   if (!edit) return;
   for (size_t row = 0; row < edit->values.size(); ++row) {
     if (edit->values[row] != 0 && edit->values[row] != 1) {
-      throw Error::request(in_row(table, file, row) +
-                           "edit = " + with_unit(edit->values[row], "must be 0 or 1"));
+      throw table.refusal(row, "edit = " + with_unit(edit->values[row], "must be 0 or 1"));
     }
   }
 }
 
 constexpr double kSharpest = 1e6;  // [1/m] of a bend; fibres are thicker than its radius, 1 um
 
-void check_curvature(const Table& table, const std::filesystem::path& file) {
+void check_curvature(const Table& table) {
   const std::vector<double>& curvature = table.find(kCurvature)->values;
   for (size_t row = 0; row < curvature.size(); ++row) {
     if (std::abs(curvature[row]) > kSharpest)
-      throw Error::request(in_row(table, file, row) + "curvature = " + with_unit(curvature[row], "1/m") +
-                           " must be within +-" + with_unit(kSharpest, "1/m"));
+      throw table.refusal(row, "curvature = " + with_unit(curvature[row], "1/m") + " must be within +-" +
+                                   with_unit(kSharpest, "1/m"));
   }
 }
 
 // Parameters of any size are allowed; what they make of a curvature may be beyond all numbers.
-void check_results(const Table& results, const Table& table, const std::filesystem::path& file) {
+void check_results(const Table& results, const Table& table) {
   for (size_t row = 0; row < table.lines.size(); ++row) {
     for (const Column& column : results.columns) {
       if (!std::isfinite(column.values[row]))
-        throw Error::request(
-            in_row(table, file, row) + "at curvature = " + with_unit(results.columns[0].values[row], "1/m") +
-            " the law's " + column.name + " is no finite number; take smaller b1, b2, k0 or parameters");
+        throw table.refusal(row, "at curvature = " + with_unit(results.columns[0].values[row], "1/m") +
+                                     " the law's " + column.name +
+                                     " is no finite number; take smaller b1, b2, k0 or parameters");
     }
   }
 }
@@ -99,16 +90,13 @@ std::vector<LawRow> rows_of(const Table& table) {
 std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
   const RecoveryCounts counts = count_recoveries(request.curve, rows, run);
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
-  std::ostringstream text;
-  text << "reversals from |M| <= Ma: " << counts.of[0] << ", <= 2 Ma: " << counts.of[1]
-       << ", > 2 Ma: " << counts.of[2] << "\nresidual curvature after the last row: "
-       << with_unit(residual_after(request, rows), "1/m (root)");
-  if (has_residual_formula(choice)) {
-    text << ", "
-         << with_unit(residual_by_formula(choice, rows.back().curvature, run.moment.back()),
-                      "1/m (formula, if that row lies on the virgin curve)");
-  }
-  return text.str() + "\n";
+  std::string text = fmt::format(
+      "reversals from |M| <= Ma: {}, <= 2 Ma: {}, > 2 Ma: {}\nresidual curvature after the last row: {}",
+      counts.of[0], counts.of[1], counts.of[2], with_unit(residual_after(request, rows), "1/m (root)"));
+  if (has_residual_formula(choice))
+    text += ", " + with_unit(residual_by_formula(choice, rows.back().curvature, run.moment.back()),
+                             "1/m (formula, if that row lies on the virgin curve)");
+  return text + "\n";
 }
 
 }  // namespace
@@ -117,9 +105,9 @@ int run_law_command(const LawOptions& options) {
   check_curve(options.curve);
   const LawRequest request{options.law, options.curve, options.parameters};
   const Table table = read_csv(options.in, {kCurvature}, {kTime, kEdit}, "law");
-  check_curvature(table, options.in);
-  check_time(table, options.in);
-  check_edit(table, options.in);
+  check_curvature(table);
+  check_time(table);
+  check_edit(table);
   const std::vector<LawRow> rows = rows_of(table);
   const LawRun run = run_law(request, rows);
   const Table results{{{kCurvature, table.find(kCurvature)->values},
@@ -128,7 +116,7 @@ int run_law_command(const LawOptions& options) {
                        {"stored [J/m2]", run.stored},
                        {"dissipated [J/m2]", run.dissipated}},
                       {}};
-  check_results(results, table, options.in);
+  check_results(results, table);
   std::cout << recovery_summary(request, rows, run);
   write_csv(options.out, results);
   return 0;

@@ -1,8 +1,9 @@
 // `hysteron list`: what there is, on stdout.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
-#include <sstream>
 
 #include "experiments/workbench/app/experiment.h"
 #include "render/offscreen.h"
@@ -15,11 +16,7 @@
 namespace hysteron::experiments {
 namespace {
 
-std::string short_number(double x, int digits = 4) {
-  std::ostringstream text;
-  text << std::setprecision(digits) << x;
-  return text.str();
-}
+std::string short_number(double x, int digits = 4) { return fmt::format("{:.{}g}", x, digits); }
 
 void print_row(const std::vector<std::string>& cells, const std::vector<int>& widths) {
   for (std::size_t i = 0; i < cells.size(); ++i) {

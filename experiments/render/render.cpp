@@ -1,9 +1,10 @@
 // `hysteron render`: sequences of OBJ or PLY files, of this program or another, in the look, light and camera
 // of its own runs; several of them side by side.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -87,12 +88,8 @@ struct Column {
   const std::vector<std::filesystem::path>& files() const { return sequence.files; }
   // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
   std::string moment(std::size_t frame) const {
-    char text[40] = "";
-    if (fps > 0)
-      std::snprintf(text, sizeof text, "t = %.2f s", static_cast<double>(frame) / fps);
-    else if (files().size() > 1)
-      std::snprintf(text, sizeof text, "frame %zu", frame);
-    return text;
+    if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame) / fps);
+    return files().size() > 1 ? fmt::format("frame {}", frame) : "";
   }
 };
 
@@ -237,8 +234,8 @@ class FramesAndSheet {
     for (const Column& column : columns_) draw_sequence(column);
     writer_.finish();
     write_sheet();
-    run_.note("renderer", pictures_.renderer());
-    run_.note("positions", "host (files)");
+    run_.manifest().renderer = pictures_.renderer();
+    run_.manifest().positions = "host (files)";
     run_.add_seconds("encode", writer_.encode_seconds());
   }
 
@@ -271,9 +268,8 @@ class FramesAndSheet {
     render::Image image = picture(frame, label(column) + after("\n", when), "mesh " + file);
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
       cells_.push_back({thumbnail(image), alone() ? when : column.name() + after(", ", when)});
-    char name[32];
-    std::snprintf(name, sizeof name, "/%04zu.png", k);
-    writer_.write(run_.path((alone() ? "frames" : column.name()) + name), std::move(image));
+    const std::string folder = alone() ? "frames" : column.name();
+    writer_.write(run_.path(fmt::format("{}/{:04}.png", folder, k)), std::move(image));
   }
 
   render::Image picture(const Surface& frame, const std::string& caption, const std::string& what) {
@@ -303,11 +299,6 @@ class FramesAndSheet {
   render::PngWriter writer_;
 };
 
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
-}
-
 int run_render(const CommandLine& line) {
   F flags;
   flags.options.out = "out/render";
@@ -320,9 +311,7 @@ int run_render(const CommandLine& line) {
   Run run(line, flags.options, to_json(keys));
   note_sequences(columns, run);
   FramesAndSheet(flags, columns, bounds, run).draw();
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return 0;
 }
 
@@ -332,7 +321,7 @@ Experiment render_files() {
   return {.name = "render",
           .question = "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera",
           .run = run_render,
-          .own_keys = own_keys,
+          .own_keys = own_keys_of<keys_of>,
           .names = "FILES"};
 }
 

@@ -5,9 +5,9 @@
 #include "experiments/report/key_tables.h"
 #include "experiments/report/marked_numbers.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery.h"
-#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -100,11 +100,6 @@ void write(const fs::path& folder, PageForm form) {
   for (const fs::path& page : write_numbers(folder)) std::cout << page.string() << std::endl;
 }
 
-std::vector<KeyDescription> own_keys() {
-  ReportFlags flags;
-  return descriptions(bind(kRows, flags));
-}
-
 int run_report(const CommandLine& line) {
   ReportFlags flags;
   set_keys(line, bind(kRows, flags));
@@ -126,14 +121,14 @@ int run_report(const CommandLine& line) {
 }  // namespace
 
 Experiment report() {
-  return {.name = "report",
-          .question =
-              "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html, and "
-              "its numbers "
-              "in the README.md and docs/ beside it; the tables of keys in a folder of documentation",
-          .run = run_report,
-          .own_keys = own_keys,
-          .names = "DIR"};
+  return {
+      .name = "report",
+      .question =
+          "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html, and "
+          "its numbers in the README.md and docs/ beside it; the tables of keys in a folder of documentation",
+      .run = run_report,
+      .own_keys = own_keys_of<kRows>,
+      .names = "DIR"};
 }
 
 }  // namespace hysteron::experiments

@@ -1,8 +1,9 @@
 #include "experiments/specimens/buckling.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/specimens/cantilever_strip.h"
 #include "experiments/specimens/clamped_mesh.h"
@@ -37,12 +38,10 @@ double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabr
 void check_axis(const Scene& scene) {
   const double angle = scene.cloth.warp_angle;
   if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
-  char text[16];
-  std::snprintf(text, sizeof text, "%g", angle);
-  throw Error::request(std::string("buckle.kind = edge has no reference for a strip that twists as it bends: "
-                                   "cloth.warp-angle = ") +
-                       text +
-                       " degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1");
+  throw Error::request(fmt::format(
+      "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
+      "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
+      angle));
 }
 
 double gamma_of(const Scene& scene, double length) {
@@ -118,10 +117,11 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
   scene.ramp = scene.seconds = most;
   scene.unload = 0;
   if (!(scene.fabric.density > 0 && std::isfinite(scene.fabric.density)))
-    throw Error::request("buckle: a strip of law " + scene.law +
+    throw Error::request("a strip of law " + scene.law +
                          " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
                          " N m has no threshold: its weight there would be " +
-                         std::to_string(scene.fabric.density) + " kg/m^2");
+                         std::to_string(scene.fabric.density) + " kg/m^2")
+        .in("buckle");
   Pin clamp;
   clamp.low = {-1, -1, -1};
   clamp.high = {clamped.near(), 1, 1};
@@ -160,9 +160,10 @@ Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation)
     const bool near = plot.gamma.back() > kNear * plot.critical_gamma;
     if (near && std::abs(plot.critical_gamma - before) < kAgreed * plot.critical_gamma) return plot;
   }
-  throw Error::run("buckle: no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
+  throw Error::run("no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
                    ", where the free end has moved by " + std::to_string(plot.deflection.back()) +
-                   " of the length");
+                   " of the length")
+      .in("buckle");
 }
 
 }  // namespace hysteron::experiments

@@ -1,6 +1,6 @@
 // `hysteron stability`: maps of what stays stable, and the explicit limit against the bound in use.
 #include <algorithm>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "experiments/stability/output.h"
@@ -8,7 +8,6 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
-#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -38,12 +37,7 @@ const KeyRow<F> kRows[] = {
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
 
-Keys keys_of(F& flags) {
-  Keys keys = bind(kRows, flags);
-  const Keys output = bind_output_options(flags.options);
-  keys.insert(keys.end(), output.begin(), output.end());
-  return keys;
-}
+Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 int threads_of(const F& flags) {
   if (flags.threads > 0) return static_cast<int>(flags.threads);
@@ -68,11 +62,6 @@ std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& r
       run.progress(std::to_string(done) + " of " + std::to_string(cells.size()) + " cells");
   });
   return cells;
-}
-
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
 }
 
 int run_stability(const CommandLine& line) {
@@ -102,9 +91,7 @@ int run_stability(const CommandLine& line) {
     if (!flags.options.no_images) draw_limits(run, limits);
     if (!flags.options.json) print_limits(limits);
   }
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return 0;
 }
 
@@ -114,7 +101,7 @@ Experiment stability() {
   return {.name = "stability",
           .question = "maps of what stays stable, over stiffness, step, mesh and extreme scenes",
           .run = run_stability,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

@@ -1,11 +1,10 @@
 #include "experiments/stability/output.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <map>
 
-#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/scene/scene_reader.h"
 
@@ -31,37 +30,37 @@ std::vector<std::string> integrators_in(const std::vector<Cell>& cells) {
 }  // namespace
 
 void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {
-  AtomicFile file(run.path("cells.csv").string());
-  file.stream()
-      << "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
-         "ledger remainder,largest stretch,seconds asked [s],seconds simulated [s],steps,substeps per step,"
-         "retried steps,wall [s],message\n";
+  CsvFile file(
+      run.path("cells.csv"),
+      "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
+      "ledger remainder,largest stretch,seconds asked [s],seconds simulated [s],steps,substeps per step,"
+      "retried steps,wall [s],message");
   for (const Cell& cell : cells) {
     const Sweep& sweep = sweeps[cell.sweep];
     const Scene& scene = cell.attempt.scene;
     const Finding& f = cell.finding;
     const bool ran = f.outcome != Outcome::refused;
-    const auto if_ran = [&](const std::string& text) { return ran ? text : std::string(); };
-    file.stream() << row_of({sweep.name,
-                             cell.integrator,
-                             sweep.variants[cell.variant],
-                             sweep.x.ticks[cell.column],
-                             sweep.y.ticks[cell.row],
-                             scene.law,
-                             name_of(scene.element),
-                             name_of(scene.precision),
-                             number_field(scene.step),
-                             name_of(f.outcome),
-                             if_ran(number_field(f.energy_growth)),
-                             if_ran(number_field(f.remainder)),
-                             if_ran(number_field(f.largest_stretch)),
-                             number_field(f.seconds_asked),
-                             if_ran(number_field(f.seconds_simulated)),
-                             if_ran(std::to_string(f.steps)),
-                             if_ran(std::to_string(f.substeps)),
-                             if_ran(std::to_string(f.retried_steps)),
-                             number_field(f.wall_seconds),
-                             f.message});
+    const auto if_ran = [&](const CsvField& field) { return ran ? field : CsvField(""); };
+    file.row({sweep.name,
+              cell.integrator,
+              sweep.variants[cell.variant],
+              sweep.x.ticks[cell.column],
+              sweep.y.ticks[cell.row],
+              scene.law,
+              name_of(scene.element),
+              name_of(scene.precision),
+              scene.step,
+              name_of(f.outcome),
+              if_ran(f.energy_growth),
+              if_ran(f.remainder),
+              if_ran(f.largest_stretch),
+              f.seconds_asked,
+              if_ran(f.seconds_simulated),
+              if_ran(f.steps),
+              if_ran(f.substeps),
+              if_ran(f.retried_steps),
+              f.wall_seconds,
+              f.message});
   }
   file.commit();
 }
@@ -81,35 +80,32 @@ void write_counts(Run& run, const std::vector<Cell>& cells) {
 }
 
 void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {
-  std::printf("%-14s", "integrator");
-  for (Outcome outcome : kOutcomes) std::printf(" %9s", name_of(outcome));
+  fmt::print("{:<14}", "integrator");
+  for (Outcome outcome : kOutcomes) fmt::print(" {:>9}", name_of(outcome));
   for (const std::string& integrator : integrators_in(cells)) {
-    std::printf("\n%-14s", integrator.c_str());
+    fmt::print("\n{:<14}", integrator);
     Counts counts = count(cells, integrator);
-    for (Outcome outcome : kOutcomes) std::printf(" %9d", counts[outcome]);
+    for (Outcome outcome : kOutcomes) fmt::print(" {:9}", counts[outcome]);
   }
-  std::printf("\n");
+  fmt::print("\n");
   for (const Cell& cell : cells) {
     if (cell.finding.outcome != Outcome::diverged) continue;
     const Sweep& sweep = sweeps[cell.sweep];
-    std::printf("diverged: %s, %s, %s, %s, %s: %s (growth %.3g)\n", sweep.name.c_str(),
-                cell.integrator.c_str(), sweep.variants[cell.variant].c_str(),
-                sweep.x.ticks[cell.column].c_str(), sweep.y.ticks[cell.row].c_str(),
-                cell.finding.message.c_str(), cell.finding.energy_growth);
+    fmt::print("diverged: {}, {}, {}, {}, {}: {} (growth {:.3g})\n", sweep.name, cell.integrator,
+               sweep.variants[cell.variant], sweep.x.ticks[cell.column], sweep.y.ticks[cell.row],
+               cell.finding.message, cell.finding.energy_growth);
   }
 }
 
 void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
-  AtomicFile file(run.path("limit.csv").string());
-  file.stream()
-      << "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound\n";
+  CsvFile file(
+      run.path("limit.csv"),
+      "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound");
   double least = kMostRatio, most = 0, least_resonant = kMostRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    file.stream() << row_of({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
-                             number_field(of.condition.damping), number_field(of.condition.amplitudes.back()),
-                             number_field(limit.bound), number_field(limit.measured),
-                             number_field(limit.ratio())});
+    file.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law, of.condition.damping,
+              of.condition.amplitudes.back(), limit.bound, limit.measured, limit.ratio()});
     if (of.condition.resonates() && of.condition.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;
@@ -123,13 +119,13 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
 }
 
 void print_limits(const std::vector<MeasuredLimit>& limits) {
-  std::printf("measured limit of the explicit bending step over the bound in use:\n");
+  fmt::print("measured limit of the explicit bending step over the bound in use:\n");
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    std::printf("%-11s %-5s %-4s %-8s damping %-6g s  amplitude %-6g m  %.3g / %.3g s = %.3f\n",
-                of.mesh.c_str(), name_of(of.element).c_str(), of.held ? "held" : "free",
-                of.condition.law.c_str(), of.condition.damping, of.condition.amplitudes.back(),
-                limit.measured, limit.bound, limit.ratio());
+    fmt::print("{:<11} {:<5} {:<4} {:<8} damping {:<6g} s  amplitude {:<6g} m  {:.3g} / {:.3g} s = {:.3f}\n",
+               of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
+               of.condition.damping, of.condition.amplitudes.back(), limit.measured, limit.bound,
+               limit.ratio());
   }
 }
 

@@ -1,7 +1,8 @@
 // The maps of outcomes as pictures.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/stability/output.h"
 #include "render/heat_map.h"
@@ -30,9 +31,7 @@ std::string text_of(const Finding& finding) {
   if (finding.outcome == Outcome::diverged) {
     if (finding.energy_growth <= kLargestGrowth) return "∞";  // broken off between two looks
     if (!(finding.energy_growth < 100)) return "≫";
-    char text[20];
-    std::snprintf(text, sizeof text, finding.energy_growth < 10 ? "×%.1f" : "×%.0f", finding.energy_growth);
-    return text;
+    return fmt::format("×{:.{}f}", finding.energy_growth, finding.energy_growth < 10 ? 1 : 0);
   }
   return finding.substeps > 1 ? std::to_string(finding.substeps) : "";
 }
@@ -148,13 +147,11 @@ render::HeatMaps limit_page(const std::vector<MeasuredLimit>& limits) {
     page.maps.resize(conditions.size());
     page.maps[map].title = limit.of.condition.name;
     page.maps[map].rows.resize(page.y.ticks.size(), std::vector<render::HeatMapCell>(page.x.ticks.size()));
-    char text[20];
-    std::snprintf(text, sizeof text, "%.2f", limit.ratio());
     page.maps[map].rows[place_in(page.y.ticks, row_of(limit.of))][place_in(page.x.ticks, limit.of.mesh)] = {
         limit.ratio() < 1    ? 0
         : limit.ratio() <= 2 ? 1
                              : 2,
-        text};
+        fmt::format("{:.2f}", limit.ratio())};
   }
   page.columns = 2;
   page.cell_width = 92;

@@ -1,7 +1,8 @@
 // A strip clamped at one end, held out straight and let go: it swings under gravity and comes to rest.  What
 // stops it, friction in bending, viscosity or the integrator, is told apart by the ledger.
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "experiments/specimens/clamped_mesh.h"
@@ -47,10 +48,9 @@ constexpr const char* kDecayCaption =
 
 // "hyperbolic, p = 2.04 ± 0.05", "plateau".
 std::string words_of(const Decay& decay) {
-  char text[60] = "";
-  if (decay.exponent)
-    std::snprintf(text, sizeof text, ", p = %.2f ± %.2f", *decay.exponent, *decay.exponent_stderr);
-  return name_of(decay.shape) + text;
+  if (!decay.exponent) return name_of(decay.shape);
+  return fmt::format("{}, p = {:.2f} ± {:.2f}", name_of(decay.shape), *decay.exponent,
+                     *decay.exponent_stderr);
 }
 
 // turns.csv: a row for each amplitude.
@@ -161,9 +161,7 @@ int run_swing(const CommandLine& line) {
     return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
   };
   question.progress = [&](const Snapshot& m) {
-    char text[100];
-    std::snprintf(text, sizeof text, "t = %.3f s  tip at %.4f, %.4f m", m.time, m.x[tip].x(), m.x[tip].z());
-    return std::string(text);
+    return fmt::format("t = {:.3f} s  tip at {:.4f}, {:.4f} m", m.time, m.x[tip].x(), m.x[tip].z());
   };
   session.simulate(question);
   const Ledger ledger = session.simulation().ledger();
@@ -175,12 +173,7 @@ int run_swing(const CommandLine& line) {
   run.metric("turns", turns.size());
   note_decay(run, decay);
   write_turns(run, amplitudes);
-  run.note("curves", {{{"plot", "plot_decay"},
-                       {"file", "turns.csv"},
-                       {"x", "turn"},
-                       {"y", "amplitude [mm]"},
-                       {"logarithmic", true},
-                       {"caption", kDecayCaption}}});
+  run.manifest().curves = {{"plot_decay", "turns.csv", "turn", "amplitude [mm]", true, kDecayCaption}};
   run.metric("bending_friction_J", ledger.bending_friction);
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());

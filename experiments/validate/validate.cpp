@@ -1,20 +1,19 @@
 // `hysteron validate`: where the model stands against measurements.  Cusick's drape of the fabrics that
 // publish both a KES pair and a drape coefficient, with and without hysteresis, let down by a plate and
 // dropped, on finer meshes and shorter steps as well; and their bending length.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/experiment.h"
-#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/plot.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
-#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -38,32 +37,27 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-Keys keys_of(F& flags) {
-  Keys keys = bind(kRows, flags);
-  const Keys output = bind_output_options(flags.options);
-  keys.insert(keys.end(), output.begin(), output.end());
-  return keys;
-}
+Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 // A drape and what came of it.
 struct Drape {
   std::string fabric, law, release, varied;  // varied: "" | mesh | step
   int triangles = 0;
   double step = 0;
-  Json metrics = Json::object();
+  Metrics metrics{};
   double seconds = 0;
 
   std::string name() const {
     return fabric + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
   }
   double number(const std::string& key) const {
-    return metrics.contains(key) ? metrics[key].get<double>() : NAN;
+    return metrics[key].is_number() ? metrics[key].number() : NAN;
   }
 };
 
 // Runs another subcommand into a folder of this one; its manifest.
-Json result_of(const std::string& name, const std::vector<Flag>& own, const F& flags, const Run& run,
-               const std::string& folder) {
+Manifest result_of(const std::string& name, const std::vector<Flag>& own, const F& flags, const Run& run,
+                   const std::string& folder) {
   CommandLine line{name, "hysteron " + name, own, {}};
   const std::filesystem::path out = run.folder() / folder;
   line.flags.push_back({"out", out.string()});
@@ -71,7 +65,7 @@ Json result_of(const std::string& name, const std::vector<Flag>& own, const F& f
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   for (const Flag& flag : own) line.command += " --" + flag.path + " " + flag.text;
   experiment_named(name).run(line);
-  return read_json(out / "manifest.json");
+  return read_manifest(out / "manifest.json");
 }
 
 std::vector<Drape> planned(const F& flags) {
@@ -92,38 +86,32 @@ std::vector<Drape> planned(const F& flags) {
 }
 
 void run_drape(Drape& drape, const F& flags, Run& run) {
-  const Json manifest = result_of("drape",
-                                  {{"fabric", drape.fabric},
-                                   {"law", drape.law},
-                                   {"drape.release", drape.release},
-                                   {"triangles", std::to_string(drape.triangles)},
-                                   {"step", number_field(drape.step)},
-                                   {"seconds", number_field(flags.seconds)},
-                                   {"device", flags.device}},
-                                  flags, run, drape.name());
-  drape.metrics = manifest["metrics"];
-  drape.seconds = manifest["wall_seconds"]["total"];
-  char text[160];
-  std::snprintf(text, sizeof text, "%s: drape coefficient %.1f %% (published %.1f), %.0f nodes, %.1f s",
-                drape.name().c_str(), drape.number("drape_coefficient_percent"),
-                drape.number("published_drape_coefficient_percent"), drape.number("node_count"),
-                drape.seconds);
-  run.progress(text);
+  const Manifest manifest = result_of("drape",
+                                      {{"fabric", drape.fabric},
+                                       {"law", drape.law},
+                                       {"drape.release", drape.release},
+                                       {"triangles", std::to_string(drape.triangles)},
+                                       {"step", number_field(drape.step)},
+                                       {"seconds", number_field(flags.seconds)},
+                                       {"device", flags.device}},
+                                      flags, run, drape.name());
+  drape.metrics = manifest.metrics;
+  drape.seconds = manifest.total_seconds();
+  run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",
+                           drape.name(), drape.number("drape_coefficient_percent"),
+                           drape.number("published_drape_coefficient_percent"), drape.number("node_count"),
+                           drape.seconds));
 }
 
 void write_drapes(Run& run, const std::vector<Drape>& drapes) {
-  AtomicFile file(run.path("drape.csv").string());
-  file.stream()
-      << "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
-         "coefficient [%],published nodes,sharp edges [%],computing [s]\n";
+  CsvFile file(run.path("drape.csv"),
+               "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
+               "coefficient [%],published nodes,sharp edges [%],computing [s]");
   for (const Drape& d : drapes)
-    file.stream() << row_of({d.fabric, d.law, d.release, std::to_string(d.triangles), number_field(d.step),
-                             number_field(d.number("drape_coefficient_percent")),
-                             number_field(d.number("node_count")),
-                             d.metrics.value("settled", false) ? "yes" : "no",
-                             number_field(d.number("published_drape_coefficient_percent")),
-                             number_field(d.number("published_node_count")),
-                             number_field(d.number("sharp_edges_percent")), number_field(d.seconds)});
+    file.row({d.fabric, d.law, d.release, d.triangles, d.step, d.number("drape_coefficient_percent"),
+              d.number("node_count"), d.metrics["settled"].is(true) ? "yes" : "no",
+              d.number("published_drape_coefficient_percent"), d.number("published_node_count"),
+              d.number("sharp_edges_percent"), d.seconds});
   file.commit();
 }
 
@@ -154,26 +142,22 @@ void draw_drapes(Run& run, const std::vector<Drape>& drapes) {
 
 // Bending length of ASTM D1388, cloth and curve.
 void measure_bending_lengths(const F& flags, Run& run) {
-  AtomicFile file(run.path("cantilever.csv").string());
-  file.stream() << "fabric,law,bending length [m],of the elastica [m],remaining drop over length\n";
+  CsvFile file(run.path("cantilever.csv"),
+               "fabric,law,bending length [m],of the elastica [m],remaining drop over length");
   for (const std::string& fabric : split(flags.fabrics))
     for (const std::string& law : split(flags.laws)) {
       const std::string name = "cantilever-" + fabric + "-" + law;
-      const Json metrics = result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}},
-                                     flags, run, name)["metrics"];
-      const double cloth = metrics["bending_length_m"], curve = metrics["elastica_bending_length_m"];
-      file.stream() << row_of({fabric, law, number_field(cloth), number_field(curve),
-                               number_field(metrics["residual_drop_over_length"].get<double>())});
+      const Metrics metrics =
+          result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}}, flags, run, name)
+              .metrics;
+      const double cloth = metrics["bending_length_m"].number(),
+                   curve = metrics["elastica_bending_length_m"].number();
+      file.row({fabric, law, cloth, curve, metrics["residual_drop_over_length"].number()});
       run.metric(name + ".bending_length_m", cloth);
       run.progress(name + ": bending length " + number_field(cloth) + " m, elastica " + number_field(curve) +
                    " m");
     }
   file.commit();
-}
-
-std::vector<KeyDescription> own_keys() {
-  F flags;
-  return descriptions(keys_of(flags));
 }
 
 int run_validate(const CommandLine& line) {
@@ -192,9 +176,7 @@ int run_validate(const CommandLine& line) {
   note_drapes(run, drapes);
   measure_bending_lengths(flags, run);
   if (!flags.options.no_images) draw_drapes(run, drapes);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return 0;
 }
 
@@ -204,7 +186,7 @@ Experiment validate() {
   return {.name = "validate",
           .question = "the model against measurements: drape coefficients, bending lengths",
           .run = run_validate,
-          .own_keys = own_keys};
+          .own_keys = own_keys_of<keys_of>};
 }
 
 }  // namespace hysteron::experiments

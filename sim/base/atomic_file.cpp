@@ -68,4 +68,10 @@ void AtomicFile::commit() {
   committed_ = true;
 }
 
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  AtomicFile target(file.string());
+  target.stream() << text;
+  target.commit();
+}
+
 }  // namespace hysteron

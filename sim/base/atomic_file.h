@@ -1,6 +1,7 @@
 // A file that appears under its name only when it is complete.
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -30,5 +31,8 @@ class AtomicFile {
   std::ofstream stream_;
   bool committed_ = false;
 };
+
+// A whole file at once.
+void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace hysteron

@@ -1,14 +1,12 @@
 #include "sim/base/csv.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 #include <string_view>
 
-#include "sim/base/atomic_file.h"
-#include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron {
@@ -21,51 +19,135 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-std::vector<std::string_view> fields(std::string_view line) {
-  std::vector<std::string_view> result;
-  for (;;) {
-    const size_t comma = line.find(',');
-    result.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return result;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 std::string without_unit(std::string_view name) {
   return std::string(trimmed(name.substr(0, name.find('['))));
 }
 
-// Where something stands in the file, and on whose behalf it is read: "law: loop.csv:3: ".
-struct Place {
-  std::string reader, file;
-  int line = 0;
-  Error error(std::string what) const {
-    std::replace_if(
-        what.begin(), what.end(), [](unsigned char c) { return c < 0x20; }, ' ');  // of the file
-    return Error::request(reader + ": " + file + ":" + std::to_string(line) + ": " + what);
+// `what` comes from the file: it may hold anything.
+Error error_at(const std::string& file, int line, std::string what) {
+  std::replace_if(
+      what.begin(), what.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  return Error::request(fmt::format("{}:{}: {}", file, line, what));
+}
+
+// Walks through the text of a file, row by row.
+class Rows {
+ public:
+  Rows(const std::string& text, const std::string& file) : text_(text), file_(file) {
+    if (text.starts_with("\xEF\xBB\xBF")) at_ = 3;
   }
+
+  // The next row that is not blank; false at the end.
+  bool next(std::vector<std::string>& fields) {
+    while (at_ < text_.size()) {
+      line_ += lines_read_;
+      lines_read_ = 0;
+      fields = read();
+      ++at_, ++lines_read_;
+      if (fields.size() > 1 || !trimmed(fields[0]).empty()) return true;
+    }
+    return false;
+  }
+  // Where the row begins that was read last.
+  int line() const { return line_; }
+
+ private:
+  std::string quoted() {
+    std::string field;
+    const int start = line_ + lines_read_;
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '"' && (++at_ >= text_.size() || text_[at_] != '"')) return field;
+      lines_read_ += text_[at_] == '\n';
+      field += text_[at_];
+    }
+    throw error_at(file_, start, "a quote is not closed");
+  }
+
+  std::vector<std::string> read() {
+    std::vector<std::string> fields(1);
+    while (at_ < text_.size() && text_[at_] != '\n') {
+      if (text_[at_] == '"') {
+        fields.back() += quoted();
+      } else if (const char c = text_[at_++]; c == ',') {
+        fields.emplace_back();
+      } else if (c != '\r') {
+        fields.back() += c;
+      }
+    }
+    return fields;
+  }
+
+  const std::string& text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+  int line_ = 1, lines_read_ = 0;
 };
 
-double number(std::string_view text, const std::string& column, const Place& place) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+double number(std::string_view text, const Table& table, const std::string& column) {
+  std::string_view digits = trimmed(text);
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw place.error(column + " = '" + std::string(text) + "' must be a finite number");
+  const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (failure != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw table.refusal(table.lines.size() - 1,
+                        fmt::format("{} = '{}' must be a finite number", column, digits));
   return value;
 }
 
 // Index of `wanted` in the header, or -1.  A column of that name in another unit is an error, not an absence.
-int position(const std::vector<std::string_view>& header, const std::string& wanted, const Place& place) {
+int position(const std::vector<std::string>& header, const std::string& wanted, const std::string& file) {
   int found = -1;
   for (size_t i = 0; i < header.size(); ++i) {
     if (without_unit(header[i]) != without_unit(wanted)) continue;
-    if (header[i] != wanted)
-      throw place.error("column '" + std::string(header[i]) + "' must be called '" + wanted + "'");
-    if (found >= 0) throw place.error("column '" + wanted + "' stands twice");
+    if (trimmed(header[i]) != wanted)
+      throw error_at(file, 1, fmt::format("column '{}' must be called '{}'", trimmed(header[i]), wanted));
+    if (found >= 0) throw error_at(file, 1, "column '" + wanted + "' stands twice");
     found = int(i);
   }
   return found;
+}
+
+// Where the columns stand in the words of a file.
+std::vector<int> places_of(const std::vector<std::string>& required, const std::vector<std::string>& optional,
+                           const TextTable& words, Table& table) {
+  std::vector<int> places;
+  const auto take = [&](const std::string& name, bool needed) {
+    const int at = position(words.head, name, table.file);
+    if (at < 0 && needed)
+      throw error_at(table.file, 1, "column '" + name + "' is missing; the header names it with its unit");
+    if (at < 0) return;
+    table.columns.push_back({name, {}});
+    places.push_back(at);
+  };
+  for (const std::string& name : required) take(name, true);
+  for (const std::string& name : optional) take(name, false);
+  return places;
+}
+
+void take_numbers(const TextTable& words, const std::vector<int>& places, Table& table) {
+  for (std::size_t r = 0; r < words.rows.size(); ++r) {
+    table.lines.push_back(words.lines[r]);
+    for (size_t i = 0; i < places.size(); ++i)
+      table.columns[i].values.push_back(
+          number(words.rows[r][size_t(places[i])], table, table.columns[i].name));
+  }
+}
+
+// Errors are the reader's.
+template <class Read>
+auto on_behalf_of(const std::string& reader, const Read& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    throw error.experiment().empty() ? error.in(reader) : error;
+  }
+}
+
+std::string quoted_where_needed(const std::string& text) {
+  if (text.find_first_of(",\"\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
 }
 
 }  // namespace
@@ -76,78 +158,90 @@ const Column* Table::find(const std::string& name) const {
   return found == columns.end() ? nullptr : &*found;
 }
 
+Error Table::refusal(std::size_t row, const std::string& what) const {
+  return error_at(file, lines.at(row), what).in(reader);
+}
+
 Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                const std::vector<std::string>& optional, const std::string& reader) {
-  std::istringstream in(whole_file(file, reader + ": cannot read " + file.string()));
-  Place place{reader, file.string(), 1};
-  std::string header_line;
-  std::getline(in, header_line);
-  if (header_line.starts_with("\xEF\xBB\xBF")) header_line.erase(0, 3);
-  const std::vector<std::string_view> header = fields(header_line);
+  return on_behalf_of(reader, [&] {
+    const TextTable words = read_words(file);
+    Table table{{}, {}, file.string(), reader};
+    const std::vector<int> places = places_of(required, optional, words, table);
+    if (words.rows.empty()) throw error_at(table.file, 1, "no rows, at least one is needed");
+    take_numbers(words, places, table);
+    return table;
+  });
+}
 
-  Table table;
-  std::vector<int> source;  // column of the file behind each column of the table
-  const auto take = [&](const std::string& name, bool needed) {
-    const int at = position(header, name, place);
-    if (at < 0 && needed)
-      throw place.error("column '" + name + "' is missing; the header names it with its unit");
-    if (at < 0) return;
-    table.columns.push_back({name, {}});
-    source.push_back(at);
-  };
-  for (const std::string& name : required) take(name, true);
-  for (const std::string& name : optional) take(name, false);
+Table read_whole_csv(const std::filesystem::path& file, const std::string& reader) {
+  return on_behalf_of(reader, [&] {
+    const TextTable words = read_words(file);
+    Table table{{}, {}, file.string(), reader};
+    if (words.rows.empty()) return table;
+    std::vector<std::string> names;
+    for (const std::string& name : words.head) names.emplace_back(trimmed(name));
+    const std::vector<int> places = places_of(names, {}, words, table);
+    take_numbers(words, places, table);
+    return table;
+  });
+}
 
-  for (std::string line; std::getline(in, line);) {
-    ++place.line;
-    if (trimmed(line).empty()) continue;
-    const std::vector<std::string_view> row = fields(line);
-    if (row.size() != header.size())
-      throw place.error(std::to_string(row.size()) + " fields, must be " + std::to_string(header.size()));
-    for (size_t i = 0; i < source.size(); ++i)
-      table.columns[i].values.push_back(number(row[size_t(source[i])], table.columns[i].name, place));
-    table.lines.push_back(place.line);
+TextTable words_in(const std::string& text, const std::string& file) {
+  TextTable table;
+  Rows rows(text, file);
+  for (std::vector<std::string> row; rows.next(row);) {
+    if (table.head.empty()) {
+      table.head = std::move(row);
+      continue;
+    }
+    if (row.size() != table.head.size())
+      throw error_at(file, rows.line(), fmt::format("{} fields, must be {}", row.size(), table.head.size()));
+    table.rows.push_back(std::move(row));
+    table.lines.push_back(rows.line());
   }
-  if (table.lines.empty()) throw place.error("no rows, at least one is needed");
   return table;
 }
 
+TextTable read_words(const std::filesystem::path& file) {
+  return words_in(whole_file(file, "cannot read " + file.string()), file.string());
+}
+
 void write_csv(const std::filesystem::path& file, const Table& table) {
+  std::vector<CsvField> head;
+  for (const Column& column : table.columns) head.push_back(column.name);
   AtomicFile target(file.string());
-  std::ostream& out = target.stream();
-  out.precision(17);
-  for (size_t c = 0; c < table.columns.size(); ++c) out << (c ? "," : "") << table.columns[c].name;
-  out << '\n';
+  target.stream() << row_of(head);
   const size_t rows = table.columns.empty() ? 0 : table.columns[0].values.size();
+  std::vector<double> numbers(table.columns.size());
   for (size_t r = 0; r < rows; ++r) {
-    for (size_t c = 0; c < table.columns.size(); ++c) out << (c ? "," : "") << table.columns[c].values[r];
-    out << '\n';
+    for (size_t c = 0; c < numbers.size(); ++c) numbers[c] = table.columns[c].values[r];
+    target.stream() << exact_row_of(numbers);
   }
   target.commit();
 }
 
-namespace {
+std::string number_field(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-// As a field of a CSV file (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-}  // namespace
-
-std::string row_of(const std::vector<std::string>& fields) {
+std::string row_of(const std::vector<CsvField>& fields) {
   std::string row;
-  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + field(fields[i]);
+  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + quoted_where_needed(fields[i].text);
   return row + "\n";
 }
 
-std::string number_field(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::isfinite(value) ? text : "";
+std::string exact_row_of(const std::vector<double>& numbers) {
+  std::string row;
+  for (std::size_t i = 0; i < numbers.size(); ++i) row += fmt::format("{}{:.17g}", i ? "," : "", numbers[i]);
+  return row + "\n";
+}
+
+CsvFile::CsvFile(const std::filesystem::path& file, const std::string& head) : file_(file.string()) {
+  file_.stream() << head << '\n';
+}
+
+CsvFile::CsvFile(const std::filesystem::path& file, const std::vector<CsvField>& head)
+    : file_(file.string()) {
+  row(head);
 }
 
 }  // namespace hysteron

@@ -3,11 +3,13 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace hysteron {
 
 // Thrown wherever the program cannot do what was asked.  The message is one line: what was attempted, the
-// value with its unit, the file and line where it stands, what is allowed or what to do.
+// value with its unit, the file and line where it stands, what is allowed or what to do.  What a handler has
+// to know of it stands in fields beside the message, which nobody takes apart.
 class Error : public std::runtime_error {
  public:
   // The machine failed (file, disk, GPU, renderer): exit code 1.
@@ -17,11 +19,41 @@ class Error : public std::runtime_error {
   // The run could not go on (no convergence, no feasible state): exit code 3.
   static Error run(const std::string& message) { return Error(3, message); }
 
+  // The same, of a key and the value that it was given: "fabric.b2", "-1".
+  Error of(std::string key, std::string value) const {
+    Error error = *this;
+    error.key_ = std::move(key);
+    error.value_ = std::move(value);
+    return error;
+  }
+  // The same, of the experiment of that name, which then begins its message: "law: k.csv:3: ...".
+  Error in(const std::string& experiment) const {
+    Error error = with_message(experiment + ": " + what());
+    error.experiment_ = experiment;
+    return error;
+  }
+  // The same with where it stands behind its message: "... (scene.toml:7)".
+  Error from(const std::string& origin) const {
+    return with_message(std::string(what()) + " (" + origin + ")");
+  }
+
   int exit_code() const { return exit_code_; }
+  const std::string& key() const { return key_; }                // "" if it is of none
+  const std::string& value() const { return value_; }            // as text, without its unit
+  const std::string& experiment() const { return experiment_; }  // "" if its message names none
 
  private:
   Error(int exit_code, const std::string& message) : std::runtime_error(message), exit_code_(exit_code) {}
+  Error with_message(const std::string& message) const {
+    Error error(exit_code_, message);
+    error.key_ = key_;
+    error.value_ = value_;
+    error.experiment_ = experiment_;
+    return error;
+  }
+
   int exit_code_;
+  std::string key_, value_, experiment_;
 };
 
 }  // namespace hysteron

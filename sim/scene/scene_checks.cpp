@@ -151,23 +151,17 @@ void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string
 // One parameter at a time, so that the message can say where it stands; then what they are together.
 void check_parameters(const Scene& scene) {
   const VirginCurve curve = scene.fabric.virgin_curve();
-  const auto refuse_with = [](const Error& error, const std::string& origin) {
-    throw Error::request(std::string(error.what()) + " (" + origin + ")");
-  };
   for (const auto& [name, text] : scene.param) {
     try {
       choose_law(scene.law, curve, {{name, text}});
     } catch (const Error& error) {
-      refuse_with(error, origin_of(scene, "param." + name));
+      throw error.from(origin_of(scene, "param." + name));
     }
   }
   try {
     choose_law(scene.law, curve, scene.param);
   } catch (const Error& error) {
-    std::string blamed = "law";
-    for (const auto& [name, text] : scene.param)
-      if (std::string(error.what()).find(name + " = ") != std::string::npos) blamed = "param." + name;
-    refuse_with(error, origin_of(scene, blamed));
+    throw error.from(origin_of(scene, scene.param.contains(error.key()) ? "param." + error.key() : "law"));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/experiment.h"
 #include "tests/experiments/folder.h"

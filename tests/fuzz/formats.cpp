@@ -121,7 +121,7 @@ Format csv() {
              read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
            },
            [](const fs::path& file) { experiments::read_series(file, 0.05); },
-           [](const fs::path& file) { experiments::read_words(file); },
+           [](const fs::path& file) { read_words(file); },
            [](const fs::path& file) { render::series_from_csv(file, "curvature", "moment", ""); }, chart}};
 }
 

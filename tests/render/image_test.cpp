@@ -1,13 +1,12 @@
 #include "render/image.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <fstream>
 
 #include "render/srgb.h"
 #include "tests/render/test_scene.h"
+#include "tests/sim/base/small_disk.h"
 
 namespace hysteron::render {
 namespace {
@@ -53,26 +52,6 @@ TEST(Png, AMissingFolderIsTheMachinesFailure) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-// Writes beyond `bytes` fail in this process, as on a full disk, until this goes out of scope.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
-
 TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
   const ScratchFolder folder;
   const Image old = gradient(8, 8, 3);
@@ -80,7 +59,7 @@ TEST(Png, AFullDiskLeavesTheOldPictureAndNoHalfOne) {
   const Image large = gradient(400, 300, 3);
   ASSERT_GT(encode_png(large).size(), 4096u);
   {
-    const SmallDisk disk(4096);
+    const hysteron::test::SmallDisk disk(4096);
     EXPECT_EQ(error_of([&] { write_png(folder.file("a.png"), large); }).exit_code(), 1);
     EXPECT_EQ(error_of([&] { write_png(folder.file("b.png"), large); }).exit_code(), 1);
   }

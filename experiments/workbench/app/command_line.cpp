@@ -91,17 +91,18 @@ void refuse_unknown(const Command& command) {
   const std::vector<std::string> unknown = command.app->remaining();
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
-  const std::string prefix = std::string(command.experiment->name) + ": ";
+  const std::string experiment = command.experiment->name;
   if (word == "--resume" && command.experiment->simulates)
-    throw Error::request(prefix + "--resume is not built yet for single runs; compare has it");
-  if (!word.starts_with('-')) throw Error::request(prefix + "unexpected argument \"" + word + "\"");
+    throw Error::request("--resume is not built yet for single runs; compare has it").in(experiment);
+  if (!word.starts_with('-')) throw Error::request("unexpected argument \"" + word + "\"").in(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
   const std::string nearest = nearest_name(word, known);
-  throw Error::request(prefix + "unknown option " + word +
-                       (nearest.empty()
-                            ? std::string("; see hysteron ") + command.experiment->name + " --help"
-                            : "; did you mean " + nearest + "?"));
+  throw Error::request(
+      "unknown option " + word +
+      (nearest.empty() ? "; see hysteron " + experiment + " --help" : "; did you mean " + nearest + "?"))
+      .of(word, "")
+      .in(experiment);
 }
 
 // A word before the subcommand, or instead of one.
@@ -126,7 +127,7 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
   for (const auto& [path, option] : command.flags) {
     for (const std::string& text : option->reduced_results()) {
       if (path == "out" && text.empty())
-        throw Error::request(line.experiment + ": --out is empty: name where to write");
+        throw Error::request("--out is empty: name where to write").of("out", "").in(line.experiment);
       line.flags.push_back({path, text});
     }
   }
@@ -157,8 +158,8 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
     program.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw Error::request((chosen() ? chosen()->experiment->name + std::string(": ") : "") +
-                         one_line(error.what()));
+    const Error refused = Error::request(one_line(error.what()));
+    throw chosen() ? refused.in(chosen()->experiment->name) : refused;
   }
   if (!program.remaining().empty()) refuse_stray_word(program.remaining().front(), known);
   if (!chosen()) throw Error::request("needs a subcommand; see hysteron --help");

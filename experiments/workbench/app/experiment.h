@@ -49,8 +49,27 @@ struct Setup {
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});
 
-// Descriptions of bound keys, for Experiment::own_keys.
 std::vector<KeyDescription> descriptions(const Keys& keys);
+
+// For Experiment::own_keys: the keys of a table of rows, or of a function that binds a struct, each with the
+// struct's own default; then those that the functions `more` describe.
+template <class Owner, std::size_t n>
+std::vector<KeyDescription> descriptions_of(const KeyRow<Owner> (&rows)[n]) {
+  Owner owner;
+  return descriptions(bind(rows, owner));
+}
+template <class Owner>
+std::vector<KeyDescription> descriptions_of(Keys (&bound)(Owner&)) {
+  Owner owner;
+  return descriptions(bound(owner));
+}
+template <auto& source, auto... more>
+std::vector<KeyDescription> own_keys_of() {
+  std::vector<KeyDescription> keys = descriptions_of(source);
+  for (const auto& list : std::initializer_list<std::vector<KeyDescription>>{more()...})
+    keys.insert(keys.end(), list.begin(), list.end());
+  return keys;
+}
 
 // For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
 // the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws

@@ -6,19 +6,31 @@
 
 namespace hysteron::experiments {
 
+struct Headline {
+  const char* metric;
+  const char* words;       // "length of ridges"
+  const char* unit;        // that it is shown in
+  const char* format;      // of fmt, where its errors are not known
+  double scale = 1;        // from the metric's unit to the one that is shown
+  bool has_errors = true;  // --errors repeats the run for it
+};
+
 struct Headlines {
   std::string experiment;
-  std::vector<std::string> metrics;
+  std::vector<Headline> all;         // in the order in which they are shown
   bool equilibria = false;           // found at loads that --step does not set
   bool own_mesh = false;             // the experiment cuts its mesh, whatever --mesh and --seed say
   std::string release{};             // key of how the cloth is let go, where that matters
   std::vector<std::string> paths{};  // its values; the first that is not the run's is the other path
+
+  // Those whose errors can be measured.
+  std::vector<std::string> with_errors() const;
 };
 
-// Null for an experiment without.
-const Headlines* headlines_of(const std::string& experiment);
+// None of an experiment without.
+const Headlines& headlines_of(const std::string& experiment);
 
-// Error::request unless the experiment has headlines, whose errors can be measured.
+// Error::request unless errors of the experiment's headlines can be measured.
 void check_errors(const std::string& experiment);
 
 }  // namespace hysteron::experiments

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
 

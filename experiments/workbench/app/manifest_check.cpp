@@ -1,6 +1,7 @@
-#include "experiments/workbench/app/manifest_check.h"
+#include "experiments/workbench/app/manifest_file.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "sim/base/error.h"

@@ -83,6 +83,12 @@ Keys bind_output_options(Options& options) {
   return keys;
 }
 
+Keys with_output_options(Keys own, Options& options) {
+  const Keys output = bind_output_options(options);
+  own.insert(own.end(), output.begin(), output.end());
+  return own;
+}
+
 void check_options(const Options& options) {
   if (!drawable(options.width()) || !drawable(options.height())) {
     throw Error::request("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +

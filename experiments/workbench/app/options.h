@@ -42,6 +42,7 @@ struct Options {
 Keys bind_options(Options& options);
 // Those of experiments that simulate nothing: out, no-images, quick, quiet, json.
 Keys bind_output_options(Options& options);
+Keys with_output_options(Keys own, Options& options);
 
 // A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction: Error::request.
 void check_options(const Options& options);

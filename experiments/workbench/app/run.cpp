@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <ctime>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -24,20 +26,24 @@ std::string utc_now() {
   return text;
 }
 
-// What is known at the start, in the order in which the manifest shows it.
-Json first_entries(const CommandLine& line, const Json& scene) {
-  Json entries;
-  entries["hysteron"] = {{"version", kVersion}, {"commit", kGitCommit}, {"dirty", kGitDirty}};
-  entries["experiment"] = line.experiment;
-  entries["command"] = line.command;
-  entries["started"] = utc_now();
-  entries["scene"] = scene;
-  for (const char* key : {"device", "renderer", "positions"}) entries[key] = nullptr;
-  for (const char* key : {"precision", "element", "law"}) entries[key] = scene.value(key, Json());
-  for (const char* key : {"triangles", "hinges", "steps", "seconds_simulated"}) entries[key] = nullptr;
-  entries["wall_seconds"] = nullptr;
-  for (const char* key : {"bytes_device", "energy", "state_hash"}) entries[key] = nullptr;
-  return entries;
+// What is known at the start.
+Manifest first_entries(const CommandLine& line, const Json& scene) {
+  const auto text = [&](const char* key) {
+    return scene.contains(key) && scene[key].is_string() ? std::optional(scene[key].get<std::string>())
+                                                         : std::nullopt;
+  };
+  Manifest manifest;
+  manifest.version = kVersion;
+  manifest.commit = kGitCommit;
+  manifest.dirty = kGitDirty;
+  manifest.experiment = line.experiment;
+  manifest.command = line.command;
+  manifest.started = utc_now();
+  manifest.keys = std::make_shared<const Json>(scene);
+  manifest.precision = text("precision");
+  manifest.element = text("element");
+  manifest.law = text("law");
+  return manifest;
 }
 
 struct FirstRun {
@@ -67,7 +73,7 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys)
     : folder_(options.out, line),
       json_(options.json),
       quiet_(options.quiet),
-      entries_(first_entries(line, keys)) {
+      manifest_(first_entries(line, keys)) {
   remember_first(folder(), json_);
   write_manifest(false);
 }
@@ -85,9 +91,9 @@ Run::~Run() {
 const fs::path& Run::first_folder() { return first_run().folder; }
 
 fs::path Run::path(const std::string& name) {
-  if (std::count(files_.begin(), files_.end(), name)) return folder() / name;
+  if (std::count(manifest_.files.begin(), manifest_.files.end(), name)) return folder() / name;
   const fs::path file = folder_.place_for(name), relative = name;
-  files_.push_back(name);
+  manifest_.files.push_back(name);
   const bool is_new =
       known_.insert(is_numbered(relative) ? relative.parent_path() / relative.extension() : relative).second;
   if (is_new && !finished_) write_manifest(false);
@@ -96,16 +102,11 @@ fs::path Run::path(const std::string& name) {
 
 void Run::forget(const std::string& name) {
   std::error_code ignored;
-  if (std::erase(files_, name) > 0) fs::remove(folder() / name, ignored);
+  if (std::erase(manifest_.files, name) > 0) fs::remove(folder() / name, ignored);
 }
 
-void Run::note(const std::string& key, Json value) { entries_[key] = std::move(value); }
-
-void Run::metric(const std::string& name, Json value) { metrics_[name] = std::move(value); }
-
-void Run::energy(const std::vector<std::pair<std::string, double>>& terms) {
-  entries_["energy"] = Json::object();
-  for (const auto& [name, joules] : terms) entries_["energy"][name] = joules;
+void Run::note(const std::string& key, const Json& value) {
+  manifest_.own.emplace_back(key, std::make_shared<const Json>(value));
 }
 
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
@@ -117,7 +118,7 @@ void Run::plot(const std::string& name, const std::function<void(const fs::path&
     draw(folder() / name);
   } catch (const Error& error) {
     for (const char* ending : {".png", ".svg"}) forget(name + ending);
-    entries_["plots_missing"].push_back(name + ": " + error.what());
+    manifest_.plots_missing.push_back(name + ": " + error.what());
     progress(name + ": " + error.what());
   }
 }
@@ -126,28 +127,28 @@ void Run::progress(const std::string& line) const {
   if (!quiet_) std::cerr << line << std::endl;
 }
 
-Json Run::manifest(bool complete) const {
-  Json all = entries_;
-  Json& seconds = all["wall_seconds"];
-  seconds["total"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  for (const char* stage : kStages) seconds[stage] = 0.0;
-  for (const auto& [stage, spent] : seconds_) seconds[stage] = spent;
-  all["metrics"] = metrics_;
-  all["files"] = files_;
-  all["complete"] = complete;
-  return all;
+Json Run::to_write(bool complete) const {
+  Manifest all = manifest_;
+  all.wall_seconds = {
+      {"total", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()}};
+  std::map<std::string, double> others = seconds_;
+  for (const char* stage : kStages) {
+    all.wall_seconds.emplace_back(stage, others[stage]);
+    others.erase(stage);
+  }
+  all.wall_seconds.insert(all.wall_seconds.end(), others.begin(), others.end());
+  all.complete = complete;
+  return to_json(all);
 }
 
 void Run::write_manifest(bool complete) const {
-  AtomicFile file((folder() / "manifest.json").string());
-  file.stream() << manifest(complete).dump(2) << "\n";
-  file.commit();
+  write_text(folder() / "manifest.json", to_write(complete).dump(2) + "\n");
 }
 
 void Run::finish() {
   write_manifest(true);
   finished_ = true;
-  if (json_) std::cout << manifest(true).dump(2) << std::endl;
+  if (json_) std::cout << to_write(true).dump(2) << std::endl;
 }
 
 }  // namespace hysteron::experiments

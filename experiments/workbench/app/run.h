@@ -5,17 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/app/run_folder.h"
 
 namespace hysteron::experiments {
-
-using Json = nlohmann::ordered_json;
 
 // "0.1.0 (commit 1f3a..., modified)"
 std::string program_version();
@@ -44,18 +41,16 @@ class Run {
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
 
-  // Entries of the manifest's top level: device, renderer, positions, triangles, hinges, steps,
-  // seconds_simulated, bytes_device, state_hash, and others.
-  void note(const std::string& key, Json value);
+  // What is known so far.  Its wall_seconds, plots_missing, files and complete are the run's own.
+  Manifest& manifest() { return manifest_; }
+  const Manifest& manifest() const { return manifest_; }
+  // An entry that only this experiment has.
+  void note(const std::string& key, const Json& value);
   // A result.  Its name ends in its unit, counts and booleans excepted: "drape_coefficient_percent".
-  void metric(const std::string& name, Json value);
-  const Json& metrics() const { return metrics_; }
-  // What was noted under that key; null if nothing was.
-  Json noted(const std::string& key) const { return entries_.value(key, Json()); }
-  // The ledger's closing balance, term by term [J].
-  void energy(const std::vector<std::pair<std::string, double>>& terms);
+  void metric(const std::string& name, MetricValue value) { manifest_.metrics.set(name, std::move(value)); }
+  const Metrics& metrics() const { return manifest_.metrics; }
 
-  // Adds to wall_seconds of a stage (membrane, bending, solve, contact, history, render, encode, io, or
+  // Adds to wall_seconds of a stage (membrane, bending, solve, contact, history, render, encode, io, or any
   // other).
   void add_seconds(const std::string& stage, double seconds);
   // Measures from now until the end of the returned object's life.
@@ -88,15 +83,13 @@ class Run {
   void finish();
 
  private:
-  Json manifest(bool complete) const;
+  Json to_write(bool complete) const;
   void write_manifest(bool complete) const;
 
   RunFolder folder_;
   bool json_, quiet_, finished_ = false;
-  Json entries_;  // of the manifest, in its order; null where not known
-  Json metrics_ = Json::object();
+  Manifest manifest_;
   std::map<std::string, double> seconds_;
-  std::vector<std::string> files_;
   std::set<std::filesystem::path>
       known_;  // files and, by folder and ending, sequences, in the manifest on disk
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -7,18 +7,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
-#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kManifest = "manifest.json";
 constexpr const char* kElsewhere = ": give another folder (--out)";
@@ -55,26 +53,22 @@ bool is_behind_a_link(const fs::path& folder, const fs::path& name) {
   return false;
 }
 
-// The run before, by its manifest; null without one.
-Json run_before(const fs::path& folder) {
+// The run before, by its manifest.
+std::optional<Manifest> run_before(const fs::path& folder) {
   const fs::path file = folder / kManifest;
   if (!stands(file)) return {};
-  const Json manifest = is_plain(file) ? json_or_none(file) : Json();
-  if (!manifest.is_object() || !manifest.contains("hysteron"))
-    throw Error::request(file.string() + " is not of a run and is not replaced" + kElsewhere);
+  std::optional<Manifest> manifest;
+  if (is_plain(file)) manifest = manifest_or_none(file);
+  if (!manifest) throw Error::request(file.string() + " is not of a run and is not replaced" + kElsewhere);
   return manifest;
 }
 
 // Names of its files, and of the page that `hysteron report` may have written since.
-std::vector<fs::path> files_of(const Json& manifest, const fs::path& folder) {
-  if (!manifest.is_object()) return {};
+std::vector<fs::path> files_of(const std::optional<Manifest>& manifest, const fs::path& folder) {
+  if (!manifest) return {};
   std::vector<fs::path> names = {"report.html"};
-  if (!manifest.contains("files")) return names;
-  for (const Json& file : manifest["files"]) {
-    if (!file.is_string()) continue;
-    const fs::path name = file.get<std::string>();
+  for (const fs::path name : manifest->files)
     if (stays_inside(name) && !is_behind_a_link(folder, name)) names.push_back(name);
-  }
   return names;
 }
 
@@ -111,12 +105,12 @@ void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& lis
   }
 }
 
-void remove_run(const Json& manifest, const fs::path& folder) {
+void remove_run(const std::optional<Manifest>& manifest, const fs::path& folder) {
   const std::vector<fs::path> names = files_of(manifest, folder);
   std::error_code ignored;
   for (const fs::path& name : names)
     if (is_plain(folder / name)) fs::remove(folder / name, ignored);
-  if (manifest.is_object() && !manifest.value("complete", false)) remove_interrupted(folder, names);
+  if (manifest && !manifest->complete) remove_interrupted(folder, names);
   for (const fs::path& name : names)
     if (name.has_parent_path() && fs::is_empty(folder / name.parent_path(), ignored))
       fs::remove(folder / name.parent_path(), ignored);
@@ -162,7 +156,7 @@ FolderLock::FolderLock(const fs::path& folder)
 FolderLock::~FolderLock() { ::close(handle_); }
 
 RunFolder::RunFolder(const fs::path& path, const CommandLine& line) : path_(made(path)), lock_(path) {
-  const Json before = run_before(path_);
+  const std::optional<Manifest> before = run_before(path_);
   refuse_inputs(line, path_, files_of(before, path_));
   remove_run(before, path_);
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/workbench/pages/figure_captions.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/simulated_run.h"
@@ -36,12 +37,6 @@ const std::map<std::string, std::string>& meanings() {
        "root mean square of the curvature that is left if the cloth is let go"},
       {"max_stretch_percent", "largest stretch of an edge"}};
   return kMeanings;
-}
-
-std::string question_of(const std::string& name) {
-  for (const Experiment& experiment : experiments())
-    if (experiment.name == name) return experiment.question;
-  return name;
 }
 
 // In the order in which they are shown, those that a column shows.
@@ -82,15 +77,10 @@ std::string columns_text(const std::vector<SweepColumn>& columns) {
 
 std::string facts_text(const std::vector<SweepColumn>& columns) {
   std::vector<std::string> names;
-  std::vector<const Json*> manifests;
+  std::vector<const Manifest*> manifests;
   for (const SweepColumn& c : columns)
-    if (c.manifest.is_object()) names.push_back(c.name), manifests.push_back(&c.manifest);
+    if (c.manifest) names.push_back(c.name), manifests.push_back(&*c.manifest);
   return facts_of(names, manifests);
-}
-
-std::string first_upper(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
 }
 
 // "plot_tip_height.png" is "tip height".
@@ -103,19 +93,12 @@ std::string plotted(const std::string& stem) {
 // What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
 std::string shown_in(const std::string& stem, const std::vector<SweepColumn>& columns) {
   for (const SweepColumn& c : columns)
-    if (c.manifest.is_object())
-      for (const Json& curve : c.manifest.value("curves", Json::array()))
-        if (curve.at("plot") == stem) return curve.value("caption", "");
+    if (c.manifest)
+      for (const Curve& curve : c.manifest->curves)
+        if (curve.plot == stem) return curve.caption;
   const auto metric = meanings().find(stem.substr(std::string("plot_").size()));
   if (metric != meanings().end()) return "A bar for each column: " + metric->second + ".";
   return first_upper(plotted(stem)) + " against time, a line for each column.";
-}
-
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences)
-    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
-  return text;
 }
 
 }  // namespace
@@ -125,15 +108,17 @@ void write_comparison_captions(Run& run, const ComparisonPage& page, const std::
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
-               numbers_text(columns), joined(page.notes), facts_text(columns),
-               origin_words(command, columns.front().manifest)})}};
+               numbers_text(columns), joined(page.notes, " "), facts_text(columns),
+               origin_words(command, columns.front().manifest ? &*columns.front().manifest : nullptr)},
+              " ")}};
   std::vector<std::string> plots;
   for (const fs::path& file : files_ending(run.folder(), ".png"))
     if (is_plot(file)) plots.push_back(file.stem().string());
   for (const std::string& stem : plots) {
     figures.push_back({stem + ".png", page.title + ": " + plotted(stem),
                        joined({shown_in(stem, columns), columns_text(columns),
-                               "Runs, numbers and command are those of sheet.png."})});
+                               "Runs, numbers and command are those of sheet.png."},
+                              " ")});
   }
   write_captions(run.path("README.md"), page.title,
                  "What the figures of this folder show, in words from the runs' manifests.", figures);

@@ -1,8 +1,9 @@
 #include "experiments/workbench/compare/comparison_page.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -26,12 +27,12 @@ constexpr std::size_t kMostNumbers = 5;
 constexpr const char* kDifference = "difference";  // the look of it
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
 
-const Json& moments(const SweepColumn& column) { return column.manifest.at("frames").at("moments"); }
-double second(const SweepColumn& column, std::size_t frame) {
-  return moments(column).at(frame).at("s").get<double>();
+const std::vector<Frames::Moment>& moments(const SweepColumn& column) {
+  return column.manifest->frames->moments;
 }
+double second(const SweepColumn& column, std::size_t frame) { return moments(column).at(frame).time; }
 bool has_frames(const SweepColumn& column) {
-  return column.manifest.is_object() && column.manifest.contains("frames") && !moments(column).empty();
+  return column.manifest && column.manifest->frames && !moments(column).empty();
 }
 
 // The picture nearest to a time, the last one where the run had ended before.
@@ -44,11 +45,8 @@ std::size_t frame_at(const SweepColumn& column, double time) {
 
 // The first look's pictures stand in frames/.
 fs::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame) {
-  const Json& looks = column.manifest.at("frames").at("looks");
-  const std::string folder = looks.begin().key() == look ? "frames" : "frames-" + look;
-  char name[16];
-  std::snprintf(name, sizeof name, "%04zu.png", frame);
-  return column.folder / folder / name;
+  const std::string folder = column.manifest->frames->looks.at(0).name == look ? "frames" : "frames-" + look;
+  return column.folder / folder / fmt::format("{:04}.png", frame);
 }
 
 // Of the column that went on longest, spread evenly; the first picture is the same in all columns.
@@ -66,21 +64,14 @@ std::vector<double> times_of(const std::vector<SweepColumn>& columns, int rows) 
   return times;
 }
 
-std::string text_of(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string moment_text(const std::vector<SweepColumn>& columns, double time) {
   for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
-    const Json& moment = moments(c).at(frame_at(c, time));
-    if (std::abs(moment.at("s").get<double>() - time) > 1e-9) continue;
-    const std::string phase = moment.value("phase", "");
-    return text_of("t = %.2f s", time) + (phase.empty() ? "" : ", " + phase);
+    const Frames::Moment& moment = moments(c).at(frame_at(c, time));
+    if (std::abs(moment.time - time) > 1e-9) continue;
+    return fmt::format("t = {:.2f} s{}{}", time, moment.phase.empty() ? "" : ", ", moment.phase);
   }
-  return text_of("t = %.2f s", time);
+  return fmt::format("t = {:.2f} s", time);
 }
 
 struct Drawn {
@@ -97,7 +88,7 @@ struct Drawn {
       row.cells.back().image = render::read_png(picture_of(c, page.look, frame));
       if (time - second(c, frame) > 1e-9)
         row.cells.back().caption =
-            text_of(c.stopped.empty() ? "at rest since %.2f s" : "stopped at %.2f s", second(c, frame));
+            fmt::format("{} {:.2f} s", c.stopped.empty() ? "at rest since" : "stopped at", second(c, frame));
     }
     return row;
   }
@@ -118,15 +109,14 @@ struct Drawn {
 
   static render::ComparisonCell of_pictures(const render::Image& image, const render::Image& to) {
     return {render::heat_map(image, to, kDifferenceScale),
-            text_of("%.2f %% of the pixels differ by more than 8",
-                    render::compare(image, to).pixels_over_8_percent)};
+            fmt::format("{:.2f} % of the pixels differ by more than 8",
+                        render::compare(image, to).pixels_over_8_percent)};
   }
 
   static render::ComparisonCell of_curvature(const SweepColumn& column, double time) {
     const std::size_t frame = frame_at(column, time);
-    const Json& moment = moments(column).at(frame);
     return {render::read_png(picture_of(column, kDifference, frame)),
-            text_of("rms %.3g 1/m", moment.at("difference_rms_per_m").get<double>())};
+            fmt::format("rms {:.3g} 1/m", moments(column).at(frame).difference_rms.value())};
   }
 
   render::ComparisonRow outlines() const {
@@ -149,11 +139,9 @@ struct Drawn {
 std::optional<render::ColorBar> bar_of(const std::vector<SweepColumn>& columns, const std::string& look) {
   for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
-    const Json bar = c.manifest.at("frames").at("looks").value(look, Json());
-    if (!bar.is_object()) continue;
-    render::ColorBar result{map_of(look), bar.at("low").get<double>(), bar.at("high").get<double>(),
-                            bar.at("label").get<std::string>(), bar.at("unit").get<std::string>()};
-    return result;
+    for (const auto& [name, bar] : c.manifest->frames->looks)
+      if (name == look && bar)
+        return render::ColorBar{map_of(look), bar->low, bar->high, bar->label, bar->unit};
   }
   return {};
 }
@@ -166,7 +154,7 @@ render::ComparisonSheet head_of(const ComparisonPage& page, const std::vector<Sw
   for (std::size_t c = 0; c < columns.size(); ++c)
     sheet.columns.push_back({columns[c].name, numbers_of(columns[c]), render::method_color(c)});
   for (const SweepColumn& c : columns)
-    if (has_frames(c)) sheet.metres_per_pixel = c.manifest.at("frames").at("m_per_pixel").get<double>();
+    if (has_frames(c)) sheet.metres_per_pixel = c.manifest->frames->metres_per_pixel;
   sheet.scale_note = "at the cloth's middle";
   return sheet;
 }
@@ -197,20 +185,18 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
     if (frames > 1) rate = static_cast<double>(frames - 1) / (second(c, frames - 1) - second(c, 0));
   }
   for (std::size_t f = 0; f < frames; ++f) {
-    char name[32];
-    std::snprintf(name, sizeof name, "film/%04zu.png", f);
-    render::write_png(run.path(name), strip_of(page, columns, f));
+    render::write_png(run.path(fmt::format("film/{:04}.png", f)), strip_of(page, columns, f));
   }
   const std::string name = "film." + page.video, strips = (run.folder() / "film" / "%04d.png").string();
-  std::vector<std::string> words = {"ffmpeg", "-y",  "-loglevel", "error", "-framerate", text_of("%g", rate),
-                                    "-i",     strips};
+  std::vector<std::string> words = {
+      "ffmpeg", "-y", "-loglevel", "error", "-framerate", fmt::format("{:g}", rate), "-i", strips};
   if (page.video == "mp4")
     words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
   words.push_back(run.path(name).string());
   const ProcessResult result = run_process(words, "");
   if (result.started && result.exit_code == 0) return;
   run.forget(name);
-  run.note("film_missing", result.started ? result.first_error_line : "ffmpeg is not installed");
+  run.manifest().film_missing = result.started ? result.first_error_line : "ffmpeg is not installed";
 }
 
 // What each experiment is asked for; then what any run has.
@@ -227,13 +213,6 @@ constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",
                                          "residual_curvature_rms_per_m",
                                          "max_stretch_percent"};
 
-// The named list of the first column that has it.
-Json first_list(const std::vector<SweepColumn>& columns, const char* name) {
-  for (const SweepColumn& c : columns)
-    if (c.manifest.is_object() && c.manifest.contains(name)) return c.manifest[name];
-  return Json::array();
-}
-
 // The plot with a line for each column, from a file of its folder; none where the file has no rows.
 void plot_columns(Run& run, const std::string& name, render::Plot plot,
                   const std::vector<SweepColumn>& columns,
@@ -243,9 +222,7 @@ void plot_columns(Run& run, const std::string& name, render::Plot plot,
     if (series.x.empty()) continue;
     series.label = columns[c].name;
     const render::Rgb8 color = render::method_color(c);
-    char hex[8];
-    std::snprintf(hex, sizeof hex, "#%02X%02X%02X", color[0], color[1], color[2]);
-    series.color = hex;
+    series.color = fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
     if (c >= render::kMethodColors && series.style == render::Series::Style::line)
       series.style = render::Series::Style::dashed;
     plot.series.push_back(std::move(series));
@@ -255,14 +232,24 @@ void plot_columns(Run& run, const std::string& name, render::Plot plot,
 
 render::Series read_series(const SweepColumn& column, const std::string& file, const std::string& x,
                            const std::string& y) {
-  if (!column.manifest.is_object() || !fs::exists(column.folder / file)) return {};
+  if (!column.manifest || !fs::exists(column.folder / file)) return {};
   return render::series_from_csv(column.folder / file, x, y, "");
+}
+
+// What the first column notes that notes anything: lists of series, of curves.
+template <class List>
+List first_list(const std::vector<SweepColumn>& columns, List (*noted)(const Manifest&)) {
+  for (const SweepColumn& c : columns)
+    if (c.manifest && !noted(*c.manifest).empty()) return noted(*c.manifest);
+  return {};
 }
 
 // The experiment's own columns of metrics.csv against time.
 void plot_series(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
-  for (const Json& series : first_list(columns, "series")) {
-    const std::string name = series.get<std::string>(), word = name.substr(0, name.find(" ["));
+  using Names = std::vector<std::string>;
+  for (const std::string& name :
+       first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
+    const std::string word = name.substr(0, name.find(" ["));
     render::Plot plot{title, {"time [s]"}, {name}};
     std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
     plot_columns(run, "plot_" + word, plot, columns,
@@ -272,11 +259,11 @@ void plot_series(Run& run, const std::string& title, const std::vector<SweepColu
 
 // Tables of its own that the experiment names in its manifest.
 void plot_curves(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
-  for (const Json& curve : first_list(columns, "curves")) {
-    const std::string x = curve.at("x"), y = curve.at("y");
-    const render::Plot plot{title, {x}, {y, curve.value("logarithmic", false)}};
-    plot_columns(run, curve.at("plot"), plot, columns, [&](const SweepColumn& c) {
-      render::Series series = read_series(c, curve.at("file"), x, y);
+  for (const Curve& curve :
+       first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
+    const render::Plot plot{title, {curve.x}, {curve.y, curve.logarithmic}};
+    plot_columns(run, curve.plot, plot, columns, [&](const SweepColumn& c) {
+      render::Series series = read_series(c, curve.file, curve.x, curve.y);
       series.style = render::Series::Style::line_and_points;
       return series;
     });
@@ -286,12 +273,11 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
 // Those of kFirstNumbers that stand below a column.
 std::vector<std::string> metrics_of(const SweepColumn& column) {
   std::vector<std::string> keys;
-  if (!column.manifest.is_object()) return keys;
-  const Json metrics = column.manifest.value("metrics", Json::object());
+  if (!column.manifest) return keys;
+  const Metrics& metrics = column.manifest->metrics;
   const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
   for (const char* key : kFirstNumbers)
-    if (metrics.contains(key) && (metrics[key].is_number() || metrics[key].is_string()) && keys.size() < most)
-      keys.push_back(key);
+    if ((metrics[key].is_number() || metrics[key].is_text()) && keys.size() < most) keys.push_back(key);
   return keys;
 }
 
@@ -301,11 +287,9 @@ void plot_answers(Run& run, const std::string& title, const std::vector<SweepCol
     render::Plot plot{title, {""}, {split_unit(key).text()}};
     std::vector<double> values;
     for (const SweepColumn& c : columns) {
-      if (!c.manifest.is_object()) continue;
-      const Json value = c.manifest.value("metrics", Json::object()).value(key, Json());
-      if (!value.is_number()) continue;
+      if (!c.manifest || !c.manifest->metrics[key].is_number()) continue;
       plot.x.categories.push_back(c.name);
-      values.push_back(value.get<double>());
+      values.push_back(c.manifest->metrics[key].number());
     }
     if (values.size() < 2) continue;
     plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
@@ -337,21 +321,19 @@ std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns) 
 std::vector<std::string> numbers_of(const SweepColumn& column) {
   std::vector<std::string> lines;
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
-  if (!column.manifest.is_object()) return lines;
-  const Json metrics = column.manifest.value("metrics", Json::object());
+  if (!column.manifest) return lines;
+  const Metrics& metrics = column.manifest->metrics;
   for (const std::string& key : metrics_of(column)) {
-    lines.push_back(metrics[key].is_string() ? split_unit(key).name + " " + metrics[key].get<std::string>()
-                                             : metric_text(key, metrics[key].get<double>()));
+    lines.push_back(metrics[key].is_text() ? split_unit(key).name + " " + metrics[key].text()
+                                           : metric_text(key, metrics[key].number()));
     if (is_headline(metrics, key)) lines.push_back(headline_words(metrics, key).errors);
   }
-  const Json seconds = column.manifest.value("wall_seconds", Json::object());
-  const Json steps = column.manifest.value("steps", Json());
+  constexpr const char* kStepping[] = {"membrane", "bending", "solve", "contact", "history"};
   double stepping = 0;
-  for (const char* stage : {"membrane", "bending", "solve", "contact", "history"})
-    if (seconds.is_object() && seconds.contains(stage) && seconds[stage].is_number())
-      stepping += seconds[stage].get<double>();
-  if (steps.is_number() && steps.get<double>() > 0)
-    lines.push_back(text_of("%.3g ms per step", 1e3 * stepping / steps.get<double>()));
+  for (const auto& [stage, seconds] : column.manifest->wall_seconds)
+    if (std::count(std::begin(kStepping), std::end(kStepping), stage)) stepping += seconds;
+  const double steps = static_cast<double>(column.manifest->steps.value_or(0));
+  if (steps > 0) lines.push_back(fmt::format("{:.3g} ms per step", 1e3 * stepping / steps));
   return lines;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
@@ -11,8 +10,8 @@ namespace hysteron::experiments {
 
 struct ComparisonRow {
   std::string name;
-  std::vector<std::pair<std::string, Json>> metrics;  // what is no finite number is left out
-  std::string stopped;                                // why it could not go on; empty: complete
+  Metrics metrics;      // what is no number is left out
+  std::string stopped;  // why it could not go on; empty: complete
 };
 
 // `varied` heads the first column: "law", "fabric".  Then a column for each metric that any row has, in the

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::size_t kDrawsForAMean = 3;
 
-bool is_known(const Json& metrics, const std::string& name) {
-  return metrics.contains(name) && metrics[name].is_number() && std::isfinite(metrics[name].get<double>());
-}
-
 // "--step=0.0005 --seed=2"
 std::string words_of(const std::vector<Flag>& flags) {
   std::string words;
@@ -24,11 +20,11 @@ std::string words_of(const std::vector<Flag>& flags) {
 
 class Estimate {
  public:
-  Estimate(const std::vector<std::string>& headlines, const Json& metrics,
+  Estimate(const std::vector<std::string>& headlines, const Metrics& metrics,
            const std::vector<Repeated>& repeats)
       : run_(metrics), repeats_(repeats) {
     for (const std::string& name : headlines)
-      if (is_known(metrics, name)) names_.push_back(name);
+      if (metrics[name].is_number()) names_.push_back(name);
     for (const Repeated& r : repeats_) usable_.push_back(is_usable(r));
   }
 
@@ -62,24 +58,24 @@ class Estimate {
     for (std::size_t i = 0; i < repeats_.size(); ++i) {
       const std::string& own = repeats_[i].repeat.name;
       if (!usable_[i] || own.substr(0, own.find('-')) != kind) continue;
-      if (is_known(repeats_[i].metrics, name))
-        found.push_back(repeats_[i].metrics[name].get<double>());
+      if (const MetricValue& value = repeats_[i].metrics[name]; value.is_number())
+        found.push_back(value.number());
       else
         errors_.missing.push_back(own + " has no " + name);
     }
     return found;
   }
 
-  double of_run(const std::string& name) const { return run_[name].get<double>(); }
+  double of_run(const std::string& name) const { return run_[name].number(); }
 
   void single(const std::string& name, const std::string& kind, const char* ending) {
     const std::vector<double> found = values(name, kind);
-    errors_.metrics[name + ending] = found.empty() ? Json() : Json(std::abs(found[0] - of_run(name)));
+    errors_.metrics.set(name + ending, found.empty() ? MetricValue() : std::abs(found[0] - of_run(name)));
   }
 
   void draws(const std::string& name) {
     std::vector<double> all = values(name, "draw");
-    Json& error = errors_.metrics[name + kDrawError];
+    errors_.metrics.set(name + kDrawError, {});
     if (all.empty()) return;
     all.push_back(of_run(name));
     const double n = static_cast<double>(all.size());
@@ -88,10 +84,10 @@ class Estimate {
     mean /= n;  // of counts that are alike that count itself
     for (double value : all) squares += (value - mean) * (value - mean);
     const double deviation = std::sqrt(squares / (n - 1));
-    error = deviation;
+    errors_.metrics.set(name + kDrawError, deviation);
     if (all.size() <= kDrawsForAMean) return;  // the run itself is one of them
-    errors_.metrics[name + kDrawMean] = mean;
-    errors_.metrics[name + kDrawMeanError] = deviation / std::sqrt(n);
+    errors_.metrics.set(name + kDrawMean, mean);
+    errors_.metrics.set(name + kDrawMeanError, deviation / std::sqrt(n));
   }
 
   void path(const std::string& name) {
@@ -99,10 +95,10 @@ class Estimate {
                                    [](const Repeated& r) { return r.repeat.name == "path"; });
     if (!asked) return;
     const std::vector<double> found = values(name, "path");
-    errors_.metrics[name + kPathDifference] = found.empty() ? Json() : Json(found[0] - of_run(name));
+    errors_.metrics.set(name + kPathDifference, found.empty() ? MetricValue() : found[0] - of_run(name));
   }
 
-  const Json& run_;
+  const Metrics& run_;
   const std::vector<Repeated>& repeats_;
   std::vector<std::string> names_;
   std::vector<bool> usable_;
@@ -111,9 +107,10 @@ class Estimate {
 
 }  // namespace
 
-Errors errors_of(const std::string& experiment, const Json& metrics, const std::vector<Repeated>& repeats) {
-  const Headlines& headlines = *headlines_of(experiment);
-  Errors errors = Estimate(headlines.metrics, metrics, repeats).errors();
+Errors errors_of(const std::string& experiment, const Metrics& metrics,
+                 const std::vector<Repeated>& repeats) {
+  const Headlines& headlines = headlines_of(experiment);
+  Errors errors = Estimate(headlines.with_errors(), metrics, repeats).errors();
   const bool meshed =
       std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) { return r.repeat.name == "mesh"; });
   if (!meshed) errors.missing.push_back("mesh and draw: the cloth's triangles come from a file");

@@ -1,12 +1,12 @@
 #include "experiments/workbench/compare/errors.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/error_words.h"
-#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 
@@ -67,7 +67,9 @@ SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& rep
 std::string release_of(const Run& run, const Headlines& headlines) {
   const std::size_t dot = headlines.release.find('.');
   if (dot == std::string::npos) return "";
-  return run.noted(headlines.release.substr(0, dot)).at(headlines.release.substr(dot + 1));
+  for (const auto& [key, value] : run.manifest().own)
+    if (key == headlines.release.substr(0, dot)) return value->at(headlines.release.substr(dot + 1));
+  return "";
 }
 
 std::string changes_text(const std::vector<Flag>& flags) {
@@ -76,41 +78,34 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
-Json entry(const Json& manifest, const char* key) {
-  return manifest.is_object() ? manifest.value(key, Json()) : Json();
-}
-
-Json metrics_in(const Json& manifest) {
-  const Json metrics = entry(manifest, "metrics");
-  return metrics.is_object() ? metrics : Json::object();
+Metrics metrics_of(const SweepColumn& column) {
+  return column.manifest ? column.manifest->metrics : Metrics();
 }
 
 Repeated what_came_of(const Repeat& repeat, const SweepColumn& column, const Run& run) {
-  const Json state = entry(column.manifest, "state_hash");
-  return {repeat, metrics_in(column.manifest), column.stopped,
-          state.is_string() && state == run.noted("state_hash")};
+  const bool unchanged = column.manifest && column.manifest->state_hash &&
+                         column.manifest->state_hash == run.manifest().state_hash;
+  return {repeat, metrics_of(column), column.stopped, unchanged};
 }
 
 // errors.csv: a row for each repeat.
 void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<Repeat>& repeats,
                  const std::vector<SweepColumn>& columns) {
-  std::vector<std::string> head = {"repeat", "differs"};
+  std::vector<CsvField> head = {"repeat", "differs"};
   head.insert(head.end(), metrics.begin(), metrics.end());
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
-  AtomicFile file(run.path("errors.csv").string());
-  file.stream() << row_of(head);
+  CsvFile file(run.path("errors.csv"), head);
   for (std::size_t i = 0; i < repeats.size(); ++i) {
-    const Json found = metrics_in(columns[i].manifest);
-    std::vector<std::string> fields = {repeats[i].name, changes_text(repeats[i].changes)};
+    const Metrics found = metrics_of(columns[i]);
+    std::vector<CsvField> fields = {repeats[i].name, changes_text(repeats[i].changes)};
     for (const std::string& name : metrics) {
-      const Json value = found.value(name, Json());
-      fields.push_back(value.is_number() ? number_text(value.get<double>()) : "");
+      const MetricValue& value = found[name];
+      fields.push_back(value.is_number() ? number_text(value.number()) : "");
     }
-    const Json wall = entry(columns[i].manifest, "wall_seconds");
-    fields.push_back(wall.is_object() ? number_field(wall.value("total", 0.0)) : "");
-    fields.push_back(columns[i].stopped.empty() ? "1" : "0");
+    fields.push_back(columns[i].manifest ? CsvField(columns[i].manifest->total_seconds()) : CsvField(""));
+    fields.push_back(columns[i].stopped.empty());
     fields.push_back(columns[i].stopped);
-    file.stream() << row_of(fields);
+    file.row(fields);
   }
   file.commit();
 }
@@ -119,7 +114,7 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
 
 std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
                                int draws) {
-  const Headlines& headlines = *headlines_of(experiment);
+  const Headlines& headlines = headlines_of(experiment);
   std::vector<Repeat> repeats;
   const bool meshed = !from_a_file(scene);
   // The longest first: they run side by side.
@@ -137,7 +132,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
 void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const auto stage = run.stage("errors");
   run.keep();
-  const Headlines& headlines = *headlines_of(line.experiment);
+  const Headlines& headlines = headlines_of(line.experiment);
   const std::vector<Repeat> repeats =
       repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
   std::vector<SweepColumn> columns;
@@ -149,20 +144,15 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   jobs.go_on = true;
   run_columns(
       columns, jobs,
-      [&](const SweepColumn& column) {
-        run.progress("errors, " + column.name + ": " +
-                     (column.kept              ? "kept"
-                      : column.stopped.empty() ? "done"
-                                               : column.stopped));
-      },
+      [&](const SweepColumn& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
       [&](const std::string& line) { run.progress("errors: " + line); });
-  write_table(run, headlines.metrics, repeats, columns);
+  write_table(run, headlines.with_errors(), repeats, columns);
   std::vector<Repeated> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
   const Errors errors = errors_of(line.experiment, run.metrics(), found);
-  for (const auto& [name, value] : errors.metrics.items()) run.metric(name, value);
-  if (!errors.missing.empty()) run.note("errors_missing", errors.missing);
-  for (const std::string& name : headlines.metrics)
+  for (const auto& [name, value] : errors.metrics) run.metric(name, value);
+  run.manifest().errors_missing = errors.missing;
+  for (const std::string& name : headlines.with_errors())
     if (is_headline(run.metrics(), name)) run.progress(with_errors(run.metrics(), name));
   for (const std::string& sentence : errors.missing) run.progress("errors: " + sentence);
 }

@@ -24,7 +24,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
 // What came of one.
 struct Repeated {
   Repeat repeat;
-  Json metrics = Json::object();
+  Metrics metrics{};
   std::string stopped{};   // why it is not complete; empty: it is
   bool unchanged = false;  // it ended in the run's own state, bit for bit
 };
@@ -36,10 +36,10 @@ struct Repeated {
 //   _path_difference           its value there - the run's
 // An error that is not known is null, and a sentence says why.
 struct Errors {
-  Json metrics = Json::object();
+  Metrics metrics{};
   std::vector<std::string> missing;
 };
-Errors errors_of(const std::string& experiment, const Json& metrics, const std::vector<Repeated>& repeats);
+Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats);
 
 // Runs the repeats of a run whose metrics are known, adds its errors to them, the sentences as
 // `errors_missing`, and writes errors.csv.  Throws Error::machine.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -102,7 +103,7 @@ void write_table(Run& run, const std::string& varied, const std::vector<Finding>
   std::vector<ComparisonRow> rows;
   for (const Finding& f : all) {
     rows.push_back({f.law, {}, f.failed});
-    for (const auto& [name, value] : f.outcome.numbers) rows.back().metrics.emplace_back(name, value);
+    for (const auto& [name, value] : f.outcome.numbers) rows.back().metrics.set(name, value);
   }
   write_comparison_table(run, varied, rows);
 }
@@ -222,9 +223,7 @@ int compare_laws(const CommandLine& line, const Setup& setup, const Json& keys, 
     write_table(run, varied_of(page.laws), all);
   }
   if (!options.no_images) draw(run, page, all);
-  run.path("report.html");
-  run.finish();
-  write_report(run.folder());
+  finish_with_report(run);
   return 0;
 }
 

@@ -1,9 +1,10 @@
 #include "experiments/workbench/compare/sweep_columns.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
@@ -33,9 +35,8 @@ Json asked(const SweepColumn& column) {
 }
 
 bool is_finished(const SweepColumn& column) {
-  const Json manifest = json_or_none(column.folder / "manifest.json");
-  return manifest.is_object() && manifest.value("complete", false) &&
-         json_or_none(column.folder / kAsked) == asked(column);
+  const std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
+  return manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
 }
 
 // The name of the GPU with that number among those that this process itself is allowed.
@@ -68,10 +69,10 @@ void run_column(SweepColumn& column, int threads, int gpu, bool go_on) {
   std::error_code ignored;
   fs::remove(column.folder / kAsked, ignored);
   const ProcessResult result = run_process(command_of(column, threads, gpu), "");
-  column.manifest = json_or_none(column.folder / "manifest.json");
+  column.manifest = manifest_or_none(column.folder / "manifest.json");
   if (!result.started) throw Error::machine("cannot start the run " + column.name);
   if (go_on && result.exit_code != 0 && result.exit_code != 3) {
-    column.manifest = nullptr;  // of an earlier run
+    column.manifest.reset();  // of an earlier run
     column.stopped = reason_of(result);
     return;
   }
@@ -79,9 +80,7 @@ void run_column(SweepColumn& column, int threads, int gpu, bool go_on) {
   if (result.exit_code != 0 && result.exit_code != 3)
     throw Error::machine(column.name + ": " + result.first_error_line);
   if (result.exit_code == 3) column.stopped = reason_of(result);
-  AtomicFile file((column.folder / kAsked).string());
-  file.stream() << asked(column).dump(2) << "\n";
-  file.commit();
+  write_text(column.folder / kAsked, asked(column).dump(2) + "\n");
 }
 
 // The last whole line of a table that grows; "" before it has a row.
@@ -145,15 +144,15 @@ class Watch {
 
 }  // namespace
 
+std::string outcome_of(const SweepColumn& column) {
+  return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;
+}
+
 std::string progress_in(const fs::path& folder) {
   const std::string row = last_row(folder / "metrics.csv.part");
-  const Json manifest = json_or_none(folder / "manifest.json");
-  if (row.empty() || !manifest.is_object()) return "";
-  const Json all = manifest.value("scene", Json::object()).value("seconds", Json());
-  if (!all.is_number()) return "";
-  char text[60];
-  std::snprintf(text, sizeof text, "%.2f/%.4g s", std::strtod(row.c_str(), nullptr), all.get<double>());
-  return text;
+  const std::optional<Manifest> manifest = manifest_or_none(folder / "manifest.json");
+  if (row.empty() || !manifest || !manifest->scene.seconds) return "";
+  return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), *manifest->scene.seconds);
 }
 
 void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
@@ -181,7 +180,7 @@ void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
     SweepColumn& column = columns[i];
     column.kept = jobs.resume && is_finished(column);
     if (column.kept)
-      column.manifest = json_or_none(column.folder / "manifest.json");
+      column.manifest = manifest_or_none(column.folder / "manifest.json");
     else
       watched(i, its_threads);
     const std::lock_guard lock(one_at_a_time);

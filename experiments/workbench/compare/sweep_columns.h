@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
 
@@ -17,7 +19,7 @@ struct SweepColumn {
   // After run_columns():
   bool kept = false;    // from an earlier comparison
   std::string stopped;  // why it could not go on; empty: complete
-  nlohmann::ordered_json manifest;
+  std::optional<Manifest> manifest;
 };
 
 // What is not asked of the runs but of how they are run.
@@ -30,6 +32,9 @@ struct SweepJobs {
   int cores = 0;       // that they share; 0: all
   bool go_on = false;  // a run that is wrong or fails is only marked as stopped
 };
+
+// "kept", "done", or why it stopped.
+std::string outcome_of(const SweepColumn& column);
 
 // "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first moment.
 std::string progress_in(const std::filesystem::path& folder);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/gallery.h"
-#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"

@@ -5,18 +5,17 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
 
 // "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s" where rest was asked for and not reached, by metrics
 // `settled`, `fastest_m_per_s` and `settling_limit_m_per_s`; "" otherwise.
-std::string unrest_words(const Json& metrics);
+std::string unrest_words(const Metrics& metrics);
 
-// Lines on the results that the manifest's experiment is asked for, with `<metric>_stderr`,
-// `<metric>_step_error`, `_mesh_error` and `_draw_error` where it has them; a line for each law or fabric of
-// several.
-std::string result_words(const Json& manifest);
+// Lines on the results that the manifest's experiment is asked for, each with its errors where it has them; a
+// line for each law or fabric of several.
+std::string result_words(const Manifest& manifest);
 
 // result_words(), and the run's folder, page and pictures, as far as they are there.
 std::string closing_words(const std::filesystem::path& folder);

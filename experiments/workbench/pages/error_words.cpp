@@ -1,10 +1,12 @@
 #include "experiments/workbench/pages/error_words.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 
 namespace hysteron::experiments {
@@ -16,47 +18,68 @@ struct Source {
 };
 constexpr Source kSources[] = {{kStepError, "step"}, {kMeshError, "mesh"}, {kDrawError, "draw"}};
 
-bool is_number(const Json& metrics, const std::string& name) {
-  return metrics.contains(name) && metrics[name].is_number() && std::isfinite(metrics[name].get<double>());
-}
+bool is_number(const Metrics& metrics, const std::string& name) { return metrics[name].is_number(); }
 
 // The power of ten that an error is rounded to.
 int place_of(double error) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.0e", error);  // "8e-01"
-  return std::atoi(text + 2) - (text[0] == '1' ? 1 : 0);
+  const std::string text = fmt::format("{:.0e}", error);  // "8e-01"
+  return std::atoi(text.c_str() + 2) - (text[0] == '1' ? 1 : 0);
 }
 
 // To 10^place; small numbers in powers of ten.
 std::string rounded(double x, int place) {
   constexpr int kSmallest = -3;  // first digit's place
   const int first = x == 0 ? place : static_cast<int>(std::floor(std::log10(std::abs(x))));
-  char text[64];
-  if (x != 0 && first < kSmallest)
-    std::snprintf(text, sizeof text, "%.*e", std::max(0, first - place), x);
-  else
-    std::snprintf(text, sizeof text, "%.*f", std::max(0, -place), x);
-  return text;
+  const bool small = x != 0 && first < kSmallest;
+  return small ? fmt::format("{:.{}e}", x, std::max(0, first - place))
+               : fmt::format("{:.{}f}", x, std::max(0, -place));
 }
 
 std::string rounded_error(double error) { return error > 0 ? rounded(error, place_of(error)) : "0"; }
 
-// With the decimals of its largest error.
-std::string value_text(const Json& value, double largest) {
-  if (value.is_number_integer()) return value.dump();
-  if (largest > 0) return rounded(value.get<double>(), place_of(largest));
-  return shown(value);
+// With the decimals of its largest error, in another unit.
+std::string value_text(const MetricValue& value, double largest, double scale) {
+  if (value.is_integer() && scale == 1) return shown(value);
+  if (largest > 0) return rounded(scale * value.number(), place_of(largest));
+  return shown(scale == 1 ? value : MetricValue(scale * value.number()));
+}
+
+// Value and errors of a headline whose errors were asked for.
+HeadlineWords scaled_words(const Metrics& metrics, const std::string& name, double scale) {
+  const auto error_of = [&](const std::string& key) { return scale * std::abs(metrics[key].number()); };
+  HeadlineWords words;
+  double largest = 0;
+  std::string unknown;
+  for (const Source& source : kSources) {
+    const std::string key = name + source.ending;
+    if (is_number(metrics, key)) {
+      largest = std::max(largest, error_of(key));
+      words.errors = joined({words.errors, "± " + rounded_error(error_of(key)), source.word}, " ");
+    } else {
+      unknown += (unknown.empty() ? "" : " and ") + std::string(source.word);
+    }
+  }
+  if (!unknown.empty()) words.errors += (words.errors.empty() ? "" : ", ") + unknown + " error unknown";
+  if (const std::string path = name + kPathDifference; is_number(metrics, path))
+    words.errors += std::string(", other path ") + (metrics[path].number() < 0 ? "-" : "+") +
+                    rounded_error(error_of(path));
+  if (const std::string mean = name + kDrawMean, error = name + kDrawMeanError;
+      is_number(metrics, mean) && is_number(metrics, error))
+    words.errors += ", mean of draws " + value_text(metrics[mean], error_of(error), scale) + " ± " +
+                    rounded_error(error_of(error));
+  words.value = value_text(metrics[name], largest, scale);
+  return words;
 }
 
 }  // namespace
 
-bool is_headline(const Json& metrics, const std::string& name) {
+bool is_headline(const Metrics& metrics, const std::string& name) {
   return is_number(metrics, name) &&
          std::any_of(std::begin(kSources), std::end(kSources),
                      [&](const Source& source) { return metrics.contains(name + source.ending); });
 }
 
-std::string headline_of(const Json& metrics, const std::string& name) {
+std::string headline_of(const Metrics& metrics, const std::string& name) {
   for (const char* ending :
        {kStepError, kMeshError, kDrawError, kDrawMeanError, kDrawMean, kPathDifference}) {
     const std::string end = ending;
@@ -67,41 +90,32 @@ std::string headline_of(const Json& metrics, const std::string& name) {
   return "";
 }
 
-HeadlineWords headline_words(const Json& metrics, const std::string& name) {
-  HeadlineWords words;
+std::string HeadlineWords::text() const { return joined({value, unit, errors}, " "); }
+
+HeadlineWords headline_words(const Metrics& metrics, const std::string& name) {
+  HeadlineWords words = scaled_words(metrics, name, 1);
   words.unit = split_unit(name).unit;
-  double largest = 0;
-  std::string unknown;
-  for (const Source& source : kSources) {
-    const std::string key = name + source.ending;
-    if (is_number(metrics, key)) {
-      const double error = metrics[key].get<double>();
-      largest = std::max(largest, error);
-      words.errors += (words.errors.empty() ? "± " : " ± ") + rounded_error(error) + " " + source.word;
-    } else {
-      unknown += (unknown.empty() ? "" : " and ") + std::string(source.word);
-    }
-  }
-  if (!unknown.empty()) words.errors += (words.errors.empty() ? "" : ", ") + unknown + " error unknown";
-  if (is_number(metrics, name + kPathDifference)) {
-    const double difference = metrics[name + kPathDifference].get<double>();
-    words.errors +=
-        std::string(", other path ") + (difference < 0 ? "-" : "+") + rounded_error(std::abs(difference));
-  }
-  if (is_number(metrics, name + kDrawMean) && is_number(metrics, name + kDrawMeanError)) {
-    const double error = metrics[name + kDrawMeanError].get<double>();
-    words.errors +=
-        ", mean of draws " + value_text(metrics[name + kDrawMean], error) + " ± " + rounded_error(error);
-  }
-  words.value = value_text(metrics.at(name), largest);
   return words;
 }
 
-std::string with_errors(const Json& metrics, const std::string& name) {
-  if (!is_headline(metrics, name)) return metric_text(name, metrics.at(name).get<double>());
-  const HeadlineWords words = headline_words(metrics, name);
-  return split_unit(name).name + " " + words.value + (words.unit.empty() ? "" : " " + words.unit) + " " +
-         words.errors;
+HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
+  HeadlineWords words;
+  const std::string name = headline.metric, fitted = name + kStandardError;
+  if (is_headline(metrics, name)) {
+    words = scaled_words(metrics, name, headline.scale);
+  } else if (is_number(metrics, fitted)) {
+    const double error = headline.scale * std::abs(metrics[fitted].number());
+    words = {value_text(metrics[name], error, headline.scale), "", "± " + rounded_error(error)};
+  } else {
+    words.value = fmt::format(fmt::runtime(headline.format), headline.scale * metrics[name].number());
+  }
+  words.unit = headline.unit;
+  return words;
+}
+
+std::string with_errors(const Metrics& metrics, const std::string& name) {
+  if (!is_headline(metrics, name)) return metric_text(name, metrics[name].number());
+  return split_unit(name).name + " " + headline_words(metrics, name).text();
 }
 
 }  // namespace hysteron::experiments

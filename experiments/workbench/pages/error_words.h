@@ -4,7 +4,8 @@
 
 #include <string>
 
-#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
 
@@ -15,20 +16,26 @@ inline constexpr const char* kDrawError = "_draw_error";
 inline constexpr const char* kDrawMean = "_mean";
 inline constexpr const char* kDrawMeanError = "_mean_stderr";
 inline constexpr const char* kPathDifference = "_path_difference";
+// Of what the experiment fits itself.
+inline constexpr const char* kStandardError = "_stderr";
 
 // Whether the metric's errors were asked for.
-bool is_headline(const Json& metrics, const std::string& name);
+bool is_headline(const Metrics& metrics, const std::string& name);
 // The headline that this metric is an error, a mean or a difference of; "" if none.
-std::string headline_of(const Json& metrics, const std::string& name);
+std::string headline_of(const Metrics& metrics, const std::string& name);
 
 // A headline in parts.  Errors have one significant digit, two if the first is 1, and the value ends where
 // the largest of them does.  An error that could not be measured is said to be unknown.
 struct HeadlineWords {
   std::string value, unit, errors;  // "86.0", "%", "± 0.10 step ± 0.6 mesh ± 0.8 draw"
+  std::string text() const;         // one after the other
 };
-HeadlineWords headline_words(const Json& metrics, const std::string& name);
+HeadlineWords headline_words(const Metrics& metrics, const std::string& name);
+// In the unit that the headline is shown in; where no errors were asked for, with the standard error of its
+// fit, or alone.
+HeadlineWords headline_words(const Metrics& metrics, const Headline& headline);
 
 // Name, value, unit and errors in one line; without errors for a number that is no headline.
-std::string with_errors(const Json& metrics, const std::string& name);
+std::string with_errors(const Metrics& metrics, const std::string& name);
 
 }  // namespace hysteron::experiments

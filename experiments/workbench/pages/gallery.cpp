@@ -1,39 +1,29 @@
 #include "experiments/workbench/pages/gallery.h"
 
-#include <cctype>
 #include <set>
 #include <thread>
 
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
-#include "experiments/workbench/pages/manifest.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/parallel.h"
 
 namespace hysteron::experiments {
 namespace {
 
-std::string joined(const std::set<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "; ") + word;
-  return text;
-}
-
 void gather(const Exhibit& exhibit, std::set<std::string>& devices, std::set<std::string>& dates) {
-  const auto take = [&](const Json& manifest) {
-    if (manifest.contains("device") && manifest["device"].is_string())
-      devices.insert(shown(manifest["device"]));
-    dates.insert(manifest.value("started", "").substr(0, 10));
+  const auto take = [&](const std::optional<Manifest>& manifest) {
+    if (!manifest) return;
+    if (manifest->device) devices.insert(*manifest->device);
+    dates.insert(manifest->started.substr(0, 10));
   };
-  if (!exhibit.manifest.is_null()) take(exhibit.manifest);
-  for (const auto& [file, json] : exhibit.lists) {
-    if (is_manifest(json)) take(json);
-  }
+  take(exhibit.manifest);
+  for (const Exhibit::List& list : exhibit.lists) take(list.manifest);
   for (const Exhibit& part : exhibit.parts) gather(part, devices, dates);
 }
 
-std::string header(const std::vector<ExhibitGroup>& groups, PageForm form) {
+std::string facts_of(const std::vector<ExhibitGroup>& groups) {
   std::set<std::string> devices, dates;
   std::size_t folders = 0;
   for (const ExhibitGroup& group : groups) {
@@ -43,39 +33,23 @@ std::string header(const std::vector<ExhibitGroup>& groups, PageForm form) {
   dates.erase("");
   std::string facts = counted(folders, "folder") + " of results";
   if (!dates.empty()) facts += ", " + *dates.begin() + (dates.size() > 1 ? " to " + *dates.rbegin() : "");
-  if (!devices.empty()) facts += ". Devices: " + joined(devices);
-  return "<header><h1>hysteron: results</h1>\n<p class=\"about\">" + escaped(facts) +
-         (form == PageForm::linked
-              ? ". Every number and picture is read from the folders beside this page; a picture leads to "
-                "its "
-                "full size.</p></header>\n"
-              : ". Every number and picture was read from these folders; this page needs no other "
-                "file.</p></header>\n");
+  if (!devices.empty()) facts += ". Devices: " + join({devices.begin(), devices.end()}, "; ");
+  return facts;
+}
+
+// Where the page has its numbers from.
+std::string origin_of(PageForm form) {
+  return form == PageForm::linked
+             ? "Every number and picture is read from the folders beside this page; a picture "
+               "leads to its full size."
+             : "Every number and picture was read from these folders; this page needs no other "
+               "file.";
 }
 
 // "drape" as "Drape"; names of instruments stay names.
 std::string title_of(std::string experiment) {
   if (experiment == "kes") return "KES";
-  if (!experiment.empty()) experiment[0] = static_cast<char>(std::toupper(experiment[0]));
-  return experiment;
-}
-
-std::string contents(const std::vector<ExhibitGroup>& groups) {
-  std::string html = "<nav aria-label=\"Contents\">\n";
-  for (const ExhibitGroup& group : groups) {
-    html += "<div><b>" + escaped(title_of(group.experiment)) + "</b>\n";
-    for (const Exhibit& exhibit : group.exhibits)
-      html += "<a href=\"#" + anchor_of(exhibit) + "\">" + escaped(exhibit.name) + "</a>\n";
-    html += "</div>\n";
-  }
-  return html + "</nav>\n";
-}
-
-std::string question_of(const std::string& name) {
-  for (const Experiment& experiment : experiments()) {
-    if (experiment.name == name) return std::string("<p>") + escaped(experiment.question) + "</p>\n";
-  }
-  return "";
+  return first_upper(experiment);
 }
 
 // Pictures that are embedded take seconds to shrink: exhibits are made at the same time.
@@ -94,24 +68,25 @@ std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageF
 
 std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
   const std::vector<ExhibitGroup> groups = exhibits_in(folder);
-  const std::vector<std::string> exhibits = all_html(groups, form);
-  std::string body = header(groups, form) + contents(groups) + "<main>\n";
+  const std::vector<std::string> html = all_html(groups, form);
+  std::vector<Fields> sections;
   std::size_t next = 0;
   for (const ExhibitGroup& group : groups) {
-    body += "<section><h2>" + escaped(title_of(group.experiment)) + "</h2>\n" + question_of(group.experiment);
-    for (std::size_t i = 0; i < group.exhibits.size(); ++i) body += exhibits[next++];
-    body += "</section>\n";
+    std::vector<Fields> exhibits;
+    for (const Exhibit& exhibit : group.exhibits)
+      exhibits.push_back({{"anchor", anchor_of(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
+    sections.push_back({{"title", title_of(group.experiment)},
+                        {"question", question_of(group.experiment)},
+                        {"exhibits", exhibits}});
   }
-  return html_page("hysteron: results", body + "</main>\n", "gallery");
+  const std::string body =
+      filled("gallery.html", {{"facts", facts_of(groups)}, {"from", origin_of(form)}, {"groups", sections}});
+  return html_page("hysteron: results", body, "gallery");
 }
 
 std::filesystem::path write_gallery(const std::filesystem::path& folder, PageForm form) {
-  const std::string page = gallery_page(folder, form);
-  const std::filesystem::path path = folder / "index.html";
-  AtomicFile file(path.string());
-  file.stream() << page;
-  file.commit();
-  return path;
+  write_text(folder / "index.html", gallery_page(folder, form));
+  return folder / "index.html";
 }
 
 }  // namespace hysteron::experiments

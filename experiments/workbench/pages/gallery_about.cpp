@@ -1,81 +1,70 @@
 #include "experiments/workbench/pages/gallery_about.h"
 
-#include <cstdio>
+#include <fmt/core.h>
 
+#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
-#include "sim/base/comma_list.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
-bool known(const Json& json, const std::string& key) { return json.contains(key) && !json[key].is_null(); }
-
-// "prandtl,linear" or a list of names or of what has one, as the manifests of experiments over several laws
-// or fabrics have it.
-std::vector<std::string> names_in(const Json& value) {
-  if (value.is_string()) return split(value.get<std::string>());
-  std::vector<std::string> names;
-  for (const Json& entry : value.is_array() ? value : Json::array())
-    names.push_back(entry.is_object() ? entry.value("name", "") : entry.get<std::string>());
-  return names;
-}
-
-// "law prandtl", "laws prandtl, linear", "14 laws"; `one`: the scene's key, or that with an s.
-std::string named_or_counted(const Json& scene, const std::string& one) {
+// "law prandtl", "laws prandtl, linear", "14 laws".
+std::string named_or_counted(const std::vector<std::string>& names, const std::string& one) {
   constexpr std::size_t kMostNames = 4;
-  const std::vector<std::string> names = names_in(scene.value(scene.contains(one) ? one : one + "s", Json()));
   if (names.empty()) return "";
   if (names.size() > kMostNames) return counted(names.size(), one);
-  std::string text = one + (names.size() > 1 ? "s " : " ");
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + names[i];
-  return text;
-}
-
-// The texts that are not empty, between what stands before and after each.
-std::string joined(const std::vector<std::string>& texts, const std::string& between) {
-  std::string all;
-  for (const std::string& text : texts) {
-    if (!text.empty()) all += (all.empty() ? "" : between) + text;
-  }
-  return all;
+  return one + (names.size() > 1 ? "s " : " ") + join(names, ", ");
 }
 
 // Of one fabric or several.
-std::string fabrics_of(const Json& manifest) {
-  const std::string name = fabric_name(manifest);
-  if (!name.empty()) return name;
-  const std::string several = named_or_counted(manifest.at("scene"), "fabric");
+std::string fabrics_of(const SceneRecord& scene) {
+  if (!scene.fabric.name.empty()) return scene.fabric.name;
+  const std::string several = named_or_counted(scene.fabrics, "fabric");
   return several.starts_with("fabric ") ? several.substr(7) : several;
 }
 
 }  // namespace
+
+std::string joined(std::vector<std::string> texts, const std::string& between) {
+  std::erase(texts, "");
+  return join(texts, between);
+}
+
+std::string first_upper(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string question_of(const std::string& name) {
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.name == name) return experiment.question;
+  }
+  return "";
+}
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, seconds < 100 ? "%.3g s" : "%.0f s", seconds);
-  return text;
+  return seconds < 100 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.0f} s", seconds);
 }
 
-std::string subject_of(const Json& manifest) {
-  return joined({fabrics_of(manifest), named_or_counted(manifest.at("scene"), "law")}, ", ");
+std::string subject_of(const SceneRecord& scene) {
+  return joined({fabrics_of(scene), named_or_counted(scene.laws, "law")}, ", ");
 }
 
-std::string about_html(const Json& manifest) {
-  std::vector<std::string> facts = {subject_of(manifest), named_or_counted(manifest.at("scene"), "element")};
-  if (known(manifest, "triangles")) facts.push_back(shown(manifest["triangles"]) + " triangles");
-  if (known(manifest, "precision")) facts.push_back(shown(manifest["precision"]));
-  if (known(manifest, "seconds_simulated"))
-    facts.push_back(seconds_text(manifest["seconds_simulated"].get<double>()) + " simulated");
-  const Json wall = manifest.value("wall_seconds", Json::object());
-  if (wall.contains("total")) facts.push_back("computed in " + seconds_text(wall["total"].get<double>()));
-  if (known(manifest, "device")) facts.push_back(shown(manifest["device"]));
-  facts.push_back(manifest.value("started", "").substr(0, 10));
-  facts.push_back(program_of(manifest));
+std::string about_html(const Manifest& m) {
+  std::vector<std::string> facts = {subject_of(m.scene), named_or_counted(m.scene.elements, "element")};
+  if (m.triangles) facts.push_back(std::to_string(*m.triangles) + " triangles");
+  facts.push_back(m.precision.value_or(""));
+  if (m.seconds_simulated) facts.push_back(seconds_text(*m.seconds_simulated) + " simulated");
+  if (!m.wall_seconds.empty()) facts.push_back("computed in " + seconds_text(m.total_seconds()));
+  facts.push_back(m.device.value_or(""));
+  facts.push_back(m.started.substr(0, 10));
+  facts.push_back(program_of(m));
   for (std::string& fact : facts) {
     if (!fact.empty()) fact = "<span>" + escaped(fact) + "</span>";  // broken across lines between facts
   }

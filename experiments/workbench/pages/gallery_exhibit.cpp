@@ -10,7 +10,6 @@
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/text_table.h"
-#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -30,19 +29,19 @@ bool is_aside(const std::string& key) {
          key == "residual_curvature_formula_rms_per_m";
 }
 
-std::string metrics_html(const Json& metrics, bool has_table) {
-  Json first = Json::object(), others = Json::object();
+std::string metrics_html(const Metrics& metrics, bool has_table) {
+  Metrics first, others;
   std::set<std::string> compared;  // laws, fabrics, problems
   std::size_t cards = 0, more = 0;
-  for (const auto& [key, value] : metrics.items()) {
+  for (const auto& [key, value] : metrics) {
     if (const std::size_t dot = key.rfind('.'); dot != key.npos) {
       compared.insert(key.substr(0, dot));
     } else if (const std::string headline = headline_of(metrics, key); !headline.empty()) {
-      (first.contains(headline) ? first : others)[key] = value;
+      (first.contains(headline) ? first : others).set(key, value);
     } else {
       const bool aside = is_aside(key) || cards == kMostCards;
       ++(aside ? more : cards);
-      (aside ? others : first)[key] = value;
+      (aside ? others : first).set(key, value);
     }
   }
   std::string html = metric_cards(first);
@@ -53,9 +52,7 @@ std::string metrics_html(const Json& metrics, bool has_table) {
 }
 
 // Complete is what a run is expected to be.
-std::string warning(const Json& manifest) {
-  return manifest.value("complete", false) ? "" : " " + state_badge(manifest);
-}
+std::string warning(const Manifest& manifest) { return manifest.complete ? "" : " " + state_badge(manifest); }
 
 std::string table_html(const std::string& caption, TextTable table, std::size_t columns) {
   const std::string common = take_common(table);
@@ -82,46 +79,35 @@ Tables tables_of(const Exhibit& exhibit, PageForm form) {
 }
 
 // A row for each run of which there is only the manifest, or that is a part of another.
-std::string runs_table(const std::vector<std::pair<std::string, const Json*>>& runs, PageForm form) {
+std::string runs_table(const std::vector<std::pair<std::string, const Manifest*>>& runs, PageForm form) {
   if (runs.empty()) return "";
+  const auto cell = [](const MetricValue& value) { return value.is_known() ? escaped(shown(value)) : ""; };
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [link, manifest] : runs) {
-    const auto cell = [&, &manifest = *manifest](const char* key) {
-      return manifest.contains(key) && !manifest[key].is_null() ? escaped(shown(manifest[key])) : "";
-    };
+  for (const auto& [link, run] : runs) {
     const bool folder = link.ends_with("/manifest.json");
     const fs::path path = folder ? fs::path(link).parent_path() : fs::path(link);
-    const double wall = manifest->value("wall_seconds", Json::object()).value("total", 0.0);
-    rows.push_back({file_link(link, path.stem().string(), form) + warning(*manifest) + "<code>" +
-                        cell("command") + "</code>",
-                    cell("law"), cell("element"), cell("precision"), cell("triangles"), cell("steps"),
-                    escaped(seconds_text(wall)), cell("device")});
+    rows.push_back({file_link(link, path.stem().string(), form) + warning(*run) + "<code>" +
+                        escaped(run->command) + "</code>",
+                    cell(run->law), cell(run->element), cell(run->precision), cell(run->triangles),
+                    cell(run->steps), escaped(seconds_text(run->total_seconds())), cell(run->device)});
   }
   return html_table_of_html(
       {"run", "law", "element", "precision", "triangles", "steps", "computed in", "device"}, rows, {4, 5, 6});
 }
 
-bool is_table(const Json& json) {
-  return json.is_array() && !json.empty() &&
-         std::all_of(json.begin(), json.end(), [](const Json& row) { return row.is_object(); });
-}
-
 Tables lists_of(const Exhibit& exhibit, PageForm form) {
   Tables tables;
-  std::vector<std::pair<std::string, const Json*>> runs;
-  Json metrics = Json::object();
-  for (const auto& [file, json] : exhibit.lists) {
-    const std::string link = exhibit.name + "/" + file_name(file);
-    tables.links += " · " + file_link(link, file_name(file), form);
-    if (is_manifest(json)) {
-      runs.emplace_back(link, &json);
-      const Json& own = json.value("metrics", Json::object());
-      for (const auto& [key, value] : own.items()) {
-        if (!is_aside(key)) metrics[file.stem().string() + "." + key] = value;
-      }
-    } else if (is_table(json)) {
-      TextTable table = table_of(json);
-      tables.html += table_html(file_name(file), table, kMostColumns);
+  std::vector<std::pair<std::string, const Manifest*>> runs;
+  Metrics metrics;
+  for (const Exhibit::List& list : exhibit.lists) {
+    const std::string link = exhibit.name + "/" + file_name(list.file);
+    tables.links += " · " + file_link(link, file_name(list.file), form);
+    if (list.manifest) {
+      runs.emplace_back(link, &*list.manifest);
+      for (const auto& [key, value] : list.manifest->metrics)
+        if (!is_aside(key)) metrics.set(list.file.stem().string() + "." + key, value);
+    } else if (list.table) {
+      tables.html += table_html(file_name(list.file), *list.table, kMostColumns);
     }
   }
   const std::string compared = metric_table(metrics);
@@ -131,33 +117,21 @@ Tables lists_of(const Exhibit& exhibit, PageForm form) {
 }
 
 std::string parts_table(const Exhibit& exhibit, PageForm form) {
-  std::vector<std::pair<std::string, const Json*>> runs;
+  std::vector<std::pair<std::string, const Manifest*>> runs;
   for (const Exhibit& part : exhibit.parts) {
-    if (!part.manifest.is_null()) runs.emplace_back(part.name + "/manifest.json", &part.manifest);
+    if (part.manifest) runs.emplace_back(part.name + "/manifest.json", &*part.manifest);
   }
   return runs.empty() ? "" : html_details(counted(runs.size(), "run"), runs_table(runs, form), false);
 }
 
-std::string body_of(const Exhibit& exhibit, PageForm form) {
-  const Tables tables = tables_of(exhibit, form), lists = lists_of(exhibit, form);
-  std::string links = tables.links + lists.links, html, command;
-  const Json& manifest = exhibit.manifest;
-  if (!manifest.is_null()) {
-    html += about_html(manifest);
-    command = "<pre>" + escaped(manifest.value("command", "")) + "</pre>\n";
-    links = " · " + file_link(exhibit.name + "/manifest.json", "manifest.json", form) + links;
-  }
-  for (const char* page : {"report.html", "README.md"}) {
+// Links to files, apart by dots.
+std::string links_of(const Exhibit& exhibit, const std::string& to_tables, PageForm form) {
+  std::string links =
+      exhibit.manifest ? " · " + file_link(exhibit.name + "/manifest.json", "manifest.json", form) : "";
+  links += to_tables;
+  for (const char* page : {"report.html", "README.md"})
     if (is_there(exhibit.folder / page)) links += " · " + file_link(exhibit.name + "/" + page, page, form);
-  }
-  html += pictures_html(exhibit, form);
-  if (!manifest.is_null())
-    html += metrics_html(manifest.value("metrics", Json::object()), !tables.html.empty()) +
-            missing_errors(manifest);
-  html +=
-      series_charts(exhibit.folder, false) + tables.html + lists.html + parts_table(exhibit, form) + command;
-  return html + "<p class=\"files\">" + links.substr(std::min(links.size(), std::string(" · ").size())) +
-         "</p>\n";
+  return links.substr(std::min(links.size(), std::string(" · ").size()));
 }
 
 }  // namespace
@@ -171,14 +145,21 @@ std::string anchor_of(const Exhibit& exhibit) {
 }
 
 std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
-  const std::string badge = exhibit.manifest.is_null() ? "" : warning(exhibit.manifest);
-  try {
-    return "<article id=\"" + anchor_of(exhibit) + "\"><h3><a href=\"#" + anchor_of(exhibit) + "\">" +
-           escaped(exhibit.name) + "</a>" + badge + "</h3>\n" + body_of(exhibit, form) + "</article>\n";
-  } catch (const Json::exception& broken) {
-    throw Error::request((exhibit.folder / "manifest.json").string() +
-                         " is no manifest of hysteron: " + broken.what());
-  }
+  const Tables tables = tables_of(exhibit, form), lists = lists_of(exhibit, form);
+  const std::optional<Manifest>& manifest = exhibit.manifest;
+  const std::string metrics =
+      manifest ? metrics_html(manifest->metrics, !tables.html.empty()) + missing_errors(*manifest) : "";
+  return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
+                                 {"name", exhibit.name},
+                                 {"badge", manifest ? warning(*manifest) : ""},
+                                 {"about", manifest ? about_html(*manifest) : ""},
+                                 {"pictures", pictures_html(exhibit, form)},
+                                 {"metrics", metrics},
+                                 {"series", series_charts(exhibit.folder, false)},
+                                 {"tables", tables.html + lists.html + parts_table(exhibit, form)},
+                                 {"has_command", manifest.has_value()},
+                                 {"command", manifest ? manifest->command : ""},
+                                 {"links", links_of(exhibit, tables.links + lists.links, form)}});
 }
 
 }  // namespace hysteron::experiments

@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "experiments/workbench/app/json_file.h"
-#include "experiments/workbench/app/manifest_check.h"
-#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/text_table.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -50,11 +50,15 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
   return found;
 }
 
-// A list, a table or another run's manifest.
-Json read_list(const fs::path& file) {
-  Json json = read_json(file);
-  if (is_manifest(json)) check_manifest(json, file);
-  return json;
+bool is_table(const Json& json) {
+  return json.is_array() && !json.empty() &&
+         std::all_of(json.begin(), json.end(), [](const Json& row) { return row.is_object(); });
+}
+
+Exhibit::List read_list(const fs::path& file) {
+  const Json json = read_json(file);
+  if (is_manifest(json)) return {file, checked_manifest(json, file), {}};
+  return {file, {}, is_table(json) ? std::optional(table_of(json)) : std::nullopt};
 }
 
 // `beside` receives the subfolders of a folder that is no run.
@@ -66,18 +70,18 @@ Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<
     if (file.filename() == "manifest.json") {
       exhibit.manifest = read_manifest(file);
     } else {
-      exhibit.lists.emplace_back(file, read_list(file));
+      exhibit.lists.push_back(read_list(file));
     }
   }
   for (const fs::path& sub : subfolders(folder)) {
-    collect(sub, name + "/" + sub.filename().string(), exhibit.manifest.is_null() ? beside : exhibit.parts);
+    collect(sub, name + "/" + sub.filename().string(), exhibit.manifest ? exhibit.parts : beside);
   }
   return exhibit;
 }
 
 bool holds_anything(const Exhibit& exhibit) {
   const auto any = [&](const char* ending) { return !files_ending(exhibit.folder, ending).empty(); };
-  return !exhibit.manifest.is_null() || !exhibit.lists.empty() || any(".png") || any(".svg") || any(".csv") ||
+  return exhibit.manifest || !exhibit.lists.empty() || any(".png") || any(".svg") || any(".csv") ||
          !files_ending(exhibit.folder / "frames", ".png").empty();
 }
 
@@ -89,7 +93,7 @@ void collect(const fs::path& folder, const std::string& name, std::vector<Exhibi
 }  // namespace
 
 std::string Exhibit::experiment() const {
-  if (!manifest.is_null()) return manifest.value("experiment", "run");
+  if (manifest) return manifest->experiment;
   return name.substr(0, name.find_first_of("/-"));
 }
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/manifest.h"
+#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 
@@ -13,8 +14,14 @@ namespace hysteron::experiments {
 struct Exhibit {
   std::string name;  // its path in the gallery, "stability/bdf2"
   std::filesystem::path folder;
-  Json manifest;                                              // null: it has none
-  std::vector<std::pair<std::filesystem::path, Json>> lists;  // other JSON files
+  std::optional<Manifest> manifest;
+  // Another JSON file: a run without its folder, a list of objects, or neither.
+  struct List {
+    std::filesystem::path file;
+    std::optional<Manifest> manifest;
+    std::optional<TextTable> table;
+  };
+  std::vector<List> lists;
   std::vector<Exhibit> parts;  // runs in its subfolders, of which it is the summary
 
   // The manifest's, without one the first word of the name: "speed".

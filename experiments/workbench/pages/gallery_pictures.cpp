@@ -55,11 +55,10 @@ std::map<std::string, std::string> written_captions(const fs::path& folder) {
 }
 
 // ": cotton-broad, law prandtl, 0 to 3.67 s"
-std::string subject_words(const Json& manifest) {
-  std::string words = subject_of(manifest);
-  const Json seconds = manifest.value("seconds_simulated", Json());
-  if (seconds.is_number())
-    words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(seconds.get<double>()));
+std::string subject_words(const Manifest& manifest) {
+  std::string words = subject_of(manifest.scene);
+  if (const auto& seconds = manifest.seconds_simulated)
+    words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(*seconds));
   return words.empty() ? "" : ": " + words;
 }
 
@@ -90,9 +89,8 @@ std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& pref
     const std::string name = file.filename().string(), written = captions[name];
     std::string caption = written;
     if (written.empty()) {
-      caption = prefix + words_of(file.stem().string());
-      caption[0] = static_cast<char>(std::toupper(caption[0]));
-      if (file.stem() == "sheet" && !exhibit.manifest.is_null()) caption += subject_words(exhibit.manifest);
+      caption = first_upper(prefix + words_of(file.stem().string()));
+      if (file.stem() == "sheet" && exhibit.manifest) caption += subject_words(*exhibit.manifest);
     }
     pictures.push_back({file, exhibit.name + "/" + name, caption});
   }
@@ -111,11 +109,11 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
   const std::string svg = fs::path(picture.link).replace_extension(".svg").string();
   const std::string shown = as_drawing ? svg : picture.link;
   const bool linked = form == PageForm::linked;
-  return "<figure><a class=\"zoom\"" + (linked ? " href=\"" + url_of(shown) + "\"" : "") + ">" +
-         image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form) + "</a><figcaption>" +
-         escaped(picture.caption) +
-         (linked && drawn && !as_drawing ? " (" + html_link(svg, "SVG") + ")" : "") +
-         "</figcaption></figure>\n";
+  return filled("picture.html",
+                {{"link", linked ? url_of(shown) : ""},
+                 {"image", image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form)},
+                 {"caption", picture.caption},
+                 {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
 }
 
 }  // namespace
@@ -126,11 +124,8 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
     const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
     (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture, form);
   }
-  const auto grid = [](const std::string& kind, const std::string& figures) {
-    return figures.empty() ? "" : "<div class=\"" + kind + "\">\n" + figures + "</div>\n";
-  };
-  return large + player(exhibit.folder, exhibit.name + "/", kMostFrames, form) + grid("grid", beside) +
-         grid("grid wide", plots);
+  return large + player(exhibit.folder, exhibit.name + "/", kMostFrames, form) + html_group("grid", beside) +
+         html_group("grid wide", plots);
 }
 
 }  // namespace hysteron::experiments

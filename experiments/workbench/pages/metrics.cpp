@@ -4,50 +4,46 @@
 #include <map>
 
 #include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
 // A metric's unit stands elsewhere.
-HeadlineWords words_of(const Json& metrics, const std::string& key) {
+HeadlineWords words_of(const Metrics& metrics, const std::string& key) {
   if (is_headline(metrics, key)) return headline_words(metrics, key);
   return {shown(metrics[key]), split_unit(key).unit, ""};
 }
 
-std::string spaced(const std::string& a, const std::string& b) {
-  return a + (a.empty() || b.empty() ? "" : " ") + b;
-}
-
 }  // namespace
 
-std::string metric_cards(const Json& metrics) {
-  std::string cards;
-  for (const auto& [key, value] : metrics.items()) {
+std::string metric_cards(const Metrics& metrics) {
+  std::vector<Card> cards;
+  for (const auto& [key, value] : metrics) {
     if (key.find('.') != key.npos || !headline_of(metrics, key).empty()) continue;
     const HeadlineWords words = words_of(metrics, key);
-    cards += "<div class=\"card\"><b>" + escaped(words.value) + " <small>" +
-             escaped(spaced(words.unit, words.errors)) + "</small></b><span>" +
-             escaped(split_unit(key).name) + "</span></div>\n";
+    cards.push_back({words.value, joined({words.unit, words.errors}, " "), split_unit(key).name});
   }
-  return cards.empty() ? "" : "<div class=\"cards\">\n" + cards + "</div>\n";
+  return html_cards(cards);
 }
 
-std::string metric_table(const Json& metrics) {
+std::string metric_table(const Metrics& metrics) {
   std::vector<std::string> names, keys;
   const auto once = [](std::vector<std::string>& known, const std::string& word) {
     if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
   };
-  std::map<std::string, Json> of;  // by name
-  for (const auto& [key, value] : metrics.items()) {
+  std::map<std::string, Metrics> of;  // by name
+  for (const auto& [key, value] : metrics) {
     const std::size_t dot = key.rfind('.');
     if (dot == key.npos) continue;
     once(names, key.substr(0, dot));
-    of[key.substr(0, dot)][key.substr(dot + 1)] = value;
+    of[key.substr(0, dot)].set(key.substr(dot + 1), value);
   }
   if (names.empty()) return "";
-  for (const auto& [key, value] : metrics.items()) {
+  for (const auto& [key, value] : metrics) {
     const std::size_t dot = key.rfind('.');
     if (dot == key.npos) continue;
     if (headline_of(of[key.substr(0, dot)], key.substr(dot + 1)).empty()) once(keys, key.substr(dot + 1));
@@ -63,17 +59,15 @@ std::string metric_table(const Json& metrics) {
     rows.push_back({name});
     for (const std::string& key : keys) {
       const HeadlineWords words = of[name].contains(key) ? words_of(of[name], key) : HeadlineWords{};
-      rows.back().push_back(spaced(words.value, words.errors));
+      rows.back().push_back(joined({words.value, words.errors}, " "));
     }
   }
   return html_table(head, rows, numeric);
 }
 
-std::string missing_errors(const Json& manifest) {
-  std::string text;
-  const Json missing = manifest.value("errors_missing", Json::array());
-  for (const Json& sentence : missing) text += (text.empty() ? "" : "; ") + sentence.get<std::string>();
-  return text.empty() ? "" : "<p class=\"about\">Errors that are not known: " + escaped(text) + ".</p>\n";
+std::string missing_errors(const Manifest& manifest) {
+  const std::string text = join(manifest.errors_missing, "; ");
+  return html_about(text.empty() ? "" : "Errors that are not known: " + text + ".");
 }
 
 }  // namespace hysteron::experiments

@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/manifest.h"
 
 namespace hysteron::experiments {
 
 // Metrics of the run itself.
-std::string metric_cards(const Json& metrics);
+std::string metric_cards(const Metrics& metrics);
 // Metrics of several laws or fabrics, "prandtl.2HB_N": a row for each, a column for each metric.  "" if none.
-std::string metric_table(const Json& metrics);
+std::string metric_table(const Metrics& metrics);
 // Why some errors of the manifest's headlines are not known.  "" if all are.
-std::string missing_errors(const Json& manifest);
+std::string missing_errors(const Manifest& manifest);
 
 }  // namespace hysteron::experiments

@@ -1,23 +1,17 @@
 #include "experiments/workbench/pages/page.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
-#include <iomanip>
-#include <sstream>
 #include <string_view>
-
-#include "experiments/workbench/pages/style.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-std::string short_number(double x) {
-  std::ostringstream text;
-  text << std::setprecision(4) << x;
-  return text.str();
-}
+std::string short_number(double x) { return fmt::format("{:.4g}", x); }
 
 // `count` values out of a long series, the first and the last among them.
 std::size_t sampled(std::size_t i, std::size_t count, std::size_t size) {
@@ -25,29 +19,6 @@ std::size_t sampled(std::size_t i, std::size_t count, std::size_t size) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   std::string text;
@@ -75,7 +46,7 @@ std::string linked_image(const std::string& path, const render::ImageSize& size,
 }
 
 std::string html_figure(const std::string& image, const std::string& caption) {
-  return "<figure>" + image + "<figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+  return filled("figure.html", {{"image", image}, {"caption", caption}});
 }
 
 std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
@@ -94,20 +65,19 @@ std::string html_table(const std::vector<std::string>& head,
 std::string html_table_of_html(const std::vector<std::string>& head,
                                const std::vector<std::vector<std::string>>& rows,
                                const std::vector<std::size_t>& numeric) {
-  const auto line = [&](const std::vector<std::string>& cells, const std::string& tag) {
-    std::string row = "<tr>";
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+  const auto cells_of = [&](const std::vector<std::string>& texts) {
+    std::vector<Fields> cells;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
       const bool right = std::count(numeric.begin(), numeric.end(), i) > 0;
-      const char* kind = right == (i > 0) ? ">" : right ? " class=\"n\">" : " class=\"t\">";
-      row += "<" + tag + kind + cells[i] + "</" + tag + ">";
+      cells.push_back({{"kind", right == (i > 0) ? "" : right ? "n" : "t"}, {"html", texts[i]}});
     }
-    return row + "</tr>\n";
+    return cells;
   };
   std::vector<std::string> names = head;
   std::transform(names.begin(), names.end(), names.begin(), escaped);
-  std::string table = "<div class=\"scroll\"><table>\n<thead>" + line(names, "th") + "</thead>\n<tbody>";
-  for (const auto& row : rows) table += line(row, "td");
-  return table + "</tbody></table></div>\n";
+  std::vector<Fields> lines;
+  for (const auto& row : rows) lines.push_back({{"cells", cells_of(row)}});
+  return filled("table.html", {{"head", cells_of(names)}, {"rows", lines}});
 }
 
 std::string url_of(const std::string& path) {
@@ -131,47 +101,61 @@ std::string file_link(const std::string& target, const std::string& text, PageFo
 }
 
 std::string html_details(const std::string& summary, const std::string& body, bool open) {
-  return "<details" + std::string(open ? " open" : "") + "><summary>" + escaped(summary) + "</summary>\n" +
-         body + "</details>\n";
+  return filled("details.html", {{"summary", summary}, {"body", body}, {"open", open}});
 }
 
 std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
                        const std::vector<double>& y) {
-  constexpr double kLeft = 12, kTop = 40, kWidth = 396,
-                   kHeight = 120;  // of the drawing, in a 420 x 190 picture
+  constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // of the line in chart.svg
   constexpr std::size_t kMostPoints = 600;
   const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
   const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
   const double x_span = *x_high > *x_low ? *x_high - *x_low : 1,
                y_span = *y_high > *y_low ? *y_high - *y_low : 1;
-  std::ostringstream svg;
-  svg << std::fixed << std::setprecision(1)
-      << "<svg viewBox=\"0 0 420 190\" role=\"img\"><text class=\"title\" x=\"" << kLeft << "\" y=\"18\">"
-      << escaped(title) << "</text><polyline points=\"";
+  std::string points;
   const std::size_t count = std::min(kMostPoints, x.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t row = sampled(i, count, x.size());
-    svg << kLeft + kWidth * (x[row] - *x_low) / x_span << ","
-        << kTop + kHeight * (1 - (y[row] - *y_low) / y_span) << " ";
+    points += fmt::format("{:.1f},{:.1f} ", kLeft + kWidth * (x[row] - *x_low) / x_span,
+                          kTop + kHeight * (1 - (y[row] - *y_low) / y_span));
   }
-  svg << "\"/><text x=\"" << kLeft << "\" y=\"34\">" << short_number(*y_high) << "</text><text x=\"" << kLeft
-      << "\" y=\"172\">" << short_number(*y_low) << "</text><text x=\"408\" y=\"172\" text-anchor=\"end\">"
-      << escaped(x_name) << " " << short_number(*x_low) << " … " << short_number(*x_high)
-      << "</text></svg>\n";
-  return svg.str();
+  return filled("chart.svg", {{"title", title},
+                              {"points", points},
+                              {"high", short_number(*y_high)},
+                              {"low", short_number(*y_low)},
+                              {"axis", x_name + " " + short_number(*x_low) + " … " + short_number(*x_high)}});
+}
+
+std::string html_cards(const std::vector<Card>& cards) {
+  if (cards.empty()) return "";
+  std::vector<Fields> all;
+  for (const Card& card : cards)
+    all.push_back({{"value", card.value},
+                   {"has_more", card.more.has_value()},
+                   {"more", card.more.value_or("")},
+                   {"name", card.name}});
+  return filled("cards.html", {{"cards", all}});
+}
+
+std::string html_group(const std::string& kind, const std::string& content) {
+  return content.empty() ? "" : filled("group.html", {{"kind", kind}, {"content", content}});
+}
+
+std::string html_about(const std::string& text) {
+  return text.empty() ? "" : filled("about.html", {{"text", text}});
 }
 
 std::string html_section(const std::string& title, const std::string& body) {
-  return body.empty() ? "" : "<section><h2>" + escaped(title) + "</h2>\n" + body + "</section>\n";
+  return body.empty() ? "" : filled("section.html", {{"title", title}, {"body", body}});
 }
 
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind) {
   const bool moves = body.find("class=\"player\"") != body.npos || body.find("class=\"zoom\"") != body.npos;
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(title) + "</title>\n<style>" + page_style() + "</style></head>\n<body" +
-         (kind.empty() ? "" : " class=\"" + kind + "\"") + ">\n" + body +
-         (moves ? std::string("<script>") + page_script() + "</script>\n" : "") + "</body></html>\n";
+  return filled("page.html", {{"title", title},
+                              {"style", embedded_text("page.css")},
+                              {"kind", kind},
+                              {"body", body},
+                              {"script", moves ? embedded_text("page.js") : ""}});
 }
 
 }  // namespace hysteron::experiments

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/pages/page_template.h"
 #include "render/image.h"
 
 namespace hysteron::experiments {
@@ -14,9 +16,6 @@ enum class PageForm {
   linked,          // pictures are files beside the page
   self_contained,  // pictures are inside and nothing leads to another file: the page can be sent alone
 };
-
-// Text as HTML: & < > " escaped.
-std::string escaped(const std::string& text);
 
 // RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
@@ -59,9 +58,22 @@ std::string html_details(const std::string& summary, const std::string& body, bo
 std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
                        const std::vector<double>& y);
 
+// Numbers to be seen first.
+struct Card {
+  std::string value;
+  std::optional<std::string> more;  // behind it in small letters: unit and errors
+  std::string name;
+};
+std::string html_cards(const std::vector<Card>& cards);
+
+// Figures or charts beside each other, "grid", "charts"; "" without content, which is HTML.
+std::string html_group(const std::string& kind, const std::string& content);
+// A paragraph of text on where things come from; "" without text.
+std::string html_about(const std::string& text);
+
 std::string html_section(const std::string& title, const std::string& body);
 
-// The whole document, with the style of report_style.h, and with its script where something plays or opens.
+// The whole document, with style, and with the script where something plays or opens.
 // `kind`: class of the body, "gallery" for many runs.
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind = "");
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <thread>
 
 #include "render/contact_sheet.h"
@@ -17,17 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr int kColors = 128;      // of a thumbnail; shading shows no steps yet
 constexpr int kFrameWidth = 480;  // [pixels]
-
-// Columns of a CSV file as its first line names them; empty if the file has no row.
-std::vector<std::string> columns_of(const fs::path& file) {
-  if (!is_there(file)) return {};
-  std::istringstream stream(whole_file(file, "cannot read " + file.string()));
-  std::string header, row, name;
-  if (!std::getline(stream, header) || !std::getline(stream, row)) return {};
-  std::vector<std::string> columns;
-  for (std::istringstream names(header); std::getline(names, name, ',');) columns.push_back(name);
-  return columns;
-}
 
 // `name="1200"` of a tag; 0 where it is missing or in another unit.
 int whole_number(const std::string& tag, const std::string& name) {
@@ -101,22 +89,22 @@ std::string player(const fs::path& folder, const std::string& path, int count, P
   });
   std::string html;
   for (const std::string& figure : figures) html += figure;
-  return "<div class=\"player\"><div class=\"strip\">\n" + html + "</div></div>\n";
+  return filled("player.html", {{"figures", html}});
 }
 
 std::string series_charts(const fs::path& folder, bool with_energies) {
   const fs::path file = folder / "metrics.csv";
-  const std::vector<std::string> columns = columns_of(file);
-  if (columns.size() < 2) return "";
-  const Table table = read_csv(file, columns, {}, "report");
+  if (!is_there(file)) return "";
+  const Table table = read_whole_csv(file, "report");
   std::string charts;
-  for (std::size_t i = 1; i < columns.size(); ++i) {
-    if (!with_energies && columns[i].ends_with("[J]")) continue;
-    std::string title = columns[i];
+  for (std::size_t i = 1; i < table.columns.size(); ++i) {
+    const Column &time = table.columns[0], &column = table.columns[i];
+    if (!with_energies && column.name.ends_with("[J]")) continue;
+    std::string title = column.name;
     std::replace(title.begin(), title.end(), '_', ' ');
-    charts += line_chart(title, table.find(columns[0])->values, columns[0], table.find(columns[i])->values);
+    charts += line_chart(title, time.values, time.name, column.values);
   }
-  return charts.empty() ? "" : "<div class=\"charts\">\n" + charts + "</div>\n";
+  return html_group("charts", charts);
 }
 
 }  // namespace hysteron::experiments

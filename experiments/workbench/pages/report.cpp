@@ -1,7 +1,6 @@
 #include "experiments/workbench/pages/report.h"
 
-#include <algorithm>
-
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/closing_words.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
@@ -17,62 +16,52 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr int kMostFrames = 24;  // more would make a page of many megabytes
 
-// A cloth that still moves has no shape that could be measured: the page says so before any number.
-std::string unrest(const Json& manifest) {
-  const std::string words = unrest_words(manifest.value("metrics", Json::object()));
-  return words.empty() ? "" : "<p><span class=\"state bad\">" + escaped(words) + "</span></p>\n";
+std::string title_of(const Manifest& manifest, const std::string& between) {
+  const std::string& fabric = manifest.scene.fabric.name;
+  return manifest.experiment + (fabric.empty() ? "" : between + fabric);
 }
 
-std::string heading(const Json& manifest) {
-  const Json& scene = manifest.at("scene");
-  const std::string fabric = fabric_name(manifest);
+std::string about_of(const Manifest& manifest) {
   std::string about;
-  for (const char* key : {"law", "element"}) {
-    if (scene.contains(key)) about += std::string(key) + " " + shown(scene[key]) + " · ";
-  }
-  return "<h1>" + escaped(manifest.value("experiment", "run") + (fabric.empty() ? "" : ": " + fabric)) + " " +
-         state_badge(manifest) + "</h1>\n" + unrest(manifest) + "<p class=\"about\">" +
-         escaped(about + manifest.value("started", "") + " · " + program_of(manifest)) + "</p>\n<pre>" +
-         escaped(manifest.value("command", "")) + "</pre>\n";
+  if (manifest.scene.law) about += "law " + *manifest.scene.law + " · ";
+  if (manifest.scene.element) about += "element " + *manifest.scene.element + " · ";
+  return about + manifest.started + " · " + program_of(manifest);
 }
 
-std::string energy_table(const Json& energy) {
-  if (!energy.is_object() || energy.empty()) return "";
+std::string energy_table(const Manifest& manifest) {
   Rows rows;
-  for (const auto& [term, joules] : energy.items()) rows.push_back({split_unit(term).name, shown(joules)});
-  return html_table({"term", "J"}, rows, {1});
+  for (const auto& [term, joules] : manifest.energy) rows.push_back({split_unit(term).name, shown(joules)});
+  return rows.empty() ? "" : html_table({"term", "J"}, rows, {1});
 }
 
-std::string fabric_table(const Json& fabric) {
+std::string fabric_table(const FabricRecord& fabric) {
   Rows rows;
-  const Json provenance = fabric.value("provenance", Json::object());
-  for (const auto& [name, from] : provenance.items()) {
-    rows.push_back(
-        {name, shown(fabric.value(name, Json())), shown(from.at("confidence")), shown(from.at("source"))});
-  }
+  for (const FabricRecord::Number& number : fabric.numbers)
+    rows.push_back({number.name, shown(number.value), number.confidence, number.source});
   std::string tables = html_table({"SI", "value", "", "source"}, rows, {1});
   rows.clear();
-  const Json published = fabric.value("published", Json::object());
-  for (const auto& [name, number] : published.items()) {
-    rows.push_back({name, shown(number.at("value")) + " " + shown(number.at("unit")),
-                    shown(number.at("confidence")), shown(number.at("source"))});
-  }
+  for (const FabricRecord::Number& number : fabric.published)
+    rows.push_back({number.name, shown(number.value) + " " + number.unit, number.confidence, number.source});
   if (!rows.empty()) tables += html_table({"as published", "value", "", "source"}, rows, {1});
   return tables;
 }
 
-std::string run_table(const Json& manifest) {
+std::string run_table(const Manifest& m) {
   Rows rows;
-  for (const char* key : {"device", "renderer", "positions", "precision", "triangles", "hinges", "steps",
-                          "seconds_simulated", "bytes_device", "state_hash"}) {
-    if (manifest.contains(key) && !manifest[key].is_null())
-      rows.push_back({split_unit(key).name, shown(manifest[key])});
-  }
-  const Json wall = manifest.value("wall_seconds", Json::object());
-  for (const auto& [stage, seconds] : wall.items()) {
-    if (seconds.is_number() && seconds.get<double>() > 0)
-      rows.push_back({"wall time, " + stage, shown(seconds) + " s"});
-  }
+  const std::pair<const char*, MetricValue> facts[] = {{"device", m.device},
+                                                       {"renderer", m.renderer},
+                                                       {"positions", m.positions},
+                                                       {"precision", m.precision},
+                                                       {"triangles", m.triangles},
+                                                       {"hinges", m.hinges},
+                                                       {"steps", m.steps},
+                                                       {"seconds_simulated", m.seconds_simulated},
+                                                       {"bytes_device", m.bytes_device},
+                                                       {"state_hash", m.state_hash}};
+  for (const auto& [name, value] : facts)
+    if (value.is_known()) rows.push_back({split_unit(name).name, shown(value)});
+  for (const auto& [stage, seconds] : m.wall_seconds)
+    if (seconds > 0) rows.push_back({"wall time, " + stage, shown(seconds) + " s"});
   return html_table({"", ""}, rows, {1});
 }
 
@@ -98,7 +87,7 @@ std::string pictures(const fs::path& folder, PageForm form) {
   return html;
 }
 
-Json manifest_in(const fs::path& folder) {
+Manifest manifest_in(const fs::path& folder) {
   if (!has_manifest(folder))
     throw Error::request("no run in " + folder.string() + ": it has no manifest.json");
   return read_manifest(folder / "manifest.json");
@@ -107,27 +96,38 @@ Json manifest_in(const fs::path& folder) {
 }  // namespace
 
 std::string report_page(const fs::path& folder, PageForm form) {
-  const Json manifest = manifest_in(folder);
-  const Json fabric = manifest.at("scene").value("fabric", Json::object());
-  const Json metrics = manifest.value("metrics", Json::object());
-  const std::string body =
-      heading(manifest) +
-      html_section("Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)) +
-      html_section("Pictures", pictures(folder, form)) + html_section("Plots", plots(folder, form)) +
-      html_section("Sequence", player(folder, "", kMostFrames, form)) +
-      html_section("Time series", series_charts(folder, true)) +
-      html_section("Energy", energy_table(manifest.value("energy", Json()))) +
-      html_section("Fabric", fabric_table(fabric)) + html_section("Run", run_table(manifest));
-  const std::string name = fabric_name(manifest);
-  return html_page(manifest.value("experiment", "run") + (name.empty() ? "" : ", " + name), body);
+  const Manifest manifest = manifest_in(folder);
+  const Metrics& metrics = manifest.metrics;
+  const std::pair<const char*, std::string> sections[] = {
+      {"Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)},
+      {"Pictures", pictures(folder, form)},
+      {"Plots", plots(folder, form)},
+      {"Sequence", player(folder, "", kMostFrames, form)},
+      {"Time series", series_charts(folder, true)},
+      {"Energy", energy_table(manifest)},
+      {"Fabric", fabric_table(manifest.scene.fabric)},
+      {"Run", run_table(manifest)}};
+  std::string all;
+  for (const auto& [title, html] : sections) all += html_section(title, html);
+  // A cloth that still moves has no shape that could be measured: the page says so before any number.
+  const std::string body = filled("report.html", {{"title", title_of(manifest, ": ")},
+                                                  {"badge", state_badge(manifest)},
+                                                  {"unrest", unrest_words(metrics)},
+                                                  {"about", about_of(manifest)},
+                                                  {"command", manifest.command},
+                                                  {"sections", all}});
+  return html_page(title_of(manifest, ", "), body);
 }
 
 fs::path write_report(const fs::path& folder, PageForm form) {
-  const std::string page = report_page(folder, form);
-  AtomicFile file((folder / "report.html").string());
-  file.stream() << page;
-  file.commit();
+  write_text(folder / "report.html", report_page(folder, form));
   return folder / "report.html";
+}
+
+void finish_with_report(Run& run) {
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
 }
 
 }  // namespace hysteron::experiments

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/page.h"
 
 namespace hysteron::experiments {
@@ -15,5 +16,8 @@ std::string report_page(const std::filesystem::path& folder, PageForm form = Pag
 
 // Writes it as FOLDER/report.html and returns that path.  Throws Error::machine if it cannot be written.
 std::filesystem::path write_report(const std::filesystem::path& folder, PageForm form = PageForm::linked);
+
+// Ends a run with its page.
+void finish_with_report(Run& run);
 
 }  // namespace hysteron::experiments

@@ -1,27 +1,19 @@
 #include "experiments/workbench/pages/simulated_run.h"
 
-#include <algorithm>
-#include <cstdio>
+#include <fmt/core.h>
 
+#include <algorithm>
+
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
-std::string text_of(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-double number_of(const Json& json, const char* key) {
-  const Json value = json.value(key, Json());
-  return value.is_number() ? value.get<double>() : 0;
-}
-
 struct Fact {
   const char* name;
-  std::string (*words)(const Json& manifest);
+  std::string (*words)(const Manifest& manifest);
 };
 constexpr Fact kFacts[] = {
     {"Cloth", cloth_words}, {"Fabric", fabric_words}, {"Damping of bending", damping_words},
@@ -31,7 +23,7 @@ constexpr Fact kFacts[] = {
 using Said = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 Said said_by(const Fact& fact, const std::vector<std::string>& names,
-             const std::vector<const Json*>& manifests) {
+             const std::vector<const Manifest*>& manifests) {
   Said said;
   for (std::size_t i = 0; i < manifests.size(); ++i) {
     const std::string words = fact.words(*manifests[i]);
@@ -50,56 +42,43 @@ std::string grouped(long count) {
   return text;
 }
 
-std::string cloth_words(const Json& manifest) {
-  const Json& scene = manifest.at("scene");
-  const Json cloth = scene.value("cloth", Json::object());
-  const std::string shape = cloth.value("shape", "");
-  std::string words = shape.empty() ? "" : shape;
-  const double length = 1e3 * number_of(cloth, "length"), width = 1e3 * number_of(cloth, "width"),
-               radius = 1e3 * number_of(cloth, "radius");
-  if (shape == "strip") words += text_of(" of %.4g by ", length) + text_of("%.4g mm", width);
-  if (shape == "square") words += text_of(" of %.4g mm", length);
-  if (shape == "disc") words += text_of(" of %.4g mm radius", radius);
-  if (shape == "tube") words += text_of(" of %.4g mm", length) + text_of(" and %.4g mm radius", radius);
-  words += ", mesh " + scene.value("mesh", "");
-  const Json triangles = manifest.value("triangles", Json());
-  return words + (triangles.is_number() ? ", " + grouped(triangles.get<long>()) + " triangles" : "");
+std::string cloth_words(const Manifest& manifest) {
+  const SceneRecord& scene = manifest.scene;
+  const double length = 1e3 * scene.length, width = 1e3 * scene.width, radius = 1e3 * scene.radius;
+  std::string words = scene.shape;
+  if (scene.shape == "strip") words += fmt::format(" of {:.4g} by {:.4g} mm", length, width);
+  if (scene.shape == "square") words += fmt::format(" of {:.4g} mm", length);
+  if (scene.shape == "disc") words += fmt::format(" of {:.4g} mm radius", radius);
+  if (scene.shape == "tube") words += fmt::format(" of {:.4g} mm and {:.4g} mm radius", length, radius);
+  words += ", mesh " + scene.mesh;
+  return words + (manifest.triangles ? ", " + grouped(*manifest.triangles) + " triangles" : "");
 }
 
-std::string fabric_words(const Json& manifest) {
-  const Json fabric = manifest.at("scene").value("fabric", Json::object());
-  return fabric.value("name", "") + text_of(" (b1 %.4g N m", number_of(fabric, "b1")) +
-         text_of(", b2 %.4g N m", number_of(fabric, "b2")) +
-         text_of(", k0 %.4g 1/m", number_of(fabric, "k0")) +
-         text_of(", %.4g g/m²", 1e3 * number_of(fabric, "density")) + ")";
+std::string fabric_words(const Manifest& manifest) {
+  const FabricRecord& f = manifest.scene.fabric;
+  return fmt::format("{} (b1 {:.4g} N m, b2 {:.4g} N m, k0 {:.4g} 1/m, {:.4g} g/m²)", f.name, f.b1, f.b2,
+                     f.k0, 1e3 * f.density);
 }
 
-std::string damping_words(const Json& manifest) {
-  return text_of("%.4g s", number_of(manifest.at("scene").value("fabric", Json::object()), "damping"));
+std::string damping_words(const Manifest& manifest) {
+  return fmt::format("{:.4g} s", manifest.scene.fabric.damping);
 }
 
-std::string law_words(const Json& manifest) {
-  const Json& scene = manifest.at("scene");
+std::string law_words(const Manifest& manifest) {
   std::vector<std::string> parameters;
-  const Json given = scene.value("param", Json::object());
-  for (const auto& [key, value] : given.items())
-    parameters.push_back(key + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-  return scene.value("law", "") + (parameters.empty() ? "" : " (" + join(parameters, ", ") + ")");
+  for (const auto& [key, value] : manifest.scene.param) parameters.push_back(key + "=" + value);
+  return manifest.scene.law.value_or("") + (parameters.empty() ? "" : " (" + join(parameters, ", ") + ")");
 }
 
-std::string solver_words(const Json& manifest) {
-  const Json& scene = manifest.at("scene");
-  return scene.value("integrator", "") + text_of(", step %.4g ms", 1e3 * number_of(scene, "step")) +
-         ", element " + scene.value("element", "") + ", " + scene.value("precision", "") + " precision" +
-         (scene.value("self-contact", false) ? ", self-contact" : "");
+std::string solver_words(const Manifest& manifest) {
+  const SceneRecord& scene = manifest.scene;
+  return fmt::format("{}, step {:.4g} ms, element {}, {} precision{}", scene.integrator, 1e3 * scene.step,
+                     scene.element.value_or(""), scene.precision, scene.self_contact ? ", self-contact" : "");
 }
 
-std::string device_words(const Json& manifest) {
-  const Json device = manifest.value("device", Json());
-  return device.is_string() ? device.get<std::string>() : "not known";
-}
+std::string device_words(const Manifest& manifest) { return manifest.device.value_or("not known"); }
 
-std::string facts_of(const std::vector<std::string>& names, const std::vector<const Json*>& manifests) {
+std::string facts_of(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests) {
   std::string text;
   for (const Fact& fact : kFacts) {
     Said said = said_by(fact, names, manifests);
@@ -124,19 +103,18 @@ std::string facts_of(const std::vector<std::string>& names, const std::vector<co
 }
 
 void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures) {
-  const Json manifest = read_manifest(folder / "manifest.json");
+  const Manifest manifest = read_manifest(folder / "manifest.json");
   std::erase_if(figures, [&](const FigureCaption& f) { return !std::filesystem::exists(folder / f.file); });
   if (figures.empty()) return;  // without gnuplot
   for (std::size_t i = 1; i < figures.size(); ++i)
     figures[i].text += " The run is that of " + figures[0].file + ".";
-  figures[0].text +=
-      " " + facts_of({""}, {&manifest}) + " " + origin_words(manifest.value("command", ""), manifest);
+  figures[0].text += " " + facts_of({""}, {&manifest}) + " " + origin_words(manifest.command, &manifest);
   write_captions(folder / "README.md", figures[0].title,
                  "What the figures of this folder show, in words from the run's manifest.", figures);
 }
 
-std::string origin_words(const std::string& command, const Json& manifest) {
-  return "Written by `" + command + "`" + (manifest.is_object() ? ", " + program_of(manifest) : "") + ".";
+std::string origin_words(const std::string& command, const Manifest* manifest) {
+  return "Written by `" + command + "`" + (manifest ? ", " + program_of(*manifest) : "") + ".";
 }
 
 }  // namespace hysteron::experiments

@@ -2,54 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
-#include "sim/base/csv.h"
-#include "sim/base/error.h"
-#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
-
-// Walks through the text of a file, field by field.
-struct Reader {
-  const std::string& text;
-  const std::string& name;  // of the file
-  std::size_t at = 0;
-  int line = 1;
-
-  bool done() const { return at >= text.size(); }
-  Error error(const std::string& what) const {
-    return Error::request(name + ":" + std::to_string(line) + ": " + what);
-  }
-
-  std::string quoted() {
-    std::string field;
-    const int start = line;
-    for (++at; !done(); ++at) {
-      if (text[at] == '"' && (++at >= text.size() || text[at] != '"')) return field;
-      line += text[at] == '\n';
-      field += text[at];
-    }
-    line = start;
-    throw error("a quote is not closed");
-  }
-
-  std::vector<std::string> row() {
-    std::vector<std::string> fields(1);
-    for (; !done() && text[at] != '\n';) {
-      if (text[at] == '"') {
-        fields.back() += quoted();
-      } else if (const char c = text[at++]; c == ',') {
-        fields.emplace_back();
-      } else if (c != '\r') {
-        fields.back() += c;
-      }
-    }
-    return fields;
-  }
-};
 
 bool is_number(const std::string& text, double& value) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -88,24 +48,6 @@ std::string column_name(std::string name) {
 
 }  // namespace
 
-TextTable read_words(const std::filesystem::path& file) {
-  const std::string name = file.string(), text = whole_file(file, "cannot read " + name);
-  TextTable table;
-  for (Reader reader{text, name}; !reader.done(); ++reader.at, ++reader.line) {
-    std::vector<std::string> row = reader.row();
-    if (row.size() == 1 && row[0].empty()) continue;
-    if (table.head.empty()) {
-      table.head = std::move(row);
-      continue;
-    }
-    if (row.size() != table.head.size())
-      throw reader.error(std::to_string(row.size()) + " fields, must be " +
-                         std::to_string(table.head.size()));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 TextTable table_of(const Json& objects) {
   TextTable table;
   for (const Json& object : objects) {
@@ -122,8 +64,8 @@ TextTable table_of(const Json& objects) {
   for (const Json& object : objects) {
     table.rows.emplace_back();
     for (const std::string& key : table.head) {
-      const bool there = object.contains(key) && !object[key].is_null();
-      table.rows.back().push_back(there ? shown(object[key]) : "");
+      const MetricValue value = object.contains(key) ? value_of(object[key]) : MetricValue();
+      table.rows.back().push_back(value.is_known() ? shown(value) : "");
     }
   }
   return table;

@@ -1,8 +1,9 @@
 #include "experiments/workbench/pictures/pictures.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <functional>
 
 #include "experiments/workbench/pictures/drawing.h"
@@ -79,10 +80,8 @@ std::vector<float> Pictures::values(const std::string& look) const {
 }
 
 std::string Pictures::when(double time) const {
-  char text[64];
-  std::snprintf(text, sizeof text, "t = %.2f s", time);
   const std::string phase = scene_.phase_at(time);
-  return text + (phase.empty() ? "" : ", " + phase);
+  return fmt::format("t = {:.2f} s{}{}", time, phase.empty() ? "" : ", ", phase);
 }
 
 std::string Pictures::caption(double time) const {
@@ -108,19 +107,18 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
 
 // What a page that compares runs has to know of their pictures.
 void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
-  Json moment = {{"s", simulation_.time()}, {"phase", scene_.phase_at(simulation_.time())}};
-  Json looks = Json::object();
+  std::optional<Frames>& frames = run.manifest().frames;
+  if (!frames) frames.emplace();
+  frames->looks.clear();
+  Frames::Moment moment{simulation_.time(), scene_.phase_at(simulation_.time())};
   for (const Order& order : orders) {
-    looks[order.look] = nullptr;
+    frames->looks.push_back({order.look});
     if (const auto bar = color_bar_of(scene_, options_, order.look))
-      looks[order.look] = {
-          {"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
-    if (order.look == "difference") moment["difference_rms_per_m"] = root_mean_square(order.shown.values);
+      frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
+    if (order.look == "difference") moment.difference_rms = root_mean_square(order.shown.values);
   }
-  moments_.push_back(std::move(moment));
-  run.note("frames", {{"looks", looks},
-                      {"m_per_pixel", camera().metres_per_pixel(bounds_.center(), options_.height())},
-                      {"moments", moments_}});
+  frames->metres_per_pixel = camera().metres_per_pixel(bounds_.center(), options_.height());
+  frames->moments.push_back(std::move(moment));
 }
 
 void Pictures::frame(Run& run) {
@@ -129,10 +127,8 @@ void Pictures::frame(Run& run) {
   const double time = simulation_.time();
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
-    char name[32];
-    std::snprintf(name, sizeof name, "/%04d.png", frames_);
     const std::string folder = orders.empty() ? "frames" : "frames-" + look;
-    orders.push_back({look, run.path(folder + name), {time, values(look)}});
+    orders.push_back({look, run.path(fmt::format("{}/{:04}.png", folder, frames_)), {time, values(look)}});
   }
   ++frames_;
   note_frame(run, orders);
@@ -171,8 +167,8 @@ void Pictures::finish(Run& run, const std::string& title) {
   if (!cells.empty())
     render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
                       render::PngEffort::best);
-  run.note("renderer", renderer());
-  run.note("positions", positions_way());
+  run.manifest().renderer = renderer();
+  run.manifest().positions = positions_way();
   run.add_seconds("render", render_seconds_);
   run.add_seconds("encode", writer_.encode_seconds());
   run.add_seconds("waited", waited_seconds_);

@@ -71,8 +71,7 @@ class Pictures {
   std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
   int frames_ = 0;
-  Json moments_ = Json::array();  // of frames
-  double waited_seconds_ = 0;     // of the simulation, for its pictures
+  double waited_seconds_ = 0;  // of the simulation, for its pictures
   // The studio's thread writes these while a picture is drawn.
   std::vector<render::SheetEntry> thumbnails_;
   double render_seconds_ = 0;

@@ -1,11 +1,12 @@
 #include "experiments/workbench/pictures/reference_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "experiments/workbench/app/json_file.h"
-#include "experiments/workbench/app/manifest_check.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/error.h"
 #include "sim/mesh/surface.h"
 
@@ -15,11 +16,10 @@ namespace fs = std::filesystem;
 
 ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
   const fs::path file = folder_ / "manifest.json";
-  const Json manifest = json_or_none(file);
-  if (manifest.is_object()) check_manifest(manifest, file);
-  if (manifest.is_object() && manifest.contains("frames"))
-    for (const Json& moment : manifest["frames"].value("moments", Json::array()))
-      time_.push_back(moment["s"]);
+  const Json json = json_or_none(file);
+  if (json.is_object())
+    if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
+      for (const Frames::Moment& moment : manifest.frames->moments) time_.push_back(moment.time);
   std::error_code ignored;
   if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
     throw Error::request("reference = " + folder_.string() +
@@ -30,8 +30,7 @@ std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) c
   const auto nearest = std::min_element(time_.begin(), time_.end(), [&](double a, double b) {
     return std::abs(a - time) < std::abs(b - time);
   });
-  char name[16];
-  std::snprintf(name, sizeof name, "%04d.ply", static_cast<int>(nearest - time_.begin()));
+  const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
   const Surface surface = read_surface((folder_ / "mesh" / name).string());
   if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
     throw Error::request("reference = " + folder_.string() + " has other triangles than this cloth (" +

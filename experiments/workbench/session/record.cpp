@@ -4,26 +4,14 @@
 #include <cstdio>
 #include <cstring>
 
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
 
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
-}
-
 Error failure(const std::string& attempt, const std::filesystem::path& file, int code) {
   return Error::machine("cannot " + attempt + " " + file.string() + ": " + std::strerror(code ? code : EIO));
-}
-
-template <class Items, class ToText>
-std::string line_of(const Items& items, ToText to_text) {
-  std::string line;
-  for (const auto& item : items) line += (line.empty() ? "" : ",") + to_text(item);
-  return line;
 }
 
 }  // namespace
@@ -33,7 +21,7 @@ Record::Record(std::filesystem::path file, const std::vector<std::string>& colum
   errno = 0;
   stream_.open(growing_, std::ios::trunc);
   if (!stream_) throw failure("create", growing_, errno);
-  write_line(line_of(columns, [](const std::string& name) { return name; }));
+  write(row_of({columns.begin(), columns.end()}));
 }
 
 Record::~Record() {
@@ -48,7 +36,7 @@ void Record::row(const std::vector<double>& values) {
     throw Error::run(file_.string() + ": a row of " + std::to_string(values.size()) + " numbers for " +
                      std::to_string(columns_) + " columns");
   }
-  write_line(line_of(values, number));
+  write(exact_row_of(values));
 }
 
 void Record::finish() {
@@ -57,9 +45,9 @@ void Record::finish() {
   finished_ = true;
 }
 
-void Record::write_line(const std::string& line) {
+void Record::write(const std::string& row) {
   errno = 0;
-  stream_ << line << '\n' << std::flush;
+  stream_ << row << std::flush;
   if (stream_) return;
   whole_ = false;
   throw failure("write", growing_, errno);

@@ -24,7 +24,7 @@ class Record {
   void finish();
 
  private:
-  void write_line(const std::string& line);
+  void write(const std::string& row);
 
   std::filesystem::path file_, growing_;
   std::ofstream stream_;

@@ -1,8 +1,9 @@
 #include "experiments/workbench/session/session.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 #include "experiments/workbench/app/time_left.h"
@@ -79,11 +80,8 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
   std::cout << "\n";
   std::size_t total = 0;
   for (const ScenePart& part : simulation.parts()) {
-    char line[200];
-    std::snprintf(line, sizeof line, "%-16s %-3s %12zu bytes  %s", part.name.c_str(),
-                  part.included ? "in" : "out", part.bytes,
-                  part.included ? part.kernels.c_str() : part.reason.c_str());
-    std::cout << line << "\n";
+    std::cout << fmt::format("{:<16} {:<3} {:12} bytes  {}\n", part.name, part.included ? "in" : "out",
+                             part.bytes, part.included ? part.kernels : part.reason);
     total += part.bytes;
   }
   std::cout << "in all " << total << " bytes, " << static_cast<double>(total) / cloth.mesh.faces()
@@ -102,10 +100,11 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     return;
   }
   run_ = std::make_unique<Run>(line, setup);
-  run_->note("device", simulation_->device());
-  run_->note("triangles", cloth_.mesh.faces());
-  run_->note("hinges", cloth_.mesh.interior_edges);
-  run_->note("substeps", simulation_->limits().substeps);
+  Manifest& manifest = run_->manifest();
+  manifest.device = simulation_->device();
+  manifest.triangles = cloth_.mesh.faces();
+  manifest.hinges = cloth_.mesh.interior_edges;
+  manifest.substeps = simulation_->limits().substeps;
 }
 
 // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
@@ -130,26 +129,20 @@ void Session::watch_intersections(const std::vector<Eigen::Vector3d>& x) {
   if (found.empty()) return;
   const auto [a, b] = found.front();
   const Eigen::Vector3d at = x[cloth_.mesh.face[a][0]];
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "warning: %zu pairs of triangles cross at t = %.4f s, the first are %d and %d near (%.4f, %.4f, "
-      "%.4f) m",
-      found.size(), simulation_->time(), a, b, at.x(), at.y(), at.z());
-  run_->progress(text);
+  run_->progress(fmt::format(
+      "warning: {} pairs of triangles cross at t = {:.4f} s, the first are {} and {} near ({:.4f}, {:.4f}, "
+      "{:.4f}) m",
+      found.size(), simulation_->time(), a, b, at.x(), at.y(), at.z()));
 }
 
 void Session::note_folds() {
   constexpr double kMany = 0.01;
   run_->metric("sharp_edges_percent", 100 * folded_);
   if (folded_ < kMany) return;
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "warning: up to %.1f %% of the edges were folded by more than %.1f rad, where bending is more "
-      "than 2.5 %% too soft: take more triangles",
-      100 * folded_, kSharp);
-  run_->progress(text);
+  run_->progress(fmt::format(
+      "warning: up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more "
+      "than 2.5 % too soft: take more triangles",
+      100 * folded_, kSharp));
 }
 
 void Session::note_deep_contact() {
@@ -167,9 +160,7 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
   const std::string& format = setup_.options.export_format;
   if (format == "none") return;
   const auto stage = run_->stage("io");
-  char name[32];
-  std::snprintf(name, sizeof name, "mesh/%04d.%s", frame, format.c_str());
-  const std::string file = run_->path(name).string();
+  const std::string file = run_->path(fmt::format("mesh/{:04}.{}", frame, format)).string();
   if (format == "obj") {
     write_obj(file, cloth_.mesh, x);
   } else {
@@ -233,7 +224,7 @@ bool Session::simulate(const Question& question) {
   const std::vector<std::string> energy = ledger_columns();
   columns.insert(columns.end(), energy.begin(), energy.end());
   Record series(run_->path("metrics.csv"), columns);
-  run_->note("series", question.columns);
+  run_->manifest().series = question.columns;
 
   const int stride = steps_per_frame(setup_);
   const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
@@ -265,14 +256,13 @@ void Session::finish(const std::string& title) {
   const std::string unrest = unrest_words(run_->metrics());
   if (pictures_) pictures_->finish(*run_, title + (unrest.empty() ? "" : ". " + unrest));
   const Ledger ledger = simulation_->ledger();
-  run_->energy(ledger.rows());
+  Manifest& manifest = run_->manifest();
+  manifest.energy = ledger.rows();
   for (const auto& [stage, seconds] : simulation_->stage_seconds()) run_->add_seconds(stage, seconds);
-  char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(simulation_->state_hash()));
-  run_->note("state_hash", hash);
-  run_->note("steps", simulation_->steps());
-  run_->note("seconds_simulated", simulation_->time());
-  run_->note("bytes_device", simulation_->device_bytes());
+  manifest.state_hash = fmt::format("{:016x}", simulation_->state_hash());
+  manifest.steps = simulation_->steps();
+  manifest.seconds_simulated = simulation_->time();
+  manifest.bytes_device = simulation_->device_bytes();
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());

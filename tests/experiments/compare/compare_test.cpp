@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/matching.h"
@@ -199,30 +200,30 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   EXPECT_EQ(metrics, Json({{"linear.turns", 3}, {"prandtl.turns", 2}, {"prandtl.loss_J", 0.5}}));
 }
 
-Json manifest_with(const std::string& law, double damping) {
-  return {{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
-          {"device", "one core"},
-          {"triangles", 12345},
-          {"scene",
-           {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
-            {"mesh", "unionjack"},
-            {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
-            {"law", law},
-            {"integrator", "bdf2"},
-            {"step", 0.004}}}};
+Manifest manifest_with(const std::string& law, double damping) {
+  return manifest_of({{"hysteron", {{"version", "1"}, {"commit", "0123456789abcdef"}}},
+                      {"device", "one core"},
+                      {"triangles", 12345},
+                      {"scene",
+                       {{"cloth", {{"shape", "strip"}, {"length", 0.09}, {"width", 0.03}}},
+                        {"mesh", "unionjack"},
+                        {"fabric", {{"name", "wool"}, {"b1", 2e-5}, {"damping", damping}}},
+                        {"law", law},
+                        {"integrator", "bdf2"},
+                        {"step", 0.004}}}});
 }
 
 // What runs share is said once; what one of them has of its own, with its name.
 TEST(Captions, SayOfRunsWhatTheirManifestsSay) {
-  const Json a = manifest_with("linear", 1e-5), b = manifest_with("linear", 5e-3),
-             c = manifest_with("dahl", 1e-5);
+  const Manifest a = manifest_with("linear", 1e-5), b = manifest_with("linear", 5e-3),
+                 c = manifest_with("dahl", 1e-5);
   const std::string text = facts_of({"a", "b", "c"}, {&a, &b, &c});
   for (const char* part : {"Cloth: strip of 90 by 30 mm, mesh unionjack, 12,345 triangles.",
                            "Fabric: wool (b1 2e-05 N m", "Damping of bending: 1e-05 s; b: 0.005 s.",
                            "Law: linear; c: dahl.", "Solver: bdf2, step 4 ms", "Device: one core."})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   EXPECT_EQ(facts_of({"linear", "dahl"}, {&a, &c}).find("Law:"), std::string::npos) << "their names say it";
-  EXPECT_EQ(origin_words("hysteron x", a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
+  EXPECT_EQ(origin_words("hysteron x", &a), "Written by `hysteron x`, hysteron 1, commit 0123456789ab.");
   EXPECT_EQ(grouped(999), "999");
   EXPECT_EQ(grouped(1234567), "1,234,567");
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"

@@ -10,6 +10,7 @@
 #include "sim/base/error.h"
 #include "tests/experiments/fit/synthetic.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -92,13 +93,7 @@ TEST(Profile, SaysThatLoadingShowsNoFriction) {
 std::string refusal(const std::string& rows) {
   const Folder folder;
   std::ofstream(folder.path() / "p.csv") << "x [m],y [m]\n" << rows;
-  try {
-    read_profile(folder.path() / "p.csv");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { read_profile(folder.path() / "p.csv"); });
 }
 
 std::string rows_of(const std::vector<Eigen::Vector2d>& points) {
@@ -109,7 +104,7 @@ std::string rows_of(const std::vector<Eigen::Vector2d>& points) {
 
 TEST(Profile, ThatIsNoneIsRefusedWithTheReason) {
   std::vector<Eigen::Vector2d> points = seen(kCotton, kEighty, 0, 1).points;
-  EXPECT_EQ(refusal(rows_of(points)), "accepted");
+  EXPECT_EQ(refusal(rows_of(points)), "(accepted)");
   const auto says = [](const std::string& text, const char* part) { return text.find(part) != text.npos; };
   EXPECT_TRUE(says(refusal("0,0\n0.01,-0.001\n"), "2 points, at least 12"));
   std::vector<Eigen::Vector2d> swapped = points, upwards = points, millimetres = points;

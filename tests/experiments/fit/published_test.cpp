@@ -8,23 +8,14 @@
 #include "sim/base/error.h"
 #include "tests/experiments/fit/synthetic.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
 
+using test::refusal;
 using Names = std::vector<std::string>;
 constexpr double kRounding = 1e-12;
-
-template <class Body>
-std::string refusal(Body body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "accepted";
-}
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 

@@ -1,6 +1,7 @@
 #include "experiments/kes/kes.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/recovery.h"

@@ -1,14 +1,13 @@
 #include "sim/base/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <filesystem>
 
 #include "sim/base/error.h"
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/small_disk.h"
 
 namespace hysteron {
 namespace {
@@ -81,30 +80,12 @@ TEST(AtomicFile, FolderInTheWayIsTheMachinesFailure) {
   EXPECT_EQ(std::string(below.what()), "cannot create " + folder.file("taken/a.txt") + ": Not a directory");
 }
 
-// Writes beyond `bytes` fail in this process, as on a full disk, until this goes out of scope.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
-
 TEST(AtomicFile, FullDiskKeepsTheOldFileAndNothingElse) {
   const Folder folder;
   folder.write("a.txt", "old");
   for (const std::size_t size : {2000, 2000000}) {  // fails when flushed, and while writing
     const Error error = test::error_of([&] {
-      const SmallDisk disk(1000);
+      const test::SmallDisk disk(1000);
       AtomicFile file(folder.file("a.txt"));
       file.stream() << std::string(size, 'x');
       file.commit();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "sim/base/error.h"
@@ -67,6 +68,32 @@ TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {
       EXPECT_EQ(error.exit_code(), 1);
     }
   }
+}
+
+TEST_F(Csv, NamesTheReaderTheFileAndTheLineOfARow) {
+  const Table table = read_csv(file("curvature [1/m]\n1\n\n2\n"), {"curvature [1/m]"}, {}, "law");
+  const Error error = table.refusal(1, "too sharp");
+  EXPECT_EQ(error.what(), "law: " + (folder_ / "in.csv").string() + ":4: too sharp");
+  EXPECT_EQ(error.experiment(), "law");
+}
+
+TEST_F(Csv, WritesWordsAndNumbersAndReadsThemBack) {
+  CsvFile written(folder_ / "words.csv", "name,count,size [m],known");
+  written.row({"a, \"b\"", 12, 1. / 3, true});
+  written.row({"", std::size_t{0}, NAN, false});
+  written.commit();
+  const TextTable table = read_words(folder_ / "words.csv");
+  EXPECT_EQ(table.head, (std::vector<std::string>{"name", "count", "size [m]", "known"}));
+  EXPECT_EQ(table.rows,
+            (std::vector<std::vector<std::string>>{{"a, \"b\"", "12", "0.333333", "1"}, {"", "0", "", "0"}}));
+  EXPECT_EQ(table.lines, (std::vector<int>{2, 3}));
+}
+
+TEST_F(Csv, ReadsEveryColumnOfATableOfNumbersAndNoneOfOneWithoutRows) {
+  const Table whole = read_whole_csv(file(" time [s],x\n0,1\n"), "report");
+  ASSERT_EQ(whole.columns.size(), 2u);
+  EXPECT_EQ(whole.columns[0].name, "time [s]");
+  EXPECT_TRUE(read_whole_csv(file("time [s],x\n"), "report").columns.empty());
 }
 
 TEST_F(Csv, ReadsBackTheSameDoublesThatWereWritten) {

@@ -2,6 +2,7 @@
 
 #include "gtest/gtest.h"
 #include "sim/base/error.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -26,13 +27,7 @@ std::string text_of_flag(const CommandLine& line, const std::string& path) {
 }
 
 std::string refusal(std::vector<const char*> words) {
-  try {
-    parsed(std::move(words));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "(accepted)";
+  return test::refusal([&] { parsed(std::move(words)); });
 }
 
 TEST(CommandLine, TakesEveryKeyOfASceneAsAFlag) {

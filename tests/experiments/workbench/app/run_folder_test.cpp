@@ -5,24 +5,14 @@
 
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
+using test::refusal;
 
 void write(const fs::path& file, const std::string& text = "mine") { std::ofstream(file) << text; }
-
-// What it says, refused as a wrong request.
-template <class Body>
-std::string refusal(Body body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "(done)";
-}
 
 std::string refused_run(const fs::path& out, const CommandLine& line = drape_line()) {
   return refusal([&] { ExperimentRun(line, setup_in(out)); });
@@ -48,16 +38,16 @@ TEST(RunFolder, HoldsOneRunAtATime) {
     EXPECT_EQ(refused_run(folder.path()),
               folder.path().string() +
                   " is in use by another run: wait for its end, or give another folder (--out)");
-    EXPECT_EQ(refused_run(folder.path() / "errors" / "step"), "(done)");  // a run of the run's own
+    EXPECT_EQ(refused_run(folder.path() / "errors" / "step"), "(accepted)");  // a run of the run's own
     first.finish();
   }
-  EXPECT_EQ(refused_run(folder.path()), "(done)");
+  EXPECT_EQ(refused_run(folder.path()), "(accepted)");
 }
 
 TEST(RunFolder, IsFreeAgainWhenItsRunIsKilled) {
   const Folder folder;
   killed([&] { new ExperimentRun(drape_line(), setup_in(folder.path())); });
-  EXPECT_EQ(refused_run(folder.path()), "(done)");
+  EXPECT_EQ(refused_run(folder.path()), "(accepted)");
 }
 
 TEST(RunFolder, LosesWhatAKilledRunHasLeftAndNothingElse) {

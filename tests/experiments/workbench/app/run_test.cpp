@@ -1,5 +1,7 @@
 #include "experiments/workbench/app/run.h"
 
+#include <nlohmann/json.hpp>
+
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 
@@ -38,11 +40,11 @@ TEST(Manifest, HoldsEveryEntryThatScriptsRead) {
 TEST(Manifest, ReportsWhatTheRunFound) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  run.note("device", "cpu");
-  run.note("triangles", 4608);
+  run.manifest().device = "cpu";
+  run.manifest().triangles = 4608;
   run.metric("node_count", 5);
   run.metric("drape_coefficient_percent", 49.8);
-  run.energy({{"kinetic", 0.5}, {"bending_friction", 0.25}});
+  run.manifest().energy = {{"kinetic", 0.5}, {"bending_friction", 0.25}};
   run.add_seconds("solve", 2);
   run.add_seconds("solve", 3);
   { const ExperimentRun::Stage stage = run.stage("io"); }

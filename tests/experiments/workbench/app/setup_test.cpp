@@ -1,5 +1,6 @@
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -7,13 +8,7 @@ namespace {
 CommandLine drape_with(std::vector<Flag> flags) { return {"drape", "hysteron drape", std::move(flags), {}}; }
 
 std::string refusal(std::vector<Flag> flags) {
-  try {
-    set_up(drape_with(std::move(flags)), {default_scene(), {}});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "(accepted)";
+  return test::refusal([&] { set_up(drape_with(std::move(flags)), {default_scene(), {}}); });
 }
 
 TEST(Setup, PutsFlagsOverTheSceneFileOverTheExperimentsDefaults) {

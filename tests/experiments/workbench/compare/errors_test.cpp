@@ -61,10 +61,10 @@ TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
 
 TEST(Repeats, OfAClothFromAFileHaveNoOtherMesh) {
   EXPECT_EQ(words(repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2)), "step: step=0.005");
-  const Json metrics = {{"curvature_rms_per_m", 5.0}};
+  const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
   const Errors errors = errors_of("crumple", metrics, {{{"step", {}}, {{"curvature_rms_per_m", 6.0}}}});
-  EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"], 1);
-  EXPECT_TRUE(errors.metrics["curvature_rms_per_m_mesh_error"].is_null());
+  EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"].number(), 1);
+  EXPECT_FALSE(errors.metrics["curvature_rms_per_m_mesh_error"].is_known());
   ASSERT_EQ(errors.missing.size(), 1);
   EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
 }
@@ -78,33 +78,33 @@ TEST(Repeats, OfEquilibriaHaveNoStep) {
             "mesh: triangles=4000; draw-1: mesh=random seed=8");
   const Errors errors =
       errors_of("buckle", {{"critical_gamma", 8.0}}, {{{"mesh", {}}, {{"critical_gamma", 7.0}}}});
-  EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"], 1);
-  EXPECT_TRUE(errors.metrics["critical_gamma_step_error"].is_null());
+  EXPECT_EQ(errors.metrics["critical_gamma_mesh_error"].number(), 1);
+  EXPECT_FALSE(errors.metrics["critical_gamma_step_error"].is_known());
   EXPECT_EQ(errors.missing,
             std::vector<std::string>{"step: buckle finds equilibria at loads that --step does not set"});
 }
 
 TEST(Errors, AreDifferencesToTheRunAndTheDeviationOverDraws) {
-  const Json metrics = {{"bending_length_m", 8.0}};
+  const Metrics metrics = {{"bending_length_m", 8.0}};
   const Errors errors = errors_of(
       "cantilever", metrics,
       {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 7), bent("draw-2", 9), bent("path", 7)});
-  EXPECT_EQ(errors.metrics["bending_length_m_step_error"], 0.25);
-  EXPECT_EQ(errors.metrics["bending_length_m_mesh_error"], 0.5);
-  EXPECT_EQ(errors.metrics["bending_length_m_draw_error"], 1);  // of 7, 8, 9
-  EXPECT_EQ(errors.metrics["bending_length_m_path_difference"], -1);
+  EXPECT_EQ(errors.metrics["bending_length_m_step_error"].number(), 0.25);
+  EXPECT_EQ(errors.metrics["bending_length_m_mesh_error"].number(), 0.5);
+  EXPECT_EQ(errors.metrics["bending_length_m_draw_error"].number(), 1);  // of 7, 8, 9
+  EXPECT_EQ(errors.metrics["bending_length_m_path_difference"].number(), -1);
   EXPECT_FALSE(errors.metrics.contains("bending_length_m_mean"));
   EXPECT_TRUE(errors.missing.empty());
 }
 
 TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
-  const Json metrics = {{"bending_length_m", 6.0}};
+  const Metrics metrics = {{"bending_length_m", 6.0}};
   const Errors errors = errors_of(
       "cantilever", metrics,
       {bent("mesh", 7.5), bent("step", 8.25), bent("draw-1", 6), bent("draw-2", 8), bent("draw-3", 8)});
-  EXPECT_EQ(errors.metrics["bending_length_m_mean"], 7);
-  EXPECT_NEAR(errors.metrics["bending_length_m_draw_error"].get<double>(), std::sqrt(4.0 / 3), 1e-15);
-  EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].get<double>(), std::sqrt(1.0 / 3), 1e-15);
+  EXPECT_EQ(errors.metrics["bending_length_m_mean"].number(), 7);
+  EXPECT_NEAR(errors.metrics["bending_length_m_draw_error"].number(), std::sqrt(4.0 / 3), 1e-15);
+  EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].number(), std::sqrt(1.0 / 3), 1e-15);
 }
 
 TEST(Errors, OfCountsThatAreAlikeAreNone) {
@@ -119,25 +119,25 @@ TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
   Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
   stopped.stopped = "no convergence";
   same.unchanged = true;
-  without.metrics = Json::object();
+  without.metrics = {};
   const Errors errors = errors_of("cantilever", {{"bending_length_m", 8.0}}, {stopped, same, without});
   for (const char* ending : {kStepError, kMeshError, kDrawError})
-    EXPECT_TRUE(errors.metrics.at(std::string("bending_length_m") + ending).is_null()) << ending;
+    EXPECT_FALSE(errors.metrics[std::string("bending_length_m") + ending].is_known()) << ending;
   ASSERT_EQ(errors.missing.size(), 3);
   EXPECT_EQ(errors.missing[0], "mesh (--seed=2) is not complete: no convergence");
   EXPECT_NE(errors.missing[1].find("changes no bit"), std::string::npos);
   EXPECT_EQ(errors.missing[2], "draw-1 has no bending_length_m");
 }
 
-const Json kDrape = {{"drape_coefficient_percent", 86.0213},
-                     {"node_count", 8},
-                     {"drape_coefficient_percent_step_error", 0.1042},
-                     {"drape_coefficient_percent_mesh_error", 0.612},
-                     {"drape_coefficient_percent_draw_error", 0.83},
-                     {"node_count_step_error", 0},
-                     {"node_count_mesh_error", nullptr},
-                     {"node_count_draw_error", 0.577},
-                     {"max_stretch_percent", 0.25}};
+const Metrics kDrape = {{"drape_coefficient_percent", 86.0213},
+                        {"node_count", 8},
+                        {"drape_coefficient_percent_step_error", 0.1042},
+                        {"drape_coefficient_percent_mesh_error", 0.612},
+                        {"drape_coefficient_percent_draw_error", 0.83},
+                        {"node_count_step_error", 0},
+                        {"node_count_mesh_error", nullptr},
+                        {"node_count_draw_error", 0.577},
+                        {"max_stretch_percent", 0.25}};
 
 TEST(HeadlineWords, EndWhereTheErrorsDo) {
   EXPECT_EQ(with_errors(kDrape, "drape_coefficient_percent"),
@@ -147,13 +147,13 @@ TEST(HeadlineWords, EndWhereTheErrorsDo) {
 }
 
 TEST(HeadlineWords, WriteSmallNumbersInPowersOfTen) {
-  const Json swing = {{"bending_friction_J", 1.2345e-5},
-                      {"bending_friction_J_step_error", 3.4e-8},
-                      {"bending_friction_J_mesh_error", 1.2e-7},
-                      {"bending_friction_J_draw_error", 2e-7},
-                      {"bending_friction_J_mean", 1.25e-5},
-                      {"bending_friction_J_mean_stderr", 1e-7},
-                      {"bending_friction_J_path_difference", -4e-7}};
+  const Metrics swing = {{"bending_friction_J", 1.2345e-5},
+                         {"bending_friction_J_step_error", 3.4e-8},
+                         {"bending_friction_J_mesh_error", 1.2e-7},
+                         {"bending_friction_J_draw_error", 2e-7},
+                         {"bending_friction_J_mean", 1.25e-5},
+                         {"bending_friction_J_mean_stderr", 1e-7},
+                         {"bending_friction_J_path_difference", -4e-7}};
   EXPECT_EQ(
       with_errors(swing, "bending_friction_J"),
       "bending friction 1.23e-05 J ± 3e-08 step ± 1.2e-07 mesh ± 2e-07 draw, other path -4e-07, mean of "
@@ -169,9 +169,9 @@ TEST(MetricCards, ShowErrorsBesideTheirHeadline) {
 }
 
 TEST(MetricTable, ShowsErrorsInTheHeadlinesCell) {
-  Json all = Json::object();
-  for (const auto& [key, value] : kDrape.items()) all["prandtl." + key] = value;
-  all["linear.drape_coefficient_percent"] = 72.0;
+  Metrics all;
+  for (const auto& [key, value] : kDrape) all.set("prandtl." + key, value);
+  all.set("linear.drape_coefficient_percent", 72.0);
   const std::string html = metric_table(all);
   EXPECT_NE(html.find(">86.0 ± 0.10 step ± 0.6 mesh ± 0.8 draw<"), std::string::npos) << html;
   EXPECT_NE(html.find(">72<"), std::string::npos) << html;

@@ -1,6 +1,8 @@
 // What a run says first and last: results with their errors, rest, places, time left.
 #include "experiments/workbench/pages/closing_words.h"
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "gtest/gtest.h"
@@ -10,9 +12,15 @@
 namespace hysteron::experiments {
 namespace {
 
-Json drape_manifest(const Json& metrics) {
-  return {{"experiment", "drape"}, {"complete", true}, {"scene", Json::object()}, {"metrics", metrics}};
+Manifest manifest_with(const std::string& experiment, const Metrics& metrics) {
+  Manifest manifest;
+  manifest.experiment = experiment;
+  manifest.metrics = metrics;
+  manifest.complete = true;
+  return manifest;
 }
+
+Manifest drape_manifest(const Metrics& metrics) { return manifest_with("drape", metrics); }
 
 void expect_in(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
@@ -20,14 +28,29 @@ void expect_in(const std::string& text, const std::string& part) {
 
 TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
   const std::string words = result_words(drape_manifest({{"drape_coefficient_percent", 86.04},
-                                                         {"drape_coefficient_percent_step_error", -0.8},
+                                                         {"drape_coefficient_percent_step_error", 0.8},
                                                          {"drape_coefficient_percent_mesh_error", 0.61},
                                                          {"node_count", 8},
                                                          {"settled", true}}));
-  expect_in(words, "drape coefficient             86.0 ± 0.8 (step) ± 0.61 (mesh) %\n");
+  expect_in(words, "drape coefficient             86.0 % ± 0.8 step ± 0.6 mesh, draw error unknown\n");
   expect_in(words, "folds                         8\n");
   expect_in(words, "at rest\n");
   EXPECT_EQ(words.find("NOT"), std::string::npos);
+}
+
+TEST(ResultWords, ShowErrorsInTheUnitOfTheirNumber) {
+  const Manifest manifest = manifest_with("fold", {{"2HB_N", 9.377e-4},
+                                                   {"2HB_N_step_error", 7.1e-9},
+                                                   {"2HB_N_mesh_error", 6.4e-6},
+                                                   {"2HB_N_draw_error", 7e-7}});
+  expect_in(result_words(manifest),
+            "2HB                           0.938 mN ± 7e-06 step ± 0.006 mesh ± 7e-04 draw\n");
+}
+
+TEST(ResultWords, OfAFitShowItsStandardError) {
+  const Manifest manifest =
+      manifest_with("swing", {{"decay_exponent", 2.0412}, {"decay_exponent_stderr", 0.0523}});
+  expect_in(result_words(manifest), "exponent of decay             2.04 ± 0.05\n");
 }
 
 TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {
@@ -35,28 +58,25 @@ TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
-  const Json metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
+  const Metrics metrics = {{"settled", false}, {"fastest_m_per_s", 4.1e-3}, {"settling_limit_m_per_s", 2e-3}};
   expect_in(result_words(drape_manifest(metrics)), "NOT at rest: fastest vertex 4.1 mm/s, limit 2 mm/s\n");
   EXPECT_EQ(unrest_words({{"settled", true}}), "");
-  EXPECT_EQ(unrest_words(Json::object()), "") << "where no rest is asked for";
+  EXPECT_EQ(unrest_words({}), "") << "where no rest is asked for";
 }
 
 TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
-  const Json manifest = {{"experiment", "compare"},
-                         {"complete", true},
-                         {"scene", {{"compared", "drape"}}},
-                         {"metrics",
-                          {{"linear.drape_coefficient_percent", 72.2},
-                           {"linear.settled", false},
-                           {"prandtl.drape_coefficient_percent", 86.0}}}};
+  Manifest manifest = manifest_with("compare", {{"linear.drape_coefficient_percent", 72.2},
+                                                {"linear.settled", false},
+                                                {"prandtl.drape_coefficient_percent", 86.0}});
+  manifest.scene.compared = "drape";
   const std::string words = result_words(manifest);
   expect_in(words, "  linear                        drape coefficient 72.2 %; NOT at rest\n");
   expect_in(words, "  prandtl                       drape coefficient 86.0 %\n");
 }
 
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {
-  Json manifest = drape_manifest(Json::object());
-  manifest["complete"] = false;
+  Manifest manifest = drape_manifest({});
+  manifest.complete = false;
   expect_in(result_words(manifest), "INCOMPLETE");
 }
 
@@ -94,7 +114,7 @@ TEST(TimeLeft, IsTheTimeSoFarTimesWhatIsLeftOverWhatIsDone) {
 TEST(ColumnProgress, IsTheLastWholeMomentOfTheRunsTable) {
   const Folder folder;
   EXPECT_EQ(progress_in(folder.path()), "");
-  std::ofstream(folder.path() / "manifest.json") << R"({"scene": {"seconds": 4}})";
+  std::ofstream(folder.path() / "manifest.json") << R"({"hysteron": {}, "scene": {"seconds": 4}})";
   std::ofstream(folder.path() / "metrics.csv.part") << "time [s],x\n0,1\n1.2,3\n2.";
   EXPECT_EQ(progress_in(folder.path()), "1.20/4 s");
 }

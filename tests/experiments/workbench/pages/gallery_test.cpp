@@ -1,5 +1,8 @@
 #include "experiments/workbench/pages/gallery.h"
 
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery_about.h"
@@ -36,7 +39,7 @@ void write_picture(const fs::path& file, int width, int height) {
 // A finished run of `experiment` with one metric.
 void write_run(const fs::path& folder, const std::string& experiment, double metric = 49.8) {
   ExperimentRun run({experiment, "hysteron " + experiment + " --quick", {}, {}}, setup_in(folder));
-  run.note("device", "cpu: CPU, 2 threads");
+  run.manifest().device = "cpu: CPU, 2 threads";
   run.metric("recovery_angle_deg", metric);
   run.metric("newton_iterations_per_step", 3);
   run.finish();
@@ -113,7 +116,9 @@ TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
 }
 
 TEST(GalleryAbout, NamesFewLawsAndCountsMany) {
-  const auto subject = [](const char* scene) { return subject_of({{"scene", Json::parse(scene)}}); };
+  const auto subject = [](const char* scene) {
+    return subject_of(manifest_of({{"scene", Json::parse(scene)}}).scene);
+  };
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "prandtl"})"), "wool, law prandtl");
   EXPECT_EQ(subject(R"({"fabric": {"name": "wool"}, "law": "dahl,wong"})"), "wool, laws dahl, wong");
   EXPECT_EQ(subject(R"({"fabrics": "wool", "laws": ["a", "b", "c", "d", "e"]})"), "wool, 5 laws");

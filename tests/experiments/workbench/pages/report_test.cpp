@@ -1,5 +1,7 @@
 #include "experiments/workbench/pages/report.h"
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/session/record.h"
@@ -34,7 +36,7 @@ class Report : public testing::Test {
   Report() {
     ExperimentRun run(drape_line(), setup_in(folder_.path()));
     run.metric("drape_coefficient_percent", 49.8);
-    run.energy({{"bending_friction", 0.25}});
+    run.manifest().energy = {{"bending_friction", 0.25}};
     Record record(run.path("metrics.csv"), {"time [s]", "kinetic [J]"});
     for (int i = 0; i < 5; ++i) record.row({0.1 * i, 1.0 - 0.1 * i});
     record.finish();

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"
@@ -18,7 +20,7 @@ TEST(TextTable, ReadsWhatRowsAreWrittenAs) {
   const std::vector<std::vector<std::string>> rows = {
       {"law", "note"}, {"wong", "a, b"}, {"\"quoted\"", "two\nlines"}, {"", ""}};
   std::string text;
-  for (const auto& row : rows) text += row_of(row);
+  for (const auto& row : rows) text += row_of({row.begin(), row.end()});
   const TextTable table = table_in(text);
   EXPECT_EQ(table.head, rows[0]);
   EXPECT_EQ(table.rows, std::vector(rows.begin() + 1, rows.end()));

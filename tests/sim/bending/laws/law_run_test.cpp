@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/prandtl_stack.h"
 #include "sim/bending/laws/recovery.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron::testing {
@@ -20,13 +21,7 @@ std::vector<LawRow> rows(const std::vector<double>& curvatures) {
 }
 
 std::string refusal(const LawRequest& request) {
-  try {
-    run_law(request, rows({1.0}));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    return error.what();
-  }
-  return "";
+  return test::refusal([&] { run_law(request, rows({1.0})); });
 }
 
 TEST(LawRun, KnowsTheFourteenNames) {

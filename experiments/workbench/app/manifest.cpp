@@ -1,0 +1,36 @@
+#include "experiments/workbench/app/manifest.h"
+
+#include <algorithm>
+
+namespace hysteron::experiments {
+namespace {
+
+template <class Entries>
+auto find(Entries& entries, const std::string& name) {
+  return std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == name; });
+}
+
+}  // namespace
+
+void Metrics::set(const std::string& name, MetricValue value) {
+  const auto found = find(entries_, name);
+  if (found == entries_.end())
+    entries_.emplace_back(name, std::move(value));
+  else
+    found->second = std::move(value);
+}
+
+bool Metrics::contains(const std::string& name) const { return find(entries_, name) != entries_.end(); }
+
+const MetricValue& Metrics::operator[](const std::string& name) const {
+  static const MetricValue kUnknown;
+  const auto found = find(entries_, name);
+  return found == entries_.end() ? kUnknown : found->second;
+}
+
+double Manifest::total_seconds() const {
+  const auto found = find(wall_seconds, "total");
+  return found == wall_seconds.end() ? 0 : found->second;
+}
+
+}  // namespace hysteron::experiments

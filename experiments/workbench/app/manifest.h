@@ -1,0 +1,168 @@
+// What a run is and has found: the manifest in its folder, typed.  JSON is only in manifest_file.h.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace hysteron::experiments {
+
+using Json = nlohmann::ordered_json;
+
+// A result: number, text, truth or list of texts; nothing where it is not known, as where a number is not
+// finite.
+class MetricValue {
+ public:
+  MetricValue() = default;
+  MetricValue(std::nullptr_t) {}
+  MetricValue(double number) : value_(number) {}
+  template <std::integral Integer>
+  MetricValue(Integer number) {
+    if constexpr (std::same_as<Integer, bool>)
+      value_ = number;
+    else
+      value_ = static_cast<std::int64_t>(number);
+  }
+  MetricValue(std::string text) : value_(std::move(text)) {}
+  MetricValue(const char* text) : value_(std::string(text)) {}
+  MetricValue(std::vector<std::string> texts) : value_(std::move(texts)) {}
+  template <class T>
+  MetricValue(const std::optional<T>& known) : MetricValue(known ? MetricValue(*known) : MetricValue()) {}
+
+  bool is_known() const { return is_number() || (!is_numeric() && value_.index() > 0); }
+  bool is_integer() const { return std::holds_alternative<std::int64_t>(value_); }
+  // A number, if it is known; and if so, finite.
+  bool is_numeric() const { return is_integer() || std::holds_alternative<double>(value_); }
+  bool is_number() const { return is_numeric() && std::isfinite(number()); }
+  bool is_text() const { return std::holds_alternative<std::string>(value_); }
+  bool is(bool truth) const { return value_ == Variant(truth); }
+  // Of a number, of a text.
+  double number() const {
+    return is_integer() ? static_cast<double>(std::get<std::int64_t>(value_)) : std::get<double>(value_);
+  }
+  const std::string& text() const { return std::get<std::string>(value_); }
+
+  using Variant =
+      std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>>;
+  const Variant& variant() const { return value_; }
+  bool operator==(const MetricValue&) const = default;
+
+ private:
+  Variant value_;
+};
+
+// Results by name, in the order in which they were found.
+class Metrics {
+ public:
+  using Entry = std::pair<std::string, MetricValue>;
+
+  Metrics() = default;
+  Metrics(std::initializer_list<Entry> entries) {
+    for (const auto& [name, value] : entries) set(name, value);
+  }
+
+  void set(const std::string& name, MetricValue value);
+  bool contains(const std::string& name) const;
+  // What is not there is not known.
+  const MetricValue& operator[](const std::string& name) const;
+  bool empty() const { return entries_.empty(); }
+  auto begin() const { return entries_.begin(); }
+  auto end() const { return entries_.end(); }
+  bool operator==(const Metrics&) const = default;
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+// The fabric of a run, as far as pages tell of it.
+struct FabricRecord {
+  std::string name;
+  double b1 = 0, b2 = 0, k0 = 0, density = 0, damping = 0;  // 0 where the manifest does not say
+  struct Number {
+    std::string name;
+    MetricValue value;
+    std::string unit;  // "" for SI
+    std::string confidence, source;
+  };
+  std::vector<Number> numbers;    // those with a source
+  std::vector<Number> published;  // as they stand in print
+};
+
+// What a run was asked for, as far as pages tell of it.
+struct SceneRecord {
+  FabricRecord fabric;
+  std::string shape;                         // of the cloth
+  double length = 0, width = 0, radius = 0;  // [m]
+  std::string mesh, integrator, precision;
+  std::optional<std::string> law, element;                   // as they stand there: "linear,prandtl"
+  std::vector<std::string> laws, elements, fabrics;          // all of them
+  std::vector<std::pair<std::string, std::string>> param{};  // of the law
+  double step = 0;                                           // [s]
+  std::optional<double> seconds;
+  bool self_contact = false;
+  std::string compared;  // the experiment that a comparison's columns ran
+};
+
+// The pictures of a run.
+struct Frames {
+  struct Bar {
+    std::string label, unit;
+    double low = 0, high = 0;
+  };
+  struct Look {
+    std::string name;
+    std::optional<Bar> bar{};  // of its colours
+  };
+  struct Moment {
+    double time = 0;  // [s]
+    std::string phase;
+    std::optional<double> difference_rms{};  // of look `difference` [1/m]
+  };
+  std::vector<Look> looks;
+  double metres_per_pixel = 0;
+  std::vector<Moment> moments;
+};
+
+// A curve that a comparison draws of every column: two columns of a file in its folder.
+struct Curve {
+  std::string plot, file, x, y;
+  bool logarithmic = false;
+  std::string caption;
+};
+
+struct Manifest {
+  std::string version, commit;
+  bool dirty = false;
+  std::string experiment, command, started;
+  std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written
+  SceneRecord scene;                 // the same, as it is read
+  std::optional<std::string> device, renderer, positions, precision, element, law;
+  std::optional<std::int64_t> triangles, hinges, steps;
+  std::optional<double> seconds_simulated;
+  std::vector<std::pair<std::string, double>> wall_seconds;  // "total", then by stage
+  std::optional<std::int64_t> bytes_device;
+  std::vector<std::pair<std::string, double>> energy;  // closing balance [J]; empty: none is kept
+  std::optional<std::string> state_hash;
+  std::optional<int> substeps;
+  std::vector<std::pair<std::string, std::shared_ptr<const Json>>> own;  // what only its experiment notes
+  std::optional<std::vector<std::string>> series;                        // own columns of metrics.csv
+  std::optional<Frames> frames;
+  std::vector<Curve> curves;
+  std::string film_missing;  // why; "" if it is not
+  std::vector<std::string> plots_missing, errors_missing;
+  Metrics metrics;
+  std::vector<std::string> files;
+  bool complete = false;
+
+  double total_seconds() const;  // of wall clock; 0 where it is not known
+};
+
+}  // namespace hysteron::experiments

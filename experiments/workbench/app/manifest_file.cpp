@@ -1,0 +1,320 @@
+#include "experiments/workbench/app/manifest_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/json_file.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Json to_json(const MetricValue& value) {
+  return std::visit(
+      [](const auto& known) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(known)>, std::monostate>)
+          return nullptr;
+        else
+          return known;
+      },
+      value.variant());
+}
+
+template <class T>
+Json to_json(const std::optional<T>& known) {
+  return known ? Json(*known) : Json();
+}
+
+// An object with these entries, null without any.
+template <class T>
+Json to_json(const std::vector<std::pair<std::string, T>>& entries) {
+  Json object;
+  for (const auto& [name, value] : entries) object[name] = value;
+  return object;
+}
+
+Json to_json(const Metrics& metrics) {
+  Json object = Json::object();
+  for (const auto& [name, value] : metrics) object[name] = to_json(value);
+  return object;
+}
+
+Json to_json(const Frames& frames) {
+  Json looks = Json::object(), moments = Json::array();
+  for (const auto& [name, bar] : frames.looks) {
+    looks[name] = nullptr;
+    if (bar)
+      looks[name] = {{"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
+  }
+  for (const Frames::Moment& moment : frames.moments) {
+    moments.push_back({{"s", moment.time}, {"phase", moment.phase}});
+    if (moment.difference_rms) moments.back()["difference_rms_per_m"] = *moment.difference_rms;
+  }
+  return {{"looks", looks}, {"m_per_pixel", frames.metres_per_pixel}, {"moments", moments}};
+}
+
+Json to_json(const Curve& curve) {
+  return {{"plot", curve.plot},
+          {"file", curve.file},
+          {"x", curve.x},
+          {"y", curve.y},
+          {"logarithmic", curve.logarithmic},
+          {"caption", curve.caption}};
+}
+
+// Entries that only some runs have.
+void add_what_some_have(const Manifest& m, Json& json) {
+  if (m.substeps) json["substeps"] = *m.substeps;
+  for (const auto& [key, value] : m.own) json[key] = *value;
+  if (m.series) json["series"] = *m.series;
+  if (m.frames) json["frames"] = to_json(*m.frames);
+  for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
+  if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
+  if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
+  if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
+}
+
+// Null if there is nothing.
+const Json& at(const Json& json, const char* key) {
+  static const Json kNothing;
+  if (!json.is_object()) return kNothing;
+  const auto found = json.find(key);
+  return found == json.end() ? kNothing : *found;
+}
+
+std::string text_at(const Json& json, const char* key) {
+  const Json& value = at(json, key);
+  return value.is_string() ? value.get<std::string>() : "";
+}
+
+double number_at(const Json& json, const char* key) {
+  const Json& value = at(json, key);
+  return value.is_number() ? value.get<double>() : 0;
+}
+
+bool is_true_at(const Json& json, const char* key) { return at(json, key) == Json(true); }
+
+template <class T>
+std::optional<T> known_at(const Json& json, const char* key) {
+  const Json& value = at(json, key);
+  const bool fits = std::is_same_v<T, std::string> ? value.is_string()
+                    : std::is_integral_v<T>        ? value.is_number_integer()
+                                                   : value.is_number();
+  return fits ? std::optional<T>(value.get<T>()) : std::nullopt;
+}
+
+// As it is shown, a list as JSON.
+std::string shown_at(const Json& json, const char* key) {
+  const Json& value = at(json, key);
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? "–" : value.dump();
+}
+
+std::vector<std::string> texts_at(const Json& json, const char* key) {
+  std::vector<std::string> texts;
+  for (const Json& text : at(json, key))
+    if (text.is_string()) texts.push_back(text.get<std::string>());
+  return texts;
+}
+
+std::vector<std::pair<std::string, double>> numbers_at(const Json& json, const char* key) {
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const auto& [name, number] : at(json, key).items())
+    if (number.is_number()) numbers.emplace_back(name, number.get<double>());
+  return numbers;
+}
+
+Metrics metrics_of(const Json& json) {
+  Metrics metrics;
+  for (const auto& [name, value] : json.items()) metrics.set(name, value_of(value));
+  return metrics;
+}
+
+// "prandtl,linear", or a list of names or of what has one, as experiments over several laws or fabrics have
+// it; under the key, or else under that with an s.
+std::vector<std::string> names_at(const Json& scene, const std::string& key) {
+  const Json& value = at(scene, scene.contains(key) ? key.c_str() : (key + "s").c_str());
+  if (value.is_string()) return split(value.get<std::string>());
+  std::vector<std::string> names;
+  if (value.is_array())
+    for (const Json& entry : value)
+      names.push_back(entry.is_string() ? entry.get<std::string>() : text_at(entry, "name"));
+  return names;
+}
+
+FabricRecord fabric_of(const Json& json) {
+  FabricRecord fabric{text_at(json, "name"),
+                      number_at(json, "b1"),
+                      number_at(json, "b2"),
+                      number_at(json, "k0"),
+                      number_at(json, "density"),
+                      number_at(json, "damping"),
+                      {},
+                      {}};
+  for (const auto& [name, from] : at(json, "provenance").items())
+    fabric.numbers.push_back(
+        {name, value_of(at(json, name.c_str())), "", shown_at(from, "confidence"), shown_at(from, "source")});
+  for (const auto& [name, number] : at(json, "published").items())
+    fabric.published.push_back({name, value_of(at(number, "value")), shown_at(number, "unit"),
+                                shown_at(number, "confidence"), shown_at(number, "source")});
+  return fabric;
+}
+
+SceneRecord scene_of(const Json& json) {
+  SceneRecord scene;
+  scene.fabric = fabric_of(at(json, "fabric"));
+  const Json& cloth = at(json, "cloth");
+  scene.shape = text_at(cloth, "shape");
+  scene.length = number_at(cloth, "length");
+  scene.width = number_at(cloth, "width");
+  scene.radius = number_at(cloth, "radius");
+  scene.mesh = text_at(json, "mesh");
+  scene.integrator = text_at(json, "integrator");
+  scene.precision = text_at(json, "precision");
+  if (json.contains("law")) scene.law = shown_at(json, "law");
+  if (json.contains("element")) scene.element = shown_at(json, "element");
+  scene.laws = names_at(json, "law");
+  scene.elements = names_at(json, "element");
+  scene.fabrics = names_at(json, "fabric");
+  for (const auto& [name, value] : at(json, "param").items())
+    scene.param.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  scene.step = number_at(json, "step");
+  scene.seconds = known_at<double>(json, "seconds");
+  scene.self_contact = is_true_at(json, "self-contact");
+  scene.compared = text_at(json, "compared");
+  return scene;
+}
+
+std::optional<Frames> frames_of(const Json& json) {
+  if (!json.is_object()) return {};
+  Frames frames;
+  for (const auto& [name, bar] : at(json, "looks").items()) {
+    frames.looks.push_back({name});
+    if (bar.is_object())
+      frames.looks.back().bar = {text_at(bar, "label"), text_at(bar, "unit"), number_at(bar, "low"),
+                                 number_at(bar, "high")};
+  }
+  frames.metres_per_pixel = number_at(json, "m_per_pixel");
+  for (const Json& moment : at(json, "moments"))
+    frames.moments.push_back(
+        {number_at(moment, "s"), text_at(moment, "phase"), known_at<double>(moment, "difference_rms_per_m")});
+  return frames;
+}
+
+// Entries that only some runs have.
+void take_what_some_have(const Json& json, Manifest& m) {
+  m.substeps = known_at<int>(json, "substeps");
+  if (at(json, "series").is_array()) m.series = texts_at(json, "series");
+  m.frames = frames_of(at(json, "frames"));
+  for (const Json& curve : at(json, "curves"))
+    m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
+                        text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
+  m.film_missing = text_at(json, "film_missing");
+  m.plots_missing = texts_at(json, "plots_missing");
+  m.errors_missing = texts_at(json, "errors_missing");
+}
+
+// The first key without which a JSON is no manifest; "" if it has all.
+std::string missing_in(const Json& json) {
+  const Json& program = at(json, "hysteron");
+  if (!program.is_object()) return "object hysteron";
+  for (const char* key : {"version", "commit"})
+    if (!program.contains(key)) return std::string("hysteron.") + key;
+  return at(json, "scene").is_object() ? "" : "object scene";
+}
+
+}  // namespace
+
+Json to_json(const Manifest& m) {
+  Json json;
+  json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
+  json["experiment"] = m.experiment;
+  json["command"] = m.command;
+  json["started"] = m.started;
+  json["scene"] = *m.keys;
+  json["device"] = to_json(m.device);
+  json["renderer"] = to_json(m.renderer);
+  json["positions"] = to_json(m.positions);
+  json["precision"] = to_json(m.precision);
+  json["element"] = to_json(m.element);
+  json["law"] = to_json(m.law);
+  json["triangles"] = to_json(m.triangles);
+  json["hinges"] = to_json(m.hinges);
+  json["steps"] = to_json(m.steps);
+  json["seconds_simulated"] = to_json(m.seconds_simulated);
+  json["wall_seconds"] = to_json(m.wall_seconds);
+  json["bytes_device"] = to_json(m.bytes_device);
+  json["energy"] = to_json(m.energy);
+  json["state_hash"] = to_json(m.state_hash);
+  add_what_some_have(m, json);
+  json["metrics"] = to_json(m.metrics);
+  json["files"] = m.files;
+  json["complete"] = m.complete;
+  return json;
+}
+
+Manifest manifest_of(const Json& json) {
+  Manifest m;
+  const Json& program = at(json, "hysteron");
+  m.version = shown_at(program, "version");
+  m.commit = shown_at(program, "commit");
+  m.dirty = is_true_at(program, "dirty");
+  m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
+  m.command = text_at(json, "command");
+  m.started = text_at(json, "started");
+  m.scene = scene_of(at(json, "scene"));
+  m.keys = std::make_shared<const Json>(at(json, "scene"));
+  m.device = known_at<std::string>(json, "device");
+  m.renderer = known_at<std::string>(json, "renderer");
+  m.positions = known_at<std::string>(json, "positions");
+  m.precision = known_at<std::string>(json, "precision");
+  m.element = known_at<std::string>(json, "element");
+  m.law = known_at<std::string>(json, "law");
+  m.triangles = known_at<std::int64_t>(json, "triangles");
+  m.hinges = known_at<std::int64_t>(json, "hinges");
+  m.steps = known_at<std::int64_t>(json, "steps");
+  m.seconds_simulated = known_at<double>(json, "seconds_simulated");
+  m.wall_seconds = numbers_at(json, "wall_seconds");
+  m.bytes_device = known_at<std::int64_t>(json, "bytes_device");
+  m.energy = numbers_at(json, "energy");
+  m.state_hash = known_at<std::string>(json, "state_hash");
+  take_what_some_have(json, m);
+  m.metrics = metrics_of(at(json, "metrics"));
+  m.files = texts_at(json, "files");
+  m.complete = is_true_at(json, "complete");
+  return m;
+}
+
+MetricValue value_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return json.is_null() ? MetricValue() : MetricValue(json.dump());
+}
+
+bool is_manifest(const Json& json) { return missing_in(json).empty(); }
+
+bool has_manifest(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(std::filesystem::symlink_status(folder / "manifest.json", ignored));
+}
+
+Manifest checked_manifest(const Json& json, const std::filesystem::path& file) {
+  check_manifest(json, file);
+  return manifest_of(json);
+}
+
+Manifest read_manifest(const std::filesystem::path& file) {
+  const Json json = read_json(file, "manifest of hysteron");
+  if (const std::string missing = missing_in(json); !missing.empty())
+    throw Error::request(file.string() + " is no manifest of hysteron: it has no " + missing);
+  return checked_manifest(json, file);
+}
+
+std::optional<Manifest> manifest_or_none(const std::filesystem::path& file) {
+  const Json json = json_or_none(file);
+  if (!json.is_object() || !json.contains("hysteron")) return {};
+  return manifest_of(json);
+}
+
+}  // namespace hysteron::experiments

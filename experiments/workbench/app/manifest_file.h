@@ -1,0 +1,35 @@
+// Manifests on disk: the one place that knows their keys.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "experiments/workbench/app/manifest.h"
+
+namespace hysteron::experiments {
+
+// In the order in which they stand in the file.
+Json to_json(const Manifest& manifest);
+// What is missing, or of another type, is not known.
+Manifest manifest_of(const Json& json);
+
+// A list or an object is its text.
+MetricValue value_of(const Json& json);
+
+// Whether the JSON of a file is a manifest.
+bool is_manifest(const Json& json);
+// Also one that cannot be read, which read_manifest then says.
+bool has_manifest(const std::filesystem::path& folder);
+
+// Throws Error::request, naming file and key, unless it is a manifest of hysteron whose keys are of the types
+// that they have; keys that older programs did not write may be missing.  Error::machine if it cannot be
+// read.
+Manifest read_manifest(const std::filesystem::path& file);
+// The same of JSON that is_manifest() and stood in that file.
+Manifest checked_manifest(const Json& json, const std::filesystem::path& file);
+// Whether its keys are of the types that they have.  Throws Error::request, naming file and key.
+void check_manifest(const Json& manifest, const std::filesystem::path& file);
+// Nothing where there is none, or no JSON; nothing else is checked.
+std::optional<Manifest> manifest_or_none(const std::filesystem::path& file);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,59 @@
+// The only file that includes the template engine.
+#include "experiments/workbench/pages/page_template.h"
+
+#include <kainjow/mustache.hpp>
+#include <stdexcept>
+
+namespace hysteron::experiments {
+namespace {
+
+using kainjow::mustache::data;
+
+data data_of(const Fields& fields) {
+  data object;
+  for (const auto& [name, value] : fields.entries()) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+      if (!text->empty()) object.set(name, *text);
+    } else if (const auto* truth = std::get_if<bool>(&value)) {
+      object.set(name, *truth);
+    } else {
+      kainjow::mustache::list list;
+      for (const Fields& entry : std::get<std::vector<Fields>>(value)) list.push_back(data_of(entry));
+      object.set(name, std::move(list));
+    }
+  }
+  return object;
+}
+
+}  // namespace
+
+std::string filled(const std::string& name, const Fields& fields) {
+  kainjow::mustache::mustache engine(embedded_text(name));
+  if (!engine.is_valid()) throw std::logic_error("template " + name + ": " + engine.error_message());
+  engine.set_custom_escape(escaped);
+  return engine.render(data_of(fields));
+}
+
+std::string embedded_text(const std::string& name) {
+  const auto bytes = embedded_file(name);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : text) {
+    if (c == '&')
+      html += "&amp;";
+    else if (c == '<')
+      html += "&lt;";
+    else if (c == '>')
+      html += "&gt;";
+    else if (c == '"')
+      html += "&quot;";
+    else
+      html += c;
+  }
+  return html;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,24 @@
+#include "sim/base/error.h"
+
+#include <gtest/gtest.h>
+
+namespace hysteron {
+namespace {
+
+TEST(Error, CarriesKeyValueAndExperimentBesideItsMessage) {
+  const Error error = Error::request("k0 = -1 1/m must be >= 0").of("k0", "-1").in("law").from("--k0");
+  EXPECT_STREQ(error.what(), "law: k0 = -1 1/m must be >= 0 (--k0)");
+  EXPECT_EQ(error.exit_code(), 2);
+  EXPECT_EQ(error.key(), "k0");
+  EXPECT_EQ(error.value(), "-1");
+  EXPECT_EQ(error.experiment(), "law");
+}
+
+TEST(Error, OfNothingInParticularHasItsMessageAlone) {
+  const Error error = Error::machine("disk: full");
+  EXPECT_STREQ(error.what(), "disk: full");
+  EXPECT_EQ(error.key() + error.value() + error.experiment(), "");
+}
+
+}  // namespace
+}  // namespace hysteron
