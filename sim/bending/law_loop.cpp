@@ -1,16 +1,16 @@
 #include "sim/bending/law_loop.h"
 
-#include "sim/base/error.h"
+#include "sim/bending/laws/law_groups.h"
 
 namespace hysteron {
 namespace {
 
-template <int D, class Real, class Device>
-std::unique_ptr<LawLoop<Real, Device>> of_any_group(Device& device, const LawChoice& choice, int elements) {
-  if (auto loop = make_memoryless_loop<Real, Device, D>(device, choice, elements)) return loop;
-  if (auto loop = make_plastic_loop<Real, Device, D>(device, choice, elements)) return loop;
-  if (auto loop = make_friction_loop<Real, Device, D>(device, choice, elements)) return loop;
-  return make_fatigue_loop<Real, Device, D>(device, choice, elements);
+template <int D, class Real, class Device, class... Groups>
+std::unique_ptr<LawLoop<Real, Device>> of_any_group(LawList<Groups...>, Device& device,
+                                                    const LawChoice& choice, int elements) {
+  std::unique_ptr<LawLoop<Real, Device>> loop;
+  (void)((loop = make_group_loop<Groups, Real, Device, D>(device, choice, elements)) || ...);
+  return loop;
 }
 
 }  // namespace
@@ -18,8 +18,8 @@ std::unique_ptr<LawLoop<Real, Device>> of_any_group(Device& device, const LawCho
 template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
                                                      int elements) {
-  return dimension == 1 ? of_any_group<1, Real>(device, choice, elements)
-                        : of_any_group<3, Real>(device, choice, elements);
+  return dimension == 1 ? of_any_group<1, Real>(LawGroups{}, device, choice, elements)
+                        : of_any_group<3, Real>(LawGroups{}, device, choice, elements);
 }
 
 template std::unique_ptr<LawLoop<double, ThisDevice>> make_law_loop(ThisDevice&, const LawChoice&, int, int);

@@ -83,14 +83,8 @@ template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
                                                      int elements);
 
-// Its groups, compiled apart; null for a law of another group.
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_memoryless_loop(Device&, const LawChoice&, int elements);
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_plastic_loop(Device&, const LawChoice&, int elements);
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_friction_loop(Device&, const LawChoice&, int elements);
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_fatigue_loop(Device&, const LawChoice&, int elements);
+// A group of laws (law_groups.h), compiled apart; null for a law of another group.
+template <class Group, class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device&, const LawChoice&, int elements);
 
 }  // namespace hysteron

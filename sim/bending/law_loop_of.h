@@ -100,7 +100,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
 
   void command(Device& device, const OperatorView<Real>& op, const Real* angle_change, CommandKind kind,
                const char* chosen, double* taken) override {
-    if (Law::kHistory == 0 || (kind == CommandKind::edit && !kIsEditable<Law>)) return;
+    if (Law::kHistory == 0 || (kind == CommandKind::edit && !EditableLaw<Law>)) return;
     const Law law = law_;
     Real* history = history_.data();
     for_each(

@@ -1,4 +1,4 @@
-// Loops of each group of laws.  law_loops.cpp.in instantiates them, a file for each group and dimension: they
+// Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group and dimension: they
 // are the slowest to compile.
 #pragma once
 
@@ -7,41 +7,13 @@
 
 namespace hysteron {
 
-// What a group's visit_*() makes a loop of: the law that it finds, none if the law is of another group.
-template <class Real, class Device, class Visit>
-std::unique_ptr<LawLoop<Real, Device>> loop_of(Device& device, const LawChoice& choice, int elements,
-                                               const Visit& visit_group) {
+template <class Group, class Real, class Device, int D>
+std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
+                                                       int elements) {
   std::unique_ptr<LawLoop<Real, Device>> loop;
-  visit_group([&](const auto& law) { loop = make_loop_of<Real>(device, law, choice.curve, elements); });
+  visit_group<Group, Real, D, ClothMemory>(
+      choice, [&](const auto& law) { loop = make_loop_of<Real>(device, law, choice.curve, elements); });
   return loop;
-}
-
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_memoryless_loop(Device& device, const LawChoice& choice,
-                                                            int elements) {
-  return loop_of<Real>(device, choice, elements,
-                       [&](const auto& visit) { visit_memoryless<Real, D>(choice, visit); });
-}
-
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_plastic_loop(Device& device, const LawChoice& choice,
-                                                         int elements) {
-  return loop_of<Real>(device, choice, elements,
-                       [&](const auto& visit) { visit_plastic<Real, D>(choice, visit); });
-}
-
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_friction_loop(Device& device, const LawChoice& choice,
-                                                          int elements) {
-  return loop_of<Real>(device, choice, elements,
-                       [&](const auto& visit) { visit_friction<Real, D, ClothMemory>(choice, visit); });
-}
-
-template <class Real, class Device, int D>
-std::unique_ptr<LawLoop<Real, Device>> make_fatigue_loop(Device& device, const LawChoice& choice,
-                                                         int elements) {
-  return loop_of<Real>(device, choice, elements,
-                       [&](const auto& visit) { visit_fatigue<Real, D, ClothFatigueMemory>(choice, visit); });
 }
 
 }  // namespace hysteron

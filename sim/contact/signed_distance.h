@@ -40,9 +40,20 @@ HYST_HD inline Distance<Real> rounded_corner(const Vec<Real, N>& q, Real rim, Ve
 }
 
 template <class Real>
-HYST_HD inline Distance<Real> sphere_distance(const Vec3<Real>& p, Real radius) {
+HYST_HD inline Distance<Real> ground_distance(const Shape<Real>&, const Vec3<Real>& p) {
+  return {p[2], Vec3<Real>::UnitZ()};
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> sphere_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   const Real length = p.norm();
-  return {length - radius, length > 0 ? Vec3<Real>(p / length) : Vec3<Real>(Vec3<Real>::UnitZ())};
+  return {length - s.half[0], length > 0 ? Vec3<Real>(p / length) : Vec3<Real>(Vec3<Real>::UnitZ())};
+}
+
+template <class Real>
+HYST_HD inline Distance<Real> hollow_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  const Distance<Real> d = sphere_distance(s, p);
+  return {-d.value, -d.normal};
 }
 
 template <class Real>
@@ -71,25 +82,20 @@ HYST_HD inline Distance<Real> box_distance(const Shape<Real>& s, const Vec3<Real
 }
 
 template <class Real>
+HYST_HD inline Distance<Real> capsule_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);
+  return sphere_distance(s, Vec3<Real>(p[0], p[1], p[2] - z));
+}
+
+template <class Real>
 HYST_HD inline Distance<Real> signed_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   switch (s.kind) {
-    case ObstacleKind::ground:
-      return {p[2], Vec3<Real>::UnitZ()};
-    case ObstacleKind::sphere:
-      return sphere_distance(p, s.half[0]);
-    case ObstacleKind::hollow: {
-      const Distance<Real> d = sphere_distance(p, s.half[0]);
-      return {-d.value, -d.normal};
-    }
-    case ObstacleKind::cylinder:
-      return cylinder_distance(s, p);
-    case ObstacleKind::box:
-      return box_distance(s, p);
-    case ObstacleKind::capsule:
-      break;
+#define HYST_OBSTACLE(kind, ...) \
+  case ObstacleKind::kind:       \
+    return kind##_distance(s, p);
+#include "sim/scene/obstacle_kinds.def"
   }
-  const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);  // capsule
-  return sphere_distance(Vec3<Real>(p[0], p[1], p[2] - z), s.half[0]);
+  return {};
 }
 
 }  // namespace hysteron

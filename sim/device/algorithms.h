@@ -46,6 +46,7 @@ struct Scratch {
 
 // start[i] = count[0] + ... + count[i-1] for i in [0, n]; start has n + 1 elements.  Returns start[n].
 inline int exclusive_scan(Cpu&, Scratch<Cpu>&, const int* count, int n, int* start) {
+  ++device_counts.loops;
   start[0] = 0;
   for (int i = 0; i < n; ++i) start[i + 1] = start[i] + count[i];
   return start[n];
@@ -54,6 +55,7 @@ inline int exclusive_scan(Cpu&, Scratch<Cpu>&, const int* count, int n, int* sta
 // The least of n values, or `otherwise` if that is less.
 template <class Real>
 Real smallest(Cpu&, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
+  ++device_counts.loops;
   for (int i = 0; i < n; ++i) otherwise = std::min(otherwise, value[i]);
   return otherwise;
 }
@@ -61,6 +63,7 @@ Real smallest(Cpu&, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
 // Rows of items by their key in [0, rows): row r is item[start[r]] ... item[start[r+1]-1], in ascending
 // order. Negative keys belong to no row.
 inline void group(Cpu&, Scratch<Cpu>& scratch, const int* key, int n, int rows, int* start, int* item) {
+  ++device_counts.loops;
   int* next = scratch.keys.reserve(rows + 1);
   std::fill(next, next + rows + 1, 0);
   for (int i = 0; i < n; ++i)
@@ -74,6 +77,7 @@ inline void group(Cpu&, Scratch<Cpu>& scratch, const int* key, int n, int rows, 
 #ifdef __CUDACC__
 template <class Call>
 void with_cub_memory(Scratch<Cuda>& scratch, const char* name, const Call& call) {
+  ++device_counts.loops;
   std::size_t bytes = 0;
   check_cuda(call(nullptr, bytes), name);
   char* memory = scratch.memory.reserve(bytes);

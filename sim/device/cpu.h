@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/device/device_counts.h"
 #include "sim/device/host_device.h"
 
 namespace hysteron {
@@ -36,6 +37,7 @@ struct Cpu {
 // Runs body(i) for i in [0, n).  `name` names the loop in profiles and errors.
 template <class Body>
 void for_each(Cpu& cpu, const char* /*name*/, int n, const Body& body) {
+  ++device_counts.loops;
 #pragma omp parallel for schedule(static) num_threads(cpu.threads) if (n >= kSerialLoop)
   for (int i = 0; i < n; ++i) body(i);
 }
@@ -43,6 +45,7 @@ void for_each(Cpu& cpu, const char* /*name*/, int n, const Body& body) {
 // total[k] = sum over i of the terms that body(i, sums) adds; then finish(total) runs once.
 template <int K, class Body, class Finish>
 void for_each_sum(Cpu& cpu, const char* /*name*/, int n, const Body& body, const Finish& finish) {
+  ++device_counts.loops;
   const int blocks = (n + kSumBlock - 1) / kSumBlock;
   if (static_cast<int>(cpu.partial.size()) < blocks * K) cpu.partial.resize(blocks * K);
   double* partial = cpu.partial.data();
@@ -60,6 +63,7 @@ void for_each_sum(Cpu& cpu, const char* /*name*/, int n, const Body& body, const
 }
 
 inline void* device_allocate(Cpu& cpu, std::size_t bytes) {
+  ++device_counts.allocations;
   cpu.bytes += bytes;
   void* memory = ::operator new(bytes, std::align_val_t(64));
   std::memset(memory, 0, bytes);

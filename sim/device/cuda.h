@@ -32,7 +32,10 @@ struct Cuda {
   Cuda& operator=(const Cuda&) = delete;
   std::string description() const;
   int cuda_device() const { return index; }
-  void synchronize() const { check_cuda(cudaStreamSynchronize(stream), "synchronize"); }
+  void synchronize() const {
+    ++device_counts.synchronizations;
+    check_cuda(cudaStreamSynchronize(stream), "synchronize");
+  }
 };
 
 // Number of usable GPUs; why there are none goes to `reason`.
@@ -46,6 +49,7 @@ __global__ void for_each_kernel(int n, const Body body) {
 
 template <class Body>
 void for_each(Cuda& cuda, const char* name, int n, const Body& body) {
+  ++device_counts.loops;
   if (n == 0) return;
   const int blocks = (n + kThreadsPerBlock - 1) / kThreadsPerBlock;
   for_each_kernel<<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(n, body);
@@ -100,7 +104,9 @@ inline constexpr int kSumBlocks =
 
 template <int K, class Body, class Finish>
 void for_each_sum(Cuda& cuda, const char* name, int n, const Body& body, const Finish& finish) {
+  ++device_counts.loops;
   if (cuda.partial_size < kSumBlocks * K) {
+    ++device_counts.allocations;
     if (cuda.partial) check_cuda(cudaFree(cuda.partial), name);
     check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * kSumBlocks * K), name);
     cuda.partial_size = kSumBlocks * K;
@@ -113,6 +119,7 @@ void for_each_sum(Cuda& cuda, const char* name, int n, const Body& body, const F
 }
 
 inline void* device_allocate(Cuda& cuda, std::size_t bytes) {
+  ++device_counts.allocations;
   void* memory = nullptr;
   check_cuda(cudaMalloc(&memory, bytes), "allocate");
   check_cuda(cudaMemsetAsync(memory, 0, bytes, cuda.stream), "allocate");

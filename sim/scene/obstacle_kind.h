@@ -1,16 +1,38 @@
-// The kinds of obstacles.  To add one: a value and its name here, its signed distance
-// (sim/contact/signed_distance.h), its half thickness (scene_checks.cpp) and its mesh (the scene's renderer);
-// what is missing does not compile.
+// The kinds of obstacles as values, from their rows in obstacle_kinds.def.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 namespace hysteron {
 
-// Solids; hollow: all but a sphere, with the cloth inside.
-enum class ObstacleKind { ground, sphere, hollow, cylinder, box, capsule };
-constexpr std::array<const char*, 6> names(ObstacleKind) {
-  return {"ground", "sphere", "hollow", "cylinder", "box", "capsule"};
+enum class ObstacleKind {
+#define HYST_OBSTACLE(kind, ...) kind,
+#include "sim/scene/obstacle_kinds.def"
+};
+
+inline constexpr std::array kObstacleNames = {
+#define HYST_OBSTACLE(kind, ...) #kind,
+#include "sim/scene/obstacle_kinds.def"
+};
+constexpr auto names(ObstacleKind) { return kObstacleNames; }
+
+// What the row of an obstacle o says.
+struct ObstacleForm {
+  double half_thickness;  // [m]
+  bool has_axis, has_rim;
+};
+template <class Obstacle>
+ObstacleForm form_of(const Obstacle& o) {
+  switch (o.kind) {
+#define HYST_OBSTACLE(kind, half_thickness, has_axis, has_rim) \
+  case ObstacleKind::kind:                                     \
+    return {half_thickness, has_axis, has_rim};
+#include "sim/scene/obstacle_kinds.def"
+  }
+  return {};
 }
 
 }  // namespace hysteron

@@ -108,23 +108,6 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
                            origin_of(scene, path) + ")");
 }
 
-// Half of its thinnest part; none of the ground.
-double half_thickness(const Obstacle& solid) {
-  switch (solid.kind) {
-    case ObstacleKind::ground:
-    case ObstacleKind::hollow:
-      return kInfinity;
-    case ObstacleKind::box:
-      return solid.size.minCoeff();
-    case ObstacleKind::cylinder:
-      return std::min(solid.radius, solid.height / 2);
-    case ObstacleKind::sphere:
-    case ObstacleKind::capsule:
-      return solid.radius;
-  }
-  return kInfinity;
-}
-
 // How far its middle comes in any one step [m].
 double longest_stride(const Scene& scene, const Obstacle& solid) {
   constexpr int kParts = 64;  // of the time between two keys, whose motion is a cubic in time
@@ -142,7 +125,7 @@ double longest_stride(const Scene& scene, const Obstacle& solid) {
 
 // An obstacle that is beyond the cloth after one step pushes it out on the wrong side, or misses it.
 void check_stride(const Scene& scene, const Obstacle& solid, const std::string& path) {
-  const double stride = longest_stride(scene, solid), most = half_thickness(solid);
+  const double stride = longest_stride(scene, solid), most = form_of(solid).half_thickness;
   if (stride <= most) return;
   throw Error::request(path + " moves " + number_text(stride) + " m in a step of " + number_text(scene.step) +
                        " s (" + origin_of(scene, path) + "), further than half its thickness, " +
@@ -152,12 +135,11 @@ void check_stride(const Scene& scene, const Obstacle& solid, const std::string& 
 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   check_times(scene, solid.from, solid.until, path);
-  const bool round = solid.kind == ObstacleKind::cylinder || solid.kind == ObstacleKind::capsule;
-  if ((round || solid.kind == ObstacleKind::ground) && solid.axis.isZero(0)) {
+  const ObstacleForm form = form_of(solid);
+  if (form.has_axis && solid.axis.isZero(0)) {
     throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
   }
-  const bool rimmed = solid.kind == ObstacleKind::cylinder || solid.kind == ObstacleKind::box;
-  const double room = rimmed ? half_thickness(solid) : kInfinity;
+  const double room = form.has_rim ? form.half_thickness : kInfinity;
   if (solid.rim > room) {
     throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
                          number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) + ")");

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/radial_elastic.h"
 
 namespace hysteron {
@@ -39,6 +40,17 @@ struct Bridson : RadialElastic<Bridson<Real, D>, Real, D> {
     return 8 * b2 / (h * h) * s * s;
   }
   HYST_HD Real largest_stiffness() const { return b2; }
+};
+
+struct BridsonLaw {
+  static constexpr const char* kName = "bridson";
+  static constexpr const char* kMeaning = "(2 b2/h) sin(K h/2), no memory (Bridson et al. 2003)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
+
+  template <class Real, int D>
+  static Bridson<Real, D> make(const LawChoice& c) {
+    return Bridson<Real, D>::make(c.curve, c.height);
+  }
 };
 
 }  // namespace hysteron

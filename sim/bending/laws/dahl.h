@@ -13,6 +13,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/plastic_return.h"
 #include "sim/bending/laws/zero_moment.h"
 
@@ -99,6 +100,16 @@ struct Dahl {
   }
   HYST_HD Real energy(const Vec<Real, D>& friction) const {
     return g > 0 ? friction.squaredNorm() / (2 * g) : Real(0);
+  }
+};
+
+struct DahlLaw {
+  static constexpr const char* kName = "dahl";
+  static constexpr const char* kMeaning = "friction that relaxes exponentially to M0 (Miguel et al. 2013)";
+
+  template <class Real, int D>
+  static Dahl<Real, D> make(const LawChoice& c) {
+    return Dahl<Real, D>::make(c.curve);
   }
 };
 

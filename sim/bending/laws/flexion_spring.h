@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/radial_elastic.h"
 
 namespace hysteron {
@@ -40,6 +42,28 @@ struct FlexionSpring : RadialElastic<FlexionSpring<Real, D>, Real, D> {
     return 4 * c / h * s * s * s * s;
   }
   HYST_HD Real largest_stiffness() const { return Real(9) / 16 * c * h; }
+};
+
+struct FlexionSpringLaw {
+  static constexpr const char* kName = "spring";
+  static constexpr const char* kMeaning =
+      "flexion springs across the hinge, matched to b2 K at K0 (mass-spring model)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
+  static void check(const LawChoice& c, LawUse) {
+    // Folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000 times.
+    constexpr double kLeast = 0.01;
+    const double angle = c.curve.k0 * c.height;
+    if (!(angle >= kLeast && angle < 2 * std::numbers::pi))
+      c.refuse(
+          "height = " + shown(c.height) + " m and k0 = " + shown(c.curve.k0) +
+          " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; folded "
+          "further, springs matched at a smaller one are so stiff that they crush the triangles");
+  }
+
+  template <class Real, int D>
+  static FlexionSpring<Real, D> make(const LawChoice& c) {
+    return FlexionSpring<Real, D>::make(c.curve, c.height);
+  }
 };
 
 }  // namespace hysteron

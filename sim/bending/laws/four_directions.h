@@ -18,7 +18,7 @@
 
 namespace hysteron {
 
-template <class ScalarLaw>
+template <MomentCurvatureLaw ScalarLaw>
 struct FourDirections {
   static_assert(ScalarLaw::kDimension == 1);
   using Scalar = typename ScalarLaw::Scalar;
@@ -77,10 +77,7 @@ struct FourDirections {
     return zero_moment(*this, history, Vec<Real, 3>(Vec<Real, 3>::Zero()));
   }
   HYST_HD History<Real, kHistory> ironed(const History<Real, kHistory>& before) const requires
-      requires(const ScalarLaw& one, const History<Real, kScalarHistory>& h) {
-    one.ironed(h);
-  }
-  {
+      LawWithIroning<ScalarLaw> {
     History<Real, kHistory> after;
     for (int d = 0; d < kDirections; ++d) {
       const History<Real, kScalarHistory> one = law.ironed(part(before, d));
@@ -89,11 +86,8 @@ struct FourDirections {
     return after;
   }
   // The direction where it is used most.
-  HYST_HD Real used(const Vec<Real, 3>& curvature, const History<Real, kHistory>& history) const requires
-      requires(const ScalarLaw& one, const History<Real, kScalarHistory>& h) {
-    one.used(Vec<Real, 1>(), h);
-  }
-  {
+  HYST_HD Real used(const Vec<Real, 3>& curvature,
+                    const History<Real, kHistory>& history) const requires LawWithUse<ScalarLaw> {
     Real most = 0;
     for (int d = 0; d < kDirections; ++d) {
       const Real one = law.used(Vec<Real, 1>(direction(d).dot(curvature)), part(history, d));

@@ -16,6 +16,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/plastic_return.h"
 #include "sim/bending/laws/zero_moment.h"
 
@@ -121,6 +122,19 @@ struct Gong {
     after[kHeld] = direction * before[kDirection] < 0 ? Real(0) : before[kHeld] + dt;
     if (direction != 0) after[kDirection] = direction;
     after[kPosition] = k;
+  }
+};
+
+struct GongLaw {
+  static constexpr const char* kName = "gong";
+  static constexpr const char* kMeaning =
+      "friction anchor and plastic rest curvature with hold time (Gong et al. 2025)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::tau()}; }
+  static void set_defaults(LawChoice& c) { c.tau = 30; }  // hold time [s], theirs
+
+  template <class Real, int>
+  static Gong<Real> make(const LawChoice& c) {
+    return Gong<Real>::make(c.curve, c.yield, c.tau);
   }
 };
 

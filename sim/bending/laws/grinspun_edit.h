@@ -6,7 +6,7 @@
 // The command is the user's, not the material's: the energy that it removes is booked apart from friction.
 #pragma once
 
-#include "sim/bending/laws/law.h"
+#include "sim/bending/laws/law_description.h"
 
 namespace hysteron {
 
@@ -45,6 +45,16 @@ struct GrinspunEdit {
   }
   HYST_HD Real used(const Vec<Real, D>&, const Memory&) const { return 0; }
   HYST_HD Real largest_stiffness() const { return b2; }
+};
+
+struct GrinspunEditLaw {
+  static constexpr const char* kName = "grinspun-edit";
+  static constexpr const char* kMeaning = "rest curvature set on command (Grinspun et al. 2003)";
+
+  template <class Real, int D>
+  static GrinspunEdit<Real, D> make(const LawChoice& c) {
+    return GrinspunEdit<Real, D>::make(c.curve);
+  }
 };
 
 }  // namespace hysteron

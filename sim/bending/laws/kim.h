@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/plastic_return.h"
 
 namespace hysteron {
@@ -84,6 +85,26 @@ struct Kim {
     const Real n = trial.norm();
     return plastic_flow<Real, D>(trial, n, set, PlasticReturn<Real>::relaxing(n, yield, exp(-dt / tau)),
                                  max_set);
+  }
+};
+
+struct KimLaw {
+  static constexpr const char* kName = "kim";
+  static constexpr const char* kMeaning =
+      "rest curvature creeps above a threshold, with loss of stiffness (Kim et al. 2011)";
+  static std::vector<LawParameter> parameters() {
+    return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening(),
+            law_parameter::tau()};
+  }
+  static void check(const LawChoice& c, LawUse) {
+    if (c.yield == 0) c.refuse("yield must be given and > 0 1/m where k0 is 0");
+  }
+  // A bounded set has a scalar form only.
+  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+
+  template <class Real, int D>
+  static Kim<Real, D> make(const LawChoice& c) {
+    return Kim<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening, c.tau);
   }
 };
 

@@ -3,19 +3,13 @@
 // A law is a small value with its parameters.  It maps a curvature (D components: 1 on the `hinge` element, 3
 // on the `shape` element, where S = (S_xx, S_yy, sqrt2 S_xy)) and the history before the step to the moment
 // and the history after it.  History goes in and comes out by value, so that a rejected step costs nothing.
-//
-//   struct SomeLaw<Real, D> {
-//     static constexpr int kDimension = D;
-//     static constexpr int kHistory = ...;  // Reals remembered per element, 0 if none
-//     // On host and device: the step, and dM/dK of it [N m].
-//     LawStep<Real, D, kHistory> step(Vec<Real, D> curvature, const History& before) const;
-//     Tangent<Real, D> tangent(Vec<Real, D> curvature, const History& before) const;
-//     Vec<Real, D> residual(const History& history) const;  // curvature at which the moment is zero [1/m]
-//     Real largest_stiffness() const;                       // bound on the eigenvalues of dM/dK [N m]
-//   };
+// MomentCurvatureLaw below is what every law must have, the concepts after it what a law may have; each
+// function runs on host and device.
 //
 // Units: curvature 1/m, moment N (per unit width), energies J/m^2.
 #pragma once
+
+#include <concepts>
 
 #include "sim/device/host_device.h"
 
@@ -42,6 +36,71 @@ struct LawStep {
 
 template <class Real, int D>
 using Tangent = Eigen::Matrix<Real, D, D>;
+
+template <class Law>
+using CurvatureOf = Vec<typename Law::Scalar, Law::kDimension>;
+template <class Law>
+using HistoryOf = History<typename Law::Scalar, Law::kHistory>;
+
+// kDimension is D, kHistory the Reals remembered for each element (0 if none), Scalar the Real.
+template <class Law>
+concept MomentCurvatureLaw = (Law::kDimension == 1 || Law::kDimension == 3) && Law::kHistory >= 0 &&
+                             requires(const Law& law, const CurvatureOf<Law>& curvature,
+                                      const HistoryOf<Law>& history) {
+  // The step from the history before it to this curvature, and dM/dK of it [N m].
+  {
+    law.step(curvature, history)
+    } -> std::same_as<LawStep<typename Law::Scalar, Law::kDimension, Law::kHistory>>;
+  { law.tangent(curvature, history) } -> std::convertible_to<Tangent<typename Law::Scalar, Law::kDimension>>;
+  // The curvature at which the moment is zero [1/m].
+  { law.residual(history) } -> std::convertible_to<CurvatureOf<Law>>;
+  // Bound on the eigenvalues of dM/dK [N m].
+  { law.largest_stiffness() } -> std::convertible_to<typename Law::Scalar>;
+};
+
+// Where not all that is lost is lost on the way to the curvature (creep, weakening): the incremental
+// potential int M dK at a fixed history [J/m^2].  Of other laws it is what is stored and what is lost.
+template <class Law>
+concept LawWithPotential = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
+  { law.potential(k, h) } -> std::convertible_to<typename Law::Scalar>;
+};
+
+// Where the moment can fall with curvature: dM/dK without what is negative of it [N m].
+template <class Law>
+concept LawWithConvexTangent = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
+  { law.convex_tangent(k, h) } -> std::convertible_to<Tangent<typename Law::Scalar, Law::kDimension>>;
+};
+
+// Where history includes time: `dt`, the time of the coming step [s], is set before it.
+template <class Law>
+concept TimedLaw = requires(Law& law) {
+  law.dt = typename Law::Scalar(0);
+};
+
+// A rest curvature that a command sets: the history with this curvature as the rest curvature.
+template <class Law>
+concept EditableLaw = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
+  { law.edited(k, h) } -> std::convertible_to<HistoryOf<Law>>;
+};
+
+// What ironing leaves of the history, if it leaves any.
+template <class Law>
+concept LawWithIroning = requires(const Law& law, const HistoryOf<Law>& h) {
+  { law.ironed(h) } -> std::convertible_to<HistoryOf<Law>>;
+};
+
+// How far friction or plasticity is used, 0 (not) to 1 (slides, yields), where |M - b2 K|/M0 does not say it.
+template <class Law>
+concept LawWithUse = requires(const Law& law, const CurvatureOf<Law>& k, const HistoryOf<Law>& h) {
+  { law.used(k, h) } -> std::convertible_to<typename Law::Scalar>;
+};
+
+// Friction that weakens: its share that is left, and the set that it has become [1/m].
+template <class Law>
+concept WeakeningLaw = requires(const Law& law, const HistoryOf<Law>& h) {
+  { law.m0* law.strength(h) } -> std::convertible_to<typename Law::Scalar>;
+  { Law::set_of(h) } -> std::convertible_to<CurvatureOf<Law>>;
+};
 
 // The three numbers that define a fabric's bending (model: M = b1 K + c1 K^2 up to K0, then M0 + b2 K).
 struct VirginCurve {

@@ -8,23 +8,17 @@ namespace hysteron {
 // Tells a law that creeps or ages how long the coming step takes [s]; others have no time.
 template <class Law, class Real>
 HYST_HD void set_step_time(Law& law, Real seconds) {
-  if constexpr (requires { law.dt; })
+  if constexpr (TimedLaw<Law>)
     law.dt = seconds;
   else if constexpr (requires { law.law; })
     set_step_time(law.law, seconds);
 }
 
-template <class Law>
-inline constexpr bool kIsEditable = requires(const Law& law,
-                                             const History<typename Law::Scalar, Law::kHistory>& h) {
-  law.edited(Vec<typename Law::Scalar, Law::kDimension>(), h);
-};
-
 // History after making this curvature the rest curvature; unchanged for laws that cannot be edited.
 template <class Law, class Real, int D, int N>
 HYST_HD History<Real, N> edited(const Law& law, const Vec<Real, D>& curvature,
                                 const History<Real, N>& before) {
-  if constexpr (kIsEditable<Law>)
+  if constexpr (EditableLaw<Law>)
     return law.edited(curvature, before);
   else
     return before;
@@ -36,7 +30,7 @@ template <class Law, class Real, int D, int N>
 HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
   set_step_time(law, Real(0));
   History<Real, N> fresh;
-  if constexpr (requires { law.ironed(before); }) fresh = law.ironed(before);
+  if constexpr (LawWithIroning<Law>) fresh = law.ironed(before);
   return law.step(curvature, fresh).history;
 }
 
@@ -44,7 +38,7 @@ HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const Hi
 template <class Law, class Real, int D, int N>
 HYST_HD Real share_used(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& memory,
                         Real b2, Real m0) {
-  if constexpr (requires { law.used(curvature, memory); })
+  if constexpr (LawWithUse<Law>)
     return law.used(curvature, memory);
   else if (N > 0 && m0 > 0)
     return (law.step(curvature, memory).moment - b2 * curvature).norm() / m0;

@@ -32,26 +32,47 @@ struct LawChoice {
   double weakening = 1;     // weakening  w: rigidity b2/(1 + w damage) (narain, kim)
   double height = 5e-3;     // height     mean height of a hinge's triangles [m] (bridson, spring)
   double tau = 1;           // tau        time of creep or of hold [s]; 1 (terzopoulos, kim), 30 (gong)
+  std::map<std::string, double> own;  // parameters of one law alone, as its header reads them
+
+  // A parameter of the law's own, or its default.
+  double own_or(const std::string& parameter, double otherwise) const {
+    const auto found = own.find(parameter);
+    return found == own.end() ? otherwise : found->second;
+  }
+  // Throws Error::request: the law, and what is wrong with it.
+  [[noreturn]] void refuse(const std::string& what) const;
 };
 
 // A cloth has one history per element, so that its memory is kept small: `prandtl` with 8 stops by default.
 // A law alone is exact: `prandtl` with a stack of 64.
 enum class LawUse { cloth, alone };
 
+struct ParameterText;
+struct LawParameter {
+  std::string name;
+  void (*read)(const ParameterText&, LawChoice&);
+};
+
+// What a law's header says of it (law_description.h).
+struct LawEntry {
+  std::string name;
+  std::string description;  // one line
+  std::vector<LawParameter> parameters = {};
+  void (*set_defaults)(LawChoice&) = nullptr;
+  void (*check)(const LawChoice&, LawUse) = nullptr;
+};
+
 // Every value checked.  Error::request for unknown laws, parameters that the law does not have, and values
 // out of range; its message names the law and the parameter.
 LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
+                     LawUse use = LawUse::cloth);
+LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 
 // Names of the parameters that law `name` takes, in the order of LawChoice.
 std::vector<std::string> law_parameter_names(const std::string& name);
 
-struct LawEntry {
-  std::string name;
-  std::string description;  // one line
-};
-
-// All laws of the interface in its order.
+// All laws of the interface in its order, which is that of laws.txt.
 const std::vector<LawEntry>& law_catalogue();
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@ namespace hysteron {
 // stored and what is lost; laws that creep or weaken at the end of their step say it themselves.
 template <class Law, class Real, int D, int N>
 HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const History<Real, N>& before) {
-  if constexpr (requires { law.potential(curvature, before); }) {
+  if constexpr (LawWithPotential<Law>) {
     return law.potential(curvature, before);
   } else {
     const LawStep<Real, D, N> step = law.step(curvature, before);
@@ -22,7 +22,7 @@ HYST_HD Real step_potential(const Law& law, const Vec<Real, D>& curvature, const
 template <class Law, class Real, int D, int N>
 HYST_HD Tangent<Real, D> convex_tangent(const Law& law, const Vec<Real, D>& curvature,
                                         const History<Real, N>& before) {
-  if constexpr (requires { law.convex_tangent(curvature, before); })
+  if constexpr (LawWithConvexTangent<Law>)
     return law.convex_tangent(curvature, before);
   else
     return law.tangent(curvature, before);

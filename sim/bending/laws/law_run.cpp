@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/every_group.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
 #include "sim/bending/laws/recovery.h"
@@ -40,7 +41,7 @@ struct Drive final : LawWalk::State {
     auto step = law.step(curvature, history);
     history = step.history;
     dissipated += step.dissipated;
-    if constexpr (kIsEditable<L>) {
+    if constexpr (EditableLaw<L>) {
       if (row.edit) {
         const double stored = step.stored;
         history = law.edited(curvature, history);
@@ -58,14 +59,14 @@ struct Drive final : LawWalk::State {
   }
 
   double friction_moment() const override {
-    if constexpr (requires { law.m0* law.strength(history); })
+    if constexpr (WeakeningLaw<L>)
       return law.m0 * law.strength(history);
     else
       return NAN;
   }
 
   double permanent_set() const override {
-    if constexpr (requires { L::set_of(history); })
+    if constexpr (WeakeningLaw<L>)
       return L::set_of(history)[0];
     else
       return 0;
@@ -75,9 +76,7 @@ struct Drive final : LawWalk::State {
 template <class Visit>
 void with_law(const LawRequest& request, const Visit& visit) {
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
-  visit_memoryless<double, 1>(choice, visit) || visit_plastic<double, 1>(choice, visit) ||
-      visit_friction<double, 1, AloneMemory>(choice, visit) ||
-      visit_fatigue<double, 1, AloneMemory>(choice, visit);
+  visit_groups<double, 1, AloneMemory>(LawGroups{}, choice, visit);
 }
 
 }  // namespace

@@ -1,49 +1,32 @@
-// From the names in a LawChoice to a law as a type: each function calls visit(law) and returns true if the
-// law is one of its group.  D = 1 (scalar, hinge) or 3 (tensor, shape; scalar laws run along four
-// directions).
+// From a LawChoice to a law as a type: each function calls visit(law) and returns true if the law is one of
+// its list.  D = 1 (scalar, hinge) or 3 (tensor, shape; scalar laws run along four directions).
 #pragma once
 
-#include <cmath>
-#include <utility>
-
-#include "sim/bending/laws/bridson.h"
-#include "sim/bending/laws/dahl.h"
 #include "sim/bending/laws/fatigue.h"
-#include "sim/bending/laws/flexion_spring.h"
 #include "sim/bending/laws/four_directions.h"
-#include "sim/bending/laws/gong.h"
-#include "sim/bending/laws/grinspun_edit.h"
-#include "sim/bending/laws/kim.h"
-#include "sim/bending/laws/law_parameters.h"
-#include "sim/bending/laws/linear.h"
-#include "sim/bending/laws/narain.h"
-#include "sim/bending/laws/obrien.h"
-#include "sim/bending/laws/pabst.h"
-#include "sim/bending/laws/prandtl_stack.h"
-#include "sim/bending/laws/prandtl_stops.h"
-#include "sim/bending/laws/terzopoulos.h"
-#include "sim/bending/laws/wong.h"
+#include "sim/bending/laws/law_description.h"
+#include "sim/bending/laws/law_groups.h"
 
 namespace hysteron {
 
-template <int... n>
-using Sizes = std::integer_sequence<int, n...>;
 // Sizes of the memory of `prandtl` that exist: every one is a type of its own and takes its time to compile.
 struct AloneMemory {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16, 32, 64>;
+  using Fatigued = AloneMemory;
+};
+struct FatiguedClothMemory {
+  using Stops = Sizes<8, 16>;
+  using Depths = Sizes<8>;
 };
 struct ClothMemory {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16>;
-};
-struct ClothFatigueMemory {
-  using Stops = Sizes<8, 16>;
-  using Depths = Sizes<8>;
+  using Fatigued = FatiguedClothMemory;
 };
 
 // A scalar law for D components.
-template <int D, class Law>
+template <int D, MomentCurvatureLaw Law>
 auto in_dimension(const Law& law) {
   if constexpr (D == Law::kDimension) {
     return law;
@@ -52,69 +35,59 @@ auto in_dimension(const Law& law) {
   }
 }
 
-template <class Real, int D, class Visit>
-bool visit_memoryless(const LawChoice& c, Visit&& visit) {
-  if (c.name == "linear") return visit(Linear<Real, D>::make(c.curve)), true;
-  if (c.name == "bridson") return visit(Bridson<Real, D>::make(c.curve, c.height)), true;
-  if (c.name == "spring") return visit(FlexionSpring<Real, D>::make(c.curve, c.height)), true;
-  if (c.name == "pabst") return visit(Pabst<Real, D>::make(c.curve)), true;
-  if (c.name == "grinspun-edit") return visit(GrinspunEdit<Real, D>::make(c.curve)), true;
-  return false;
-}
-
-template <class Real, int D, class Visit>
-bool visit_plastic(const LawChoice& c, Visit&& visit) {
-  if (c.name == "terzopoulos") return visit(Terzopoulos<Real, D>::make(c.curve, c.tau)), true;
-  if constexpr (D > 1) {  // a bounded set: scalar form only
-    if (std::isfinite(c.max_set)) {
-      return visit_plastic<Real, 1>(c, [&](const auto& law) { visit(in_dimension<D>(law)); });
-    }
-  }
-  if (c.name == "obrien") return visit(Obrien<Real, D>::make(c.curve, c.yield, c.max_set)), true;
-  if (c.name == "kim")
-    return visit(Kim<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening, c.tau)), true;
-  if (c.name == "narain") return visit(Narain<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening)), true;
-  if (c.name == "gong") return visit(in_dimension<D>(Gong<Real>::make(c.curve, c.yield, c.tau))), true;
-  return false;
-}
-
-template <class Real, class Visit, int... n>
-void visit_stack(int depth, const VirginCurve& curve, Visit&& visit, Sizes<n...>) {
-  (void)((depth == n && (visit(PrandtlStack<Real, n>::make(curve)), true)) || ...);
-}
-template <class Real, int D, class Visit, int... n>
-void visit_stops(int count, const VirginCurve& curve, Visit&& visit, Sizes<n...>) {
-  (void)((count == n && (visit(PrandtlStops<Real, D, n>::make(curve)), true)) || ...);
-}
-
-// `visit` gets the law of a fabric `curve`: in D components, or a scalar one that in_dimension() completes.
-template <class Real, int D, class Memory, class Visit>
-bool visit_hysteretic(const LawChoice& c, const VirginCurve& curve, Visit&& visit) {
-  const Recovery recovery = c.reversible ? Recovery::kReversible : Recovery::kMasing;
-  if (c.name == "bilinear") return visit(make_bilinear<Real, D>(curve)), true;
-  if (c.name == "wong") return visit(Wong<Real>::make(curve, recovery)), true;
-  if (c.name != "prandtl") return false;
-  if (c.stack)
-    visit_stack<Real>(c.depth, curve, visit, typename Memory::Depths{});
+// visit() gets the law in D components, or a scalar one that in_dimension() completes.
+template <LawDescription Law, class Real, int D, class Memory, class Visit>
+void visit_made(const LawChoice& c, const Visit& visit) {
+  if constexpr (requires { Law::template make<Real, D>(c); })
+    visit(Law::template make<Real, D>(c));
   else
-    visit_stops<Real, D>(c.stops, curve, visit, typename Memory::Stops{});
-  return true;
+    Law::template visit<Real, D, Memory>(c, visit);
 }
 
-template <class Real, int D, class Memory, class Visit>
-bool visit_friction(const LawChoice& c, Visit&& visit) {
-  if (c.fatigue.on()) return false;
-  if (c.name == "dahl") return visit(Dahl<Real, D>::make(c.curve)), true;
-  return visit_hysteretic<Real, D, Memory>(c, c.curve, [&](const auto& law) { visit(in_dimension<D>(law)); });
+template <LawDescription Law, class Real, int D, class Memory, class Visit>
+void visit_in_dimension(const LawChoice& c, const Visit& visit) {
+  const auto complete = [&](const auto& law) { visit(in_dimension<D>(law)); };
+  if constexpr (D > 1 && requires { Law::runs_along_directions(c); }) {
+    if (Law::runs_along_directions(c)) return visit_made<Law, Real, 1, Memory>(c, complete);
+  }
+  visit_made<Law, Real, D, Memory>(c, complete);
 }
 
-template <class Real, int D, class Memory, class Visit>
-bool visit_fatigue(const LawChoice& c, Visit&& visit) {
-  if (!c.fatigue.on()) return false;
-  const VirginCurve friction{c.curve.b1 - c.curve.b2, 0, c.curve.k0};
-  return visit_hysteretic<Real, D, Memory>(c, friction, [&]<class Law>(const Law& law) {
-    visit(in_dimension<D>(Fatigue<Law>::make(c.curve, c.fatigue, law)));
+// The same friction law, weakening: of a fabric without its straight branch.
+template <LawDescription Law, class Real, int D, class Memory, class Visit>
+void visit_fatigued(const LawChoice& c, const Visit& visit) {
+  LawChoice friction = c;
+  friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0};
+  visit_made<Law, Real, D, Memory>(friction, [&]<class Friction>(const Friction& law) {
+    visit(in_dimension<D>(Fatigue<Friction>::make(c.curve, c.fatigue, law)));
   });
+}
+
+// The law named by c, if it is in the list and does not weaken.
+template <class Real, int D, class Memory, class Visit, class... Laws>
+bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
+  if (c.fatigue.on()) return false;
+  return ((c.name == Laws::kName && (visit_in_dimension<Laws, Real, D, Memory>(c, visit), true)) || ...);
+}
+template <class Real, int D, class Memory, class Visit, class... Laws>
+bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
+  if (!c.fatigue.on()) return false;
+  return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
+}
+
+// A group of laws.txt; the laws of the group `fatigue` weaken.
+template <class Group, class Real, int D, class Memory, class Visit>
+bool visit_group(const LawChoice& c, const Visit& visit) {
+  if constexpr (std::is_same_v<Group, FatigueLaws>)
+    return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
+  else
+    return visit_laws<Real, D, Memory>(Group{}, c, visit);
+}
+
+// Every group; needs every_law.h.
+template <class Real, int D, class Memory, class Visit, class... Groups>
+bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
+  return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);
 }
 
 }  // namespace hysteron

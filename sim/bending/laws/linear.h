@@ -5,6 +5,7 @@
 // |e|/h; Grinspun et al. 2003, E = k theta^2 |e|/(h/3), has k = b2/6.
 #pragma once
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/radial_elastic.h"
 
 namespace hysteron {
@@ -20,6 +21,16 @@ struct Linear : RadialElastic<Linear<Real, D>, Real, D> {
   HYST_HD Real slope(Real) const { return b2; }
   HYST_HD Real energy(Real k) const { return b2 * k * k / 2; }
   HYST_HD Real largest_stiffness() const { return b2; }
+};
+
+struct LinearLaw {
+  static constexpr const char* kName = "linear";
+  static constexpr const char* kMeaning = "M = b2 K, no memory (Baraff & Witkin 1998)";
+
+  template <class Real, int D>
+  static Linear<Real, D> make(const LawChoice& c) {
+    return Linear<Real, D>::make(c.curve);
+  }
 };
 
 }  // namespace hysteron

@@ -9,6 +9,9 @@
 // Not convex once it acts within a step of its own.
 #pragma once
 
+#include <cmath>
+
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/obrien.h"
 
 namespace hysteron {
@@ -56,6 +59,24 @@ struct Narain {
     History<Real, D> set;
     for (int c = 0; c < D; ++c) set[c] = m[c];
     return set;
+  }
+};
+
+struct NarainLaw {
+  static constexpr const char* kName = "narain";
+  static constexpr const char* kMeaning = "plastic rest curvature with weakening (Narain et al. 2013)";
+  static std::vector<LawParameter> parameters() {
+    return {law_parameter::yield(), law_parameter::max_set(), law_parameter::weakening()};
+  }
+  static void check(const LawChoice& c, LawUse) {
+    if (c.yield == 0) c.refuse("yield must be given and > 0 1/m where k0 is 0");
+  }
+  // A bounded set has a scalar form only.
+  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+
+  template <class Real, int D>
+  static Narain<Real, D> make(const LawChoice& c) {
+    return Narain<Real, D>::make(c.curve, c.yield, c.max_set, c.weakening);
   }
 };
 

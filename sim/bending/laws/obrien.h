@@ -7,6 +7,9 @@
 // while unbounded.
 #pragma once
 
+#include <cmath>
+
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/plastic_return.h"
 
 namespace hysteron {
@@ -50,6 +53,20 @@ struct Obrien {
     const Vec<Real, D> set = residual(before), trial = curvature - set;
     const Real n = trial.norm();
     return plastic_flow<Real, D>(trial, n, set, PlasticReturn<Real>::hardening(n, yield, 0), max_set);
+  }
+};
+
+struct ObrienLaw {
+  static constexpr const char* kName = "obrien";
+  static constexpr const char* kMeaning =
+      "plastic rest curvature above a yield curvature (O'Brien et al. 2002)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::yield(), law_parameter::max_set()}; }
+  // A bounded set has a scalar form only.
+  static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }
+
+  template <class Real, int D>
+  static Obrien<Real, D> make(const LawChoice& c) {
+    return Obrien<Real, D>::make(c.curve, c.yield, c.max_set);
   }
 };
 

@@ -7,6 +7,7 @@
 // numbers of the fabric stand for it.  K0 = 0 leaves M = b2 K.
 #pragma once
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/radial_elastic.h"
 
 namespace hysteron {
@@ -35,6 +36,17 @@ struct Pabst : RadialElastic<Pabst<Real, D>, Real, D> {
     return k <= k0 ? k * k * (b1 / 2 + c1 * k / 3) : b2 * k * k / 2 + m0 * (k - k0 / 3);
   }
   HYST_HD Real largest_stiffness() const { return b1; }
+};
+
+struct PabstLaw {
+  static constexpr const char* kName = "pabst";
+  static constexpr const char* kMeaning =
+      "virgin curve without memory (Pabst et al. 2008, Breen et al. 1992)";
+
+  template <class Real, int D>
+  static Pabst<Real, D> make(const LawChoice& c) {
+    return Pabst<Real, D>::make(c.curve);
+  }
 };
 
 }  // namespace hysteron

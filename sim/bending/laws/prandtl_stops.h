@@ -112,16 +112,4 @@ struct PrandtlStops {
   }
 };
 
-// One stop at K0 (Anandjiwala & Leaf 1991; Wong, Fig. 4.4a): slope Ma/K0 up to the elastic limit, b2 beyond,
-// the first slope again over 2 K0 after each reversal.  Owen 1968 and Chapman 1975 are its limit K0 -> 0.
-template <class Real, int D>
-PrandtlStops<Real, D, 1> make_bilinear(const VirginCurve& curve) {
-  PrandtlStops<Real, D, 1> law = PrandtlStops<Real, D, 1>::make(curve);
-  if (curve.k0 > 0) {
-    law.p = Real(curve.friction_moment() / curve.k0);
-    law.limit[0] = Real(curve.k0);
-  }
-  return law;
-}
-
 }  // namespace hysteron

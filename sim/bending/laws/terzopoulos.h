@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/plastic_return.h"
 
 namespace hysteron {
@@ -64,6 +65,18 @@ struct Terzopoulos {
   HYST_HD PlasticReturn<Real> returned(Real n) const {
     using std::exp;
     return PlasticReturn<Real>::hardening(n, yield, exp(-dt / tau));
+  }
+};
+
+struct TerzopoulosLaw {
+  static constexpr const char* kName = "terzopoulos";
+  static constexpr const char* kMeaning =
+      "viscoplastic rest curvature above a yield moment (Terzopoulos & Fleischer 1988)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::tau()}; }
+
+  template <class Real, int D>
+  static Terzopoulos<Real, D> make(const LawChoice& c) {
+    return Terzopoulos<Real, D>::make(c.curve, c.tau);
   }
 };
 

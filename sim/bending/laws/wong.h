@@ -16,7 +16,7 @@
 
 #include <cmath>
 
-#include "sim/bending/laws/law.h"
+#include "sim/bending/laws/law_description.h"
 
 namespace hysteron {
 
@@ -130,6 +130,22 @@ struct Wong {
     const Real c = s * b2 * m[kTurnCurvature] + b + m0;
     if (!(c > 0)) return b2 > 0 ? -s * m0 / b2 : m[kCurvature];
     return m[kTurnCurvature] + s * end * (1 - 2 * c / (b + sqrt(b * b + 4 * a * c)));
+  }
+};
+
+struct WongLaw {
+  static constexpr const char* kName = "wong";
+  static constexpr const char* kMeaning =
+      "quadratic loop, last reversal remembered (Wong, Eqs. 4.2, 4.4, 4.5)";
+  static std::vector<LawParameter> parameters() {
+    return law_parameter::with_fatigue({{"recovery", [](const ParameterText& t, LawChoice& c) {
+                                           c.reversible = t.is_second("masing", "reversible");
+                                         }}});
+  }
+
+  template <class Real, int>
+  static Wong<Real> make(const LawChoice& c) {
+    return Wong<Real>::make(c.curve, c.reversible ? Recovery::kReversible : Recovery::kMasing);
   }
 };
 

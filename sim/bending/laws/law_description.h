@@ -1,0 +1,79 @@
+// What a law's header says of its law besides the formula: the name, a line for the list of laws, its
+// parameters, and how it is made from them.
+//
+//   struct SomeLaw {
+//     static constexpr const char* kName = ...;     // of the law in scenes and flags
+//     static constexpr const char* kMeaning = ...;  // one line
+//     template <class Real, int D>                  // D components, or a scalar law whatever D is
+//     static Some<Real, D> make(const LawChoice&);
+//   };
+//
+// It may also have
+//   static std::vector<LawParameter> parameters();             // that the law takes, in the order of
+//   LawChoice static void set_defaults(LawChoice&);                      // where a parameter's default is
+//   the law's own static void check(const LawChoice&, LawUse);               // refuses what no parameter
+//   shows alone static bool runs_along_directions(const LawChoice&);       // on the tensor the law of D = 1
+//   is run template <class Real, int D, class Memory, class Visit>    // in place of make(), where the
+//   parameters static void visit(const LawChoice&, const Visit& visit);   // decide on the type of law: calls
+//   visit(law)
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "sim/bending/laws/law_parameters.h"
+
+namespace hysteron {
+
+template <int... n>
+using Sizes = std::integer_sequence<int, n...>;
+
+template <class... Laws>
+struct LawList {};
+
+template <class Law>
+concept LawDescription = requires {
+  std::string(Law::kName) + Law::kMeaning;
+};
+
+// Text of a parameter, to be read; what is not allowed is refused by Error::request.
+struct ParameterText {
+  std::string law, key, text;
+  LawUse use;
+
+  [[noreturn]] void refuse(const std::string& allowed) const;
+  double number(double low, double high, const std::string& allowed) const;
+  double positive(const std::string& unit) const;
+  double not_negative(const std::string& unit) const;
+  int one_of(const std::vector<int>& allowed) const;
+  bool is_second(const std::string& first, const std::string& second) const;
+};
+
+// Parameters that several laws take.
+namespace law_parameter {
+LawParameter yield();
+LawParameter max_set();
+LawParameter weakening();
+LawParameter height();
+LawParameter tau();
+std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own);
+}  // namespace law_parameter
+
+// A number as messages show it.
+std::string shown(double x);
+
+template <LawDescription Law>
+LawEntry law_entry() {
+  LawEntry entry{Law::kName, Law::kMeaning};
+  if constexpr (requires { Law::parameters(); }) entry.parameters = Law::parameters();
+  if constexpr (requires(LawChoice & c) { Law::set_defaults(c); }) entry.set_defaults = Law::set_defaults;
+  if constexpr (requires(const LawChoice& c) { Law::check(c, LawUse::cloth); }) entry.check = Law::check;
+  return entry;
+}
+
+template <class... Laws>
+std::vector<LawEntry> law_entries(LawList<Laws...>) {
+  return {law_entry<Laws>()...};
+}
+
+}  // namespace hysteron

@@ -1,0 +1,54 @@
+// The Prandtl-Ishlinskii law in its two forms: stops (prandtl_stops.h) or a stack of reversals
+// (prandtl_stack.h).
+//
+// Every size of its memory is a type of its own and takes its time to compile.
+#pragma once
+
+#include "sim/bending/laws/law_description.h"
+#include "sim/bending/laws/prandtl_stack.h"
+#include "sim/bending/laws/prandtl_stops.h"
+
+namespace hysteron {
+
+struct PrandtlLaw {
+  static constexpr const char* kName = "prandtl";
+  static constexpr const char* kMeaning =
+      "quadratic loop, all reversals remembered (Prandtl-Ishlinskii; Iwan 1966)";
+  static std::vector<LawParameter> parameters() {
+    return law_parameter::with_fatigue(
+        {{"memory", [](const ParameterText& t, LawChoice& c) { c.stack = t.is_second("stops", "stack"); }},
+         {"stops",
+          [](const ParameterText& t, LawChoice& c) {
+            c.stops = t.one_of({4, 8, 16, 32});
+          }},
+         {"stack", [](const ParameterText& t, LawChoice& c) {
+            c.depth = t.use == LawUse::alone ? t.one_of({4, 6, 8, 16, 32, 64}) : t.one_of({4, 6, 8, 16});
+          }}});
+  }
+  static void check(const LawChoice& c, LawUse use) {
+    if (!c.fatigue.on() || use != LawUse::cloth) return;
+    if (c.stack && c.depth != 8) c.refuse("stack = " + shown(c.depth) + " must be 8 with fatigue");
+    if (!c.stack && c.stops != 8 && c.stops != 16)
+      c.refuse("stops = " + shown(c.stops) + " must be 8 or 16 with fatigue");
+  }
+
+  template <class Real, int D, class Memory, class Visit>
+  static void visit(const LawChoice& c, const Visit& visit) {
+    if (c.stack)
+      visit_depth<Real>(c, visit, typename Memory::Depths{});
+    else
+      visit_stops<Real, D>(c, visit, typename Memory::Stops{});
+  }
+
+ private:
+  template <class Real, class Visit, int... n>
+  static void visit_depth(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+    (void)((c.depth == n && (visit(PrandtlStack<Real, n>::make(c.curve)), true)) || ...);
+  }
+  template <class Real, int D, class Visit, int... n>
+  static void visit_stops(const LawChoice& c, const Visit& visit, Sizes<n...>) {
+    (void)((c.stops == n && (visit(PrandtlStops<Real, D, n>::make(c.curve)), true)) || ...);
+  }
+};
+
+}  // namespace hysteron
