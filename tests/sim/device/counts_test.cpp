@@ -2,6 +2,9 @@
 // changes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim/device/device_counts.h"
 #include "sim/time/back_end.h"
 #include "tests/sim/time/scenes.h"
@@ -9,32 +12,102 @@
 namespace hysteron {
 namespace {
 
-DeviceCounts counted_step(Simulation& simulation) {
+constexpr int kSteps = 6;
+
+struct CountedStep {
+  DeviceCounts counts;
+  long solver, newton;  // iterations
+};
+
+CountedStep counted_step(Simulation& simulation) {
+  const auto solver = [&] {
+    return std::lround(simulation.solver_iterations() * static_cast<double>(simulation.steps()));
+  };
+  const auto newton = [&] {
+    return std::lround(simulation.newton_iterations() * static_cast<double>(simulation.steps()));
+  };
+  const long solver_before = solver(), newton_before = newton();
   const DeviceCounts before = device_counts;
   simulation.advance(1);
   simulation.wait();
-  return {device_counts.loops - before.loops, device_counts.synchronizations - before.synchronizations,
-          device_counts.allocations - before.allocations};
+  return {{device_counts.loops - before.loops, device_counts.synchronizations - before.synchronizations,
+           device_counts.allocations - before.allocations},
+          solver() - solver_before,
+          newton() - newton_before};
 }
 
-TEST(Probe, Print) {
-  for (const char* integrator : {"semi-implicit", "implicit", "explicit", "bdf2"})
-    for (double tol : {1e-4, 1e-12}) {
-      Scene scene = test::hanging_square(200);
-      scene.integrator = integrator;
-      scene.law = "prandtl";
-      scene.solver_tolerance = tol;
-      if (scene.is_implicit()) scene.step = 5e-3;
-      const test::Trial trial(scene);
-      auto s = trial.simulation();
-      for (int i = 0; i < 6; ++i) {
-        const double it = s->solver_iterations() * s->steps(), nw = s->newton_iterations() * s->steps();
-        const auto c = counted_step(*s);
-        printf("%s %g loops %ld sync %ld alloc %ld pcg %g newton %g\n", integrator, tol, c.loops,
-               c.synchronizations, c.allocations, s->solver_iterations() * s->steps() - it,
-               s->newton_iterations() * s->steps() - nw);
-      }
+// A square that hangs by two corners: no obstacle, no self-contact.
+std::vector<CountedStep> steps_of(const char* integrator, const char* device) {
+  Scene scene = test::hanging_square();
+  scene.law = "prandtl";
+  scene.integrator = integrator;
+  scene.device = device;
+  scene.solver_tolerance = 1e-4;
+  if (scene.is_implicit()) scene.step = 5e-3;
+  const auto simulation = test::Trial(scene).simulation();
+  std::vector<CountedStep> steps;
+  for (int i = 0; i < kSteps; ++i) steps.push_back(counted_step(*simulation));
+  return steps;
+}
+
+class DeviceCountsOfAStep : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::string reason;
+    if (GetParam() == std::string("cuda") && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Devices, DeviceCountsOfAStep, testing::Values("cpu", "cuda"),
+                         [](const auto& device) { return std::string(device.param); });
+
+// A GPU is sent iterations before the host knows whether the last ones were enough: as many as the solve
+// before took, and one, then four at a time.
+constexpr long kAsked = 4;
+
+TEST_P(DeviceCountsOfAStep, ExplicitStepsAreAllTheSame) {
+  const auto steps = steps_of("explicit", GetParam());
+  EXPECT_GT(steps[0].counts.loops, 0);
+  for (int i = 1; i < kSteps; ++i) {
+    EXPECT_EQ(steps[i].counts.loops, steps[0].counts.loops) << "step " << i;
+    EXPECT_LE(steps[i].counts.synchronizations, 3) << "the wait, whether all is finite, the clock of stages";
+    EXPECT_EQ(steps[i].counts.allocations, 0) << "step " << i;
+  }
+}
+
+TEST_P(DeviceCountsOfAStep, SemiImplicitStepsTakeThreeLoopsAnIterationAndFourteen) {
+  constexpr long kOwn = 14, kIteration = 3;
+  const auto steps = steps_of("semi-implicit", GetParam());
+  for (int i = 1; i < kSteps; ++i) {
+    const long last = steps[i - 1].solver, most = std::max(last + 1, steps[i].solver + kAsked);
+    EXPECT_GT(steps[i].solver, 10);
+    EXPECT_GE(steps[i].counts.loops, kOwn + kIteration * steps[i].solver);
+    if (GetParam() == std::string("cpu")) {
+      EXPECT_EQ(steps[i].counts.loops, kOwn + kIteration * steps[i].solver) << "step " << i;
     }
+    EXPECT_LE(steps[i].counts.loops, kOwn + kIteration * most) << "step " << i;
+    const long asked = 1 + std::max(0L, steps[i].solver - last + kAsked) / kAsked;
+    EXPECT_LE(steps[i].counts.synchronizations, 3 + asked) << "step " << i;
+    EXPECT_EQ(steps[i].counts.allocations, 0) << "step " << i;
+  }
+}
+
+// Each Newton iteration linearises, solves, measures and tries once; what it may ask the device for is the
+// potential, the correction, the solver's end, and as much again where a try is repeated.
+TEST_P(DeviceCountsOfAStep, ImplicitStepsAreBoundedByTheirIterations) {
+  constexpr long kOwn = 60, kNewton = 60, kIteration = 10, kWaits = 10, kNewtonWaits = 6;
+  const auto steps = steps_of("implicit", GetParam());
+  for (int i = 1; i < kSteps; ++i) {
+    const bool ahead = GetParam() == std::string("cuda");  // each solve as far as the one before it
+    const long sent =
+        steps[i].solver +
+        (ahead ? steps[i - 1].solver + steps[i].solver + (1 + kAsked) * (1 + steps[i].newton) : 0);
+    EXPECT_GE(steps[i].newton, 1);
+    EXPECT_LE(steps[i].counts.loops, kOwn + kNewton * steps[i].newton + kIteration * sent) << "step " << i;
+    EXPECT_LE(steps[i].counts.synchronizations,
+              kWaits + kNewtonWaits * steps[i].newton + steps[i].solver / kAsked)
+        << "step " << i;
+    EXPECT_EQ(steps[i].counts.allocations, 0) << "step " << i;
+  }
 }
 
 }  // namespace
