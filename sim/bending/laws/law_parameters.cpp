@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -26,12 +25,16 @@ LawChoice defaults(const LawEntry& law, const VirginCurve& curve, LawUse use) {
   return choice;
 }
 
+const LawEntry* find_law(const std::string& name) {
+  for (const LawEntry& law : law_catalogue())
+    if (law.name == name) return &law;
+  return nullptr;
+}
+
 const LawEntry& law_named(const std::string& name) {
+  if (const LawEntry* law = find_law(name)) return *law;
   std::string known;
-  for (const LawEntry& law : law_catalogue()) {
-    if (law.name == name) return law;
-    known += (known.empty() ? "" : ", ") + law.name;
-  }
+  for (const LawEntry& law : law_catalogue()) known += (known.empty() ? "" : ", ") + law.name;
   throw Error::request("unknown law '" + name + "'; known: " + known);
 }
 
@@ -122,7 +125,8 @@ std::string shown(double x) {
 void LawChoice::refuse(const std::string& what) const { throw Error::request("law " + name + ": " + what); }
 
 std::vector<std::string> law_parameter_names(const std::string& name) {
-  return names_of(law_named(name).parameters);
+  const LawEntry* law = find_law(name);
+  return law ? names_of(law->parameters) : std::vector<std::string>();
 }
 
 LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& given,

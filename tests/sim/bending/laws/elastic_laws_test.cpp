@@ -1,9 +1,9 @@
 // Closed forms of the laws without memory, and of the bilinear one.
 #include <gtest/gtest.h>
 
+#include "sim/bending/laws/bilinear.h"
 #include "sim/bending/laws/bridson.h"
 #include "sim/bending/laws/flexion_spring.h"
-#include "sim/bending/laws/bilinear.h"
 #include "sim/bending/laws/prandtl_stops.h"
 #include "sim/bending/laws/recovery.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
