@@ -69,7 +69,7 @@ LawChoice choose_law(const std::string& name, const VirginCurve& curve, const La
 LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 
-// Names of the parameters that law `name` takes, in the order of LawChoice.
+// Names of the parameters that law `name` takes, in the order of LawChoice; none of an unknown law.
 std::vector<std::string> law_parameter_names(const std::string& name);
 
 // All laws of the interface in its order, which is that of laws.txt.

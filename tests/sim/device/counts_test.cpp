@@ -40,8 +40,8 @@ CountedStep counted_step(Simulation& simulation) {
 std::vector<CountedStep> steps_of(const char* integrator, const char* device) {
   Scene scene = test::hanging_square();
   scene.law = "prandtl";
-  scene.integrator = integrator;
-  scene.device = device;
+  scene.integrator = value_named<Integrator>(integrator);
+  scene.device = value_named<DeviceChoice>(device);
   scene.solver_tolerance = 1e-4;
   if (scene.is_implicit()) scene.step = 5e-3;
   const auto simulation = test::Trial(scene).simulation();
