@@ -23,8 +23,6 @@ std::string moment_column(const KesResult& result) {
   return (result.name.empty() ? result.law : result.name) + " moment [N]";
 }
 
-std::string four_digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4g}", value); }
-
 // Every so many rows, and all where a leg ends.
 std::vector<std::size_t> shown_rows(const KesWalk& walk, int steps) {
   const std::size_t stride = std::max(1, steps / kShownSteps);
@@ -99,12 +97,6 @@ void write_readings(Run& run, const std::vector<KesFabric>& fabrics) {
 double published(const Fabric& fabric, const std::string& name, const std::string& unit, double si) {
   const auto found = fabric.published.find(name);
   return found != fabric.published.end() && found->second.unit == unit ? found->second.value * si : NAN;
-}
-
-void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  fmt::print("{:<19}", name);
-  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
-  fmt::print("\n");
 }
 
 }  // namespace

@@ -18,14 +18,7 @@ double largest(const std::vector<double>& values) {
   return result;
 }
 
-std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:+.2f} %", value) : "-"; }
-
-void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  fmt::print("{:<19}", name);
-  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
-  fmt::print("\n");
-}
 
 // Mean curvature between the clamps over that of the gauge, at the amplitude, minus 1 [percent].
 double bend_between(const StripResult& strip) {
@@ -56,6 +49,14 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
 }
 
 }  // namespace
+
+std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
+
+void print_row(const std::string& name, const std::vector<std::string>& cells) {
+  fmt::print("{:<19}", name);
+  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
+  fmt::print("\n");
+}
 
 StripDifference difference(const StripTest& strip, double amplitude) {
   const double moment = largest(strip.law_moment);

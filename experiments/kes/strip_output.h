@@ -46,6 +46,9 @@ void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
                          const std::vector<StripResult>& strips);
 // strip ENDING.csv: the law and every mesh, an equilibrium per row.
 void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips);
+// A number in the tables on stdout, "-" where it is not known; a row of them.
+std::string four_digits(double value);
+void print_row(const std::string& name, const std::vector<std::string>& cells);
 // A line per mesh, in the columns of the law's table, and its differences.
 void print_strips(double amplitude, const std::vector<StripResult>& strips);
 // plot_strip ENDING: loops and differences; strip ENDING.png: the same with pictures of the strips.

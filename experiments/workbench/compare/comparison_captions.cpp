@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "experiments/workbench/pages/figure_captions.h"
 #include "experiments/workbench/pages/gallery_about.h"
@@ -14,29 +13,11 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// What the numbers below a column mean, by the metric's name.
-const std::map<std::string, std::string>& meanings() {
-  static const std::map<std::string, std::string> kMeanings = {
-      {"drape_coefficient_percent",
-       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
-      {"node_count", "folds of the outline"},
-      {"recovery_angle_deg", "angle between the limbs after release; 180 degrees is flat"},
-      {"2HB_N", "width of the last moment-curvature loop"},
-      {"set_curvature_per_m", "curvature that is left without moment"},
-      {"turns", "how often the free end turned"},
-      {"decay_shape",
-       "how amplitudes A_n of small swings fall from turn to turn, dA/dn = -c A^p: linear (p near 0, "
-       "friction of "
-       "constant moment), exponential (1, viscosity), hyperbolic (2, friction whose loops grow as A^3), "
-       "plateau "
-       "(a turn takes less than 1 %)"},
-      {"decay_exponent", "p"},
-      {"bending_friction_J", "energy that friction in bending has taken"},
-      {"ridge_length_m", "length of the ridges, sharper than a threshold, that are left"},
-      {"residual_curvature_rms_per_m",
-       "root mean square of the curvature that is left if the cloth is let go"},
-      {"max_stretch_percent", "largest stretch of an edge"}};
-  return kMeanings;
+// "" of a metric that no page shows.
+std::string meaning_of(const std::string& metric) {
+  for (const ShownNumber& number : shown_numbers())
+    if (number.metric == metric) return number.meaning;
+  return "";
 }
 
 // In the order in which they are shown, those that a column shows.
@@ -44,9 +25,7 @@ std::string numbers_text(const std::vector<SweepColumn>& columns) {
   std::string text;
   for (const std::string& key : shown_metrics(columns)) {
     const NamedUnit what = split_unit(key);
-    const auto known = meanings().find(key);
-    text += (text.empty() ? "Numbers below the columns: " : "; ") + what.text() +
-            (known == meanings().end() ? "" : ", " + known->second);
+    text += (text.empty() ? "Numbers below the columns: " : "; ") + what.text() + ", " + meaning_of(key);
   }
   return text.empty() ? "" : text + "; ms per step, computing time without pictures.";
 }
@@ -96,12 +75,36 @@ std::string shown_in(const std::string& stem, const std::vector<SweepColumn>& co
     if (c.manifest)
       for (const Curve& curve : c.manifest->curves)
         if (curve.plot == stem) return curve.caption;
-  const auto metric = meanings().find(stem.substr(std::string("plot_").size()));
-  if (metric != meanings().end()) return "A bar for each column: " + metric->second + ".";
+  const std::string meaning = meaning_of(stem.substr(std::string("plot_").size()));
+  if (!meaning.empty()) return "A bar for each column: " + meaning + ".";
   return first_upper(plotted(stem)) + " against time, a line for each column.";
 }
 
 }  // namespace
+
+const std::vector<ShownNumber>& shown_numbers() {
+  static const std::vector<ShownNumber> kAll = {
+      {"drape_coefficient_percent",
+       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
+      {"node_count", "folds of the outline"},
+      {"recovery_angle_deg", "angle between the limbs after release; 180 degrees is flat"},
+      {"2HB_N", "width of the last moment-curvature loop"},
+      {"set_curvature_per_m", "curvature that is left without moment"},
+      {"turns", "how often the free end turned"},
+      {"decay_shape",
+       "how amplitudes A_n of small swings fall from turn to turn, dA/dn = -c A^p: linear (p near 0, "
+       "friction "
+       "of constant moment), exponential (1, viscosity), hyperbolic (2, friction whose loops grow as A^3), "
+       "plateau (a turn takes less than 1 %)"},
+      {"decay_exponent", "p"},
+      {"bending_friction_J", "energy that friction in bending has taken"},
+      {"ridge_length_m", "length of the ridges, sharper than a threshold, that are left"},
+      {"residual_curvature_rms_per_m",
+       "root mean square of the curvature that is left if the cloth is let go"},
+      {"max_stretch_percent", "largest stretch of an edge"},
+  };
+  return kAll;
+}
 
 void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
                                const std::string& command, const std::vector<SweepColumn>& columns) {

@@ -199,20 +199,6 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
   run.manifest().film_missing = result.started ? result.first_error_line : "ffmpeg is not installed";
 }
 
-// What each experiment is asked for; then what any run has.
-constexpr const char* kFirstNumbers[] = {"drape_coefficient_percent",
-                                         "node_count",
-                                         "recovery_angle_deg",
-                                         "2HB_N",
-                                         "set_curvature_per_m",
-                                         "turns",
-                                         "decay_shape",
-                                         "decay_exponent",
-                                         "bending_friction_J",
-                                         "ridge_length_m",
-                                         "residual_curvature_rms_per_m",
-                                         "max_stretch_percent"};
-
 // The plot with a line for each column, from a file of its folder; none where the file has no rows.
 void plot_columns(Run& run, const std::string& name, render::Plot plot,
                   const std::vector<SweepColumn>& columns,
@@ -270,13 +256,13 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
   }
 }
 
-// Those of kFirstNumbers that stand below a column.
+// Those of shown_numbers() that stand below a column.
 std::vector<std::string> metrics_of(const SweepColumn& column) {
   std::vector<std::string> keys;
   if (!column.manifest) return keys;
   const Metrics& metrics = column.manifest->metrics;
   const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
-  for (const char* key : kFirstNumbers)
+  for (const auto& [key, meaning] : shown_numbers())
     if ((metrics[key].is_number() || metrics[key].is_text()) && keys.size() < most) keys.push_back(key);
   return keys;
 }
@@ -308,7 +294,8 @@ std::vector<std::string> shown_moments(const ComparisonPage& page, const std::ve
 
 std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns) {
   std::vector<std::string> keys;
-  for (const char* key : kFirstNumbers) {
+  for (const ShownNumber& number : shown_numbers()) {
+    const char* key = number.metric;
     const bool shown = std::any_of(columns.begin(), columns.end(), [&](const SweepColumn& c) {
       const std::vector<std::string> own = metrics_of(c);
       return std::find(own.begin(), own.end(), key) != own.end();

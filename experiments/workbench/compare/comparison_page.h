@@ -24,6 +24,13 @@ struct ComparisonPage {
 // video where they are asked for.
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
+// What each experiment is asked for, then what any run has, in the order in which pages show it.
+struct ShownNumber {
+  const char* metric;
+  const char* meaning;
+};
+const std::vector<ShownNumber>& shown_numbers();
+
 // The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
 std::vector<std::string> numbers_of(const SweepColumn& column);
 
