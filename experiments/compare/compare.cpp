@@ -107,11 +107,8 @@ std::vector<KeyDescription> own_keys() {
   return keys;
 }
 
-int run_compare(const CommandLine& line) {
-  if (line.names.size() != 1)
-    throw Error::request("needs what to compare: drape, swing, crease, fold, crumple or a scene");
-  CompareChoice choice;
-  Options options;
+// The page's own flags; all others are left to the columns.
+void read_flags(const CommandLine& line, CompareChoice& choice, Options& options) {
   const Keys own = bind(kRows, choice), general = bind_options(options);
   for (const Flag& flag : line.flags)
     for (const Keys* keys : {&own, &general})
@@ -120,8 +117,26 @@ int run_compare(const CommandLine& line) {
           assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   if (options.out.empty())
     options.out = "out/compare-" + std::filesystem::path(line.names[0]).stem().string();
-
   if (!choice.to.empty()) choice.to = column_name(choice.to);
+}
+
+void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
+               const Options& options, const Plan& plan) {
+  const ComparisonPage page{
+      title_of(line, plan.columns),     notes_of(choice, plan), choice.rows, options.looks().front(), plan.to,
+      choice.difference == "curvature", !choice.no_outlines,    choice.video};
+  const auto stage = run.stage("render");
+  draw_comparison_page(run, page, plan.columns);
+  plot_comparison(run, page.title, plan.columns);
+  write_comparison_captions(run, page, experiment, line.command, plan.columns);
+}
+
+int run_compare(const CommandLine& line) {
+  if (line.names.size() != 1)
+    throw Error::request("needs what to compare: drape, swing, crease, fold, crumple or a scene");
+  CompareChoice choice;
+  Options options;
+  read_flags(line, choice, options);
   const CommandLine inner = line_of_columns(line, choice);
   std::vector<LawVariant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out));
@@ -140,20 +155,7 @@ int run_compare(const CommandLine& line) {
       plan.columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
       [&](const std::string& line) { run.progress(line); });
   write_table(run, plan);
-  if (!options.no_images) {
-    const ComparisonPage page{title_of(line, plan.columns),
-                              notes_of(choice, plan),
-                              choice.rows,
-                              options.looks().front(),
-                              plan.to,
-                              choice.difference == "curvature",
-                              !choice.no_outlines,
-                              choice.video};
-    const auto stage = run.stage("render");
-    draw_comparison_page(run, page, plan.columns);
-    plot_comparison(run, page.title, plan.columns);
-    write_comparison_captions(run, page, inner.experiment, line.command, plan.columns);
-  }
+  if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);
   run.finish();
   write_report(run.folder());
   return 0;
