@@ -144,12 +144,8 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
       for (const std::string& allowed : names_of(law.parameters))
         list += (list.empty() ? "" : ", ") + allowed;
       throw Error::request("law " + law.name + ": unknown parameter " + key + " = " + text +
-<<<<<<< HEAD
                            "; allowed: " + (list.empty() ? "none" : list))
           .of(key, text);
-=======
-                           "; allowed: " + (list.empty() ? "none" : list));
->>>>>>> laws
     }
     known->read({law.name, key, text, use}, choice);
   }

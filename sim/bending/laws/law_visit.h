@@ -2,11 +2,8 @@
 // its list.  D = 1 (scalar, hinge) or 3 (tensor, shape; scalar laws run along four directions).
 #pragma once
 
-<<<<<<< HEAD
-=======
 #include <type_traits>
 
->>>>>>> laws
 #include "sim/bending/laws/fatigue.h"
 #include "sim/bending/laws/four_directions.h"
 #include "sim/bending/laws/law_description.h"
@@ -89,11 +86,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }
 
-<<<<<<< HEAD
-// Every group; needs every_law.h.
-=======
 // Every group; needs every_group.h.
->>>>>>> laws
 template <class Real, int D, class Memory, class Visit, class... Groups>
 bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
   return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);
