@@ -1,8 +1,9 @@
 #include "experiments/compare/tuning.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 #include "sim/base/error.h"
@@ -17,11 +18,7 @@ double number_in(const std::string& text) {
   return failure == std::errc() && end == text.data() + text.size() ? value : std::nan("");
 }
 
-std::string four_digits(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 
 std::string middle_of(const std::string& low, const std::string& high) {
   return four_digits(std::sqrt(number_in(low) * number_in(high)));
@@ -36,11 +33,11 @@ LawVariant with_key(LawVariant variant, const std::string& key, const std::strin
 
 double metric_in(const SweepColumn& column, const std::string& metric) {
   if (!column.stopped.empty()) throw Error::run("compare.tune: " + column.name + ": " + column.stopped);
-  const Json metrics = column.manifest.value("metrics", Json::object());
-  if (!metrics.contains(metric) || !metrics[metric].is_number())
+  const MetricValue value = column.manifest ? column.manifest->metrics[metric] : MetricValue();
+  if (!value.is_number())
     throw Error::request(column.name + " has no metric " + metric +
                          " that is a number (--compare.tune-metric)");
-  return metrics[metric].get<double>();
+  return value.number();
 }
 
 }  // namespace

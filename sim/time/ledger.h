@@ -10,8 +10,8 @@ namespace hysteron {
 // All in joules.  Balance: (kinetic + gravitational + membrane + bending + contact) - initial
 //   = handle_work + obstacle_work - commands - bending_friction - viscous - air - contact_friction
 //     - inertia - unbalanced - bending_gap - implicit_gap - gravity_gap + remainder.
-// The five integrator terms come from their own formulas (headers of semi_implicit.cpp and implicit_step.cpp), so the remainder is
-// the arithmetic's alone.
+// The five integrator terms come from their own formulas (headers of semi_implicit.cpp and
+// implicit_step.cpp), so the remainder is the arithmetic's alone.
 struct Ledger {
   double kinetic = 0, gravitational = 0, membrane = 0, bending = 0,
          contact = 0;                                                       // now; gravity from the start

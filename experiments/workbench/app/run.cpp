@@ -109,6 +109,11 @@ void Run::note(const std::string& key, const Json& value) {
   manifest_.own.emplace_back(key, std::make_shared<const Json>(value));
 }
 
+void Run::begun_at(std::chrono::steady_clock::time_point time) {
+  add_seconds("setup", std::chrono::duration<double>(start_ - time).count());
+  start_ = time;
+}
+
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }
 
 void Run::plot(const std::string& name, const std::function<void(const fs::path&)>& draw) {

@@ -50,6 +50,8 @@ class Run {
   void metric(const std::string& name, MetricValue value) { manifest_.metrics.set(name, std::move(value)); }
   const Metrics& metrics() const { return manifest_.metrics; }
 
+  // What led to this run began then: it counts to the total, and as stage `setup`.
+  void begun_at(std::chrono::steady_clock::time_point time);
   // Adds to wall_seconds of a stage (membrane, bending, solve, contact, history, render, encode, io, or any
   // other).
   void add_seconds(const std::string& stage, double seconds);

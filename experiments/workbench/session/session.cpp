@@ -100,6 +100,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     return;
   }
   run_ = std::make_unique<Run>(line, setup);
+  run_->begun_at(begun_);
   Manifest& manifest = run_->manifest();
   manifest.device = simulation_->device();
   manifest.triangles = cloth_.mesh.faces();

@@ -1,6 +1,7 @@
 // One simulated run from set-up to manifest: what every experiment shares.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -72,6 +73,7 @@ class Session {
   void note_deep_contact();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 
+  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   CommandLine line_;
   Setup setup_;
   Cloth cloth_;

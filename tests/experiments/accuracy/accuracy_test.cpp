@@ -58,7 +58,7 @@ TEST(ObservedOrders, AreThoseOfTheErrors) {
 
 Found solved_base(const Problem& problem) { return problem.solve(problem.settings.front()); }
 
-const Effort kQuick{true, "cpu"};
+const Effort kQuick{true, DeviceChoice::cpu};
 
 TEST(Sag, OfTheBaseLiesOnTheElastica) { EXPECT_LT(solved_base(sag_problem(kQuick)).error, 2e-3); }
 
@@ -98,7 +98,7 @@ TEST(Bend, OfTheBaseFollowsItsLaw) { EXPECT_LT(solved_base(bend_problem(kQuick))
 double order_in_time(const std::string& integrator, double step) {
   const Problem problem = swing_problem(kQuick);
   Setting setting = problem.settings.front();
-  setting.integrator = integrator;
+  setting.integrator = value_named<Integrator>(integrator);
   setting.step = step;
   const double coarse = problem.solve(setting).error;
   setting.step = step / 2;

@@ -224,7 +224,7 @@ TEST(DecayProblem, IsSolvedByAllButBackwardEuler) {
     if (setting.integrator == Integrator::implicit)
       EXPECT_GT(found.error, 1) << setting.load;
     else
-      EXPECT_LT(found.error, kTolerance) << setting.integrator << ' ' << setting.load;
+      EXPECT_LT(found.error, kTolerance) << name_of(setting.integrator) << ' ' << setting.load;
     EXPECT_GT(found.steps, 0);
   }
   for (int count : of_kind) EXPECT_GT(count, 0);

@@ -1,6 +1,8 @@
 // Numbers in Markdown that come from runs.
 #include "experiments/report/marked_numbers.h"
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/report/number_source.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -22,10 +24,10 @@ class MarkedNumbers : public testing::Test {
     options.out = (results_ / "crease").string();
     options.quiet = true;
     ExperimentRun run({"crease", "hysteron crease", {}, {}}, options, Json::object());
-    run.note("steps", 12345);
+    run.manifest().steps = 12345;
     run.metric("recovery_angle_deg", 127.768);
     run.metric("recovery_angle_deg_step_error", 0.114);
-    run.metric("recovery_angle_deg_mesh_error", nullptr);
+    run.metric("recovery_angle_deg_mesh_error", MetricValue());
     run.metric("recovery_angle_deg_draw_error", 2.3e-7);
     run.metric("set_m", 0);
     run.finish();

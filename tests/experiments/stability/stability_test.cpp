@@ -146,7 +146,7 @@ TEST(Sweeps, RefuseUnknownNames) {
 }
 
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
-  const SweepChoice quick{{"semi-implicit"}, {"linear"}, "cpu", true};
+  const SweepChoice quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
   const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
   std::vector<Cell> one = cells_of(sweeps, quick), three = one;
   std::size_t calls = 0;
@@ -163,7 +163,7 @@ constexpr int kLimitSteps = 600;
 
 class ExplicitLimit : public testing::TestWithParam<LimitCase> {};
 INSTANTIATE_TEST_SUITE_P(Bending, ExplicitLimit, testing::ValuesIn(limit_cases(true)), [](const auto& of) {
-  return of.param.mesh + "_" + of.param.element + (of.param.held ? "_held" : "_free");
+  return of.param.mesh + "_" + name_of(of.param.element) + (of.param.held ? "_held" : "_free");
 });
 
 // Linear waves without damping: the limit is 2/omega, of which the program keeps 0.75.

@@ -30,7 +30,8 @@ struct Bent {
   }
   Bending<double, Cpu> make(const ClothMesh& mesh, const std::string& element, const std::string& law,
                             ForceConvention convention, const LawParameters& parameters) {
-    const CurvatureOperator op = make_curvature_operator(value_named<BendingElement>(element), mesh, std::vector<char>(mesh.vertices()));
+    const CurvatureOperator op = make_curvature_operator(value_named<BendingElement>(element), mesh,
+                                                         std::vector<char>(mesh.vertices()));
     return {cpu,
             mesh,
             op,

@@ -236,7 +236,8 @@ TEST_P(Family, ShapeSupportedPlateVibratesAtItsLowestFrequency) {
 TEST_P(Family, TransposedRowsAreTheForwardRows) {
   const ClothMesh mesh = make_rectangle(1, 0.8, 100, GetParam(), 4);
   for (const char* element : {"hinge", "shape"}) {
-    const CurvatureOperator op = make_curvature_operator(value_named<BendingElement>(element), mesh, none_held(mesh));
+    const CurvatureOperator op =
+        make_curvature_operator(value_named<BendingElement>(element), mesh, none_held(mesh));
     const int d = op.dimension;
     MatrixXd back = MatrixXd::Zero(d * op.elements(), mesh.interior_edges);
     for (int h = 0; h < mesh.interior_edges; ++h)
@@ -253,7 +254,8 @@ TEST_P(Family, RestShapeHasNoCurvatureWhateverItsAngles) {
   build_topology(mesh, "curved rest shape");
   const auto angles = hinge_angles(mesh, mesh.rest);
   for (const char* element : {"hinge", "shape"})
-    EXPECT_EQ(make_curvature_operator(value_named<BendingElement>(element), mesh, none_held(mesh)).rest_angle, angles);
+    EXPECT_EQ(make_curvature_operator(value_named<BendingElement>(element), mesh, none_held(mesh)).rest_angle,
+              angles);
 }
 
 // Energy of a cylinder over the plate's on the hinges of a few whole periods of a grid.

@@ -269,7 +269,8 @@ TEST(LinearSolvers, GiveTheSameCloth) {
     scene.linear_solver = solver;
     return Trial(scene).after(10)->positions();
   };
-  EXPECT_LT(test::farthest(shape(Preconditioning::multigrid), shape(Preconditioning::block_jacobi)), 1e-8);  // [m]
+  EXPECT_LT(test::farthest(shape(Preconditioning::multigrid), shape(Preconditioning::block_jacobi)),
+            1e-8);  // [m]
 }
 
 TEST(Implicit, RefusesWhatHasNoPotentialOrNoErrorEstimate) {

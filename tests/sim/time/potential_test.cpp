@@ -66,7 +66,8 @@ struct Step {
 
   Step(const std::string& law, const std::string& element, double friction = 0.3, bool bending_lags = false)
       : trial(scene(law, element, friction)),
-        op(make_curvature_operator(value_named<BendingElement>(element), trial.cloth.mesh, trial.cloth.held(trial.scene, 0))),
+        op(make_curvature_operator(value_named<BendingElement>(element), trial.cloth.mesh,
+                                   trial.cloth.held(trial.scene, 0))),
         held(trial.cloth.held(trial.scene, 0)),
         rows(cpu, trial.cloth.mesh),
         membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows),

@@ -78,8 +78,8 @@ TEST(StepBound, IsNotNeedlesslySmall) {
     trial.scene.step = 1.5 * limits.bending_step / kMargin;
     limits.substeps = 1;
     limits.substep = trial.scene.step;
-    const CurvatureOperator op =
-        make_curvature_operator(value_named<BendingElement>(element), trial.cloth.mesh, trial.cloth.held(trial.scene, 0));
+    const CurvatureOperator op = make_curvature_operator(value_named<BendingElement>(element),
+                                                         trial.cloth.mesh, trial.cloth.held(trial.scene, 0));
     const auto simulation = make_cpu_simulation(trial.scene, trial.cloth, op, limits);
     const double initial = energy(*simulation);
     simulation->advance(12);

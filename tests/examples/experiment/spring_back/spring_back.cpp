@@ -1,4 +1,6 @@
 // How far a fabric springs back from one bend: its residual curvature under a law, without any cloth.
+#include <nlohmann/json.hpp>
+
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/bending/laws/recovery.h"

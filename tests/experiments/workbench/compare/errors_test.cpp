@@ -219,6 +219,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   EXPECT_TRUE(manifest["complete"].get<bool>());
   EXPECT_FALSE(manifest.contains("errors_missing"));
   EXPECT_GT(manifest["wall_seconds"]["errors"].get<double>(), 0);
+  EXPECT_GT(manifest["wall_seconds"]["setup"].get<double>(), 0);
 
   const TextTable table = read_words("run/errors.csv");
   ASSERT_EQ(table.rows.size(), 4);
