@@ -54,10 +54,11 @@ struct FlexionSpringLaw {
     constexpr double kLeast = 0.01;
     const double angle = c.curve.k0 * c.height;
     if (!(angle >= kLeast && angle < 2 * std::numbers::pi))
-      c.refuse(
-          "height = " + shown(c.height) + " m and k0 = " + shown(c.curve.k0) +
-          " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; folded "
-          "further, springs matched at a smaller one are so stiff that they crush the triangles");
+      c.refuse("height",
+               "height = " + shown(c.height) + " m and k0 = " + shown(c.curve.k0) +
+                   " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; "
+                   "folded "
+                   "further, springs matched at a smaller one are so stiff that they crush the triangles");
   }
 
   template <class Real, int D>

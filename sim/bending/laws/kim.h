@@ -97,7 +97,7 @@ struct KimLaw {
             law_parameter::tau()};
   }
   static void check(const LawChoice& c, LawUse) {
-    if (c.yield == 0) c.refuse("yield must be given and > 0 1/m where k0 is 0");
+    if (c.yield == 0) c.refuse("yield", "yield must be given and > 0 1/m where k0 is 0");
   }
   // A bounded set has a scalar form only.
   static bool runs_along_directions(const LawChoice& c) { return std::isfinite(c.max_set); }

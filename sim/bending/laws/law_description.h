@@ -9,13 +9,18 @@
 //   };
 //
 // It may also have
-//   static std::vector<LawParameter> parameters();             // that the law takes, in the order of
-//   LawChoice static void set_defaults(LawChoice&);                      // where a parameter's default is
-//   the law's own static void check(const LawChoice&, LawUse);               // refuses what no parameter
-//   shows alone static bool runs_along_directions(const LawChoice&);       // on the tensor the law of D = 1
-//   is run template <class Real, int D, class Memory, class Visit>    // in place of make(), where the
-//   parameters static void visit(const LawChoice&, const Visit& visit);   // decide on the type of law: calls
-//   visit(law)
+//
+//     // The parameters that the law takes, in the order of LawChoice.
+//     static std::vector<LawParameter> parameters();
+//     // Where a parameter's default is the law's own.
+//     static void set_defaults(LawChoice&);
+//     // Refuses what no parameter shows alone.
+//     static void check(const LawChoice&, LawUse);
+//     // Whether on the tensor the law of D = 1 is run along four directions.
+//     static bool runs_along_directions(const LawChoice&);
+//     // In place of make(), where parameters decide on the type of law: calls visit(law).
+//     template <class Real, int D, class Memory, class Visit>
+//     static void visit(const LawChoice&, const Visit& visit);
 #pragma once
 
 #include <cmath>

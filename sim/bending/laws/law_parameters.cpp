@@ -47,14 +47,14 @@ std::vector<std::string> names_of(const std::vector<LawParameter>& parameters) {
 void check_fatigue(const LawChoice& choice) {
   const double m0 = choice.curve.friction_moment();
   if (choice.fatigue.m_inf > m0)
-    choice.refuse("fatigue.m-inf = " + shown(choice.fatigue.m_inf) + " N must be in [0, " + shown(m0) +
-                  "] N, the friction moment (b1 - b2) k0/2");
+    choice.refuse("fatigue.m-inf", "fatigue.m-inf = " + shown(choice.fatigue.m_inf) + " N must be in [0, " +
+                                       shown(m0) + "] N, the friction moment (b1 - b2) k0/2");
 }
 
 }  // namespace
 
 void ParameterText::refuse(const std::string& allowed) const {
-  throw Error::request("law " + law + ": " + key + " = " + text + " must be " + allowed);
+  throw Error::request("law " + law + ": " + key + " = " + text + " must be " + allowed).of(key, text);
 }
 
 double ParameterText::number(double low, double high, const std::string& allowed) const {
@@ -122,7 +122,9 @@ std::string shown(double x) {
   return text.str();
 }
 
-void LawChoice::refuse(const std::string& what) const { throw Error::request("law " + name + ": " + what); }
+void LawChoice::refuse(const std::string& key, const std::string& what) const {
+  throw Error::request("law " + name + ": " + what).of(key, "");
+}
 
 std::vector<std::string> law_parameter_names(const std::string& name) {
   const LawEntry* law = find_law(name);

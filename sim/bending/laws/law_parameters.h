@@ -39,8 +39,8 @@ struct LawChoice {
     const auto found = own.find(parameter);
     return found == own.end() ? otherwise : found->second;
   }
-  // Throws Error::request: the law, and what is wrong with it.
-  [[noreturn]] void refuse(const std::string& what) const;
+  // Throws Error::request of a parameter: the law, and what is wrong with it.
+  [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 };
 
 // A cloth has one history per element, so that its memory is kept small: `prandtl` with 8 stops by default.

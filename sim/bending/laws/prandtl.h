@@ -27,9 +27,9 @@ struct PrandtlLaw {
   }
   static void check(const LawChoice& c, LawUse use) {
     if (!c.fatigue.on() || use != LawUse::cloth) return;
-    if (c.stack && c.depth != 8) c.refuse("stack = " + shown(c.depth) + " must be 8 with fatigue");
+    if (c.stack && c.depth != 8) c.refuse("stack", "stack = " + shown(c.depth) + " must be 8 with fatigue");
     if (!c.stack && c.stops != 8 && c.stops != 16)
-      c.refuse("stops = " + shown(c.stops) + " must be 8 or 16 with fatigue");
+      c.refuse("stops", "stops = " + shown(c.stops) + " must be 8 or 16 with fatigue");
   }
 
   template <class Real, int D, class Memory, class Visit>

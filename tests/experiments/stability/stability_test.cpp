@@ -217,10 +217,14 @@ TEST_F(StabilityCommand, WritesARowForEachCellAndCountsThem) {
   EXPECT_NE(refused->find("fabric.k0 = 0"), std::string::npos) << "the message stands in the last column";
 }
 
-TEST_F(StabilityCommand, CallsTheIntegratorByItsNameAndKeepsItsRefusal) {
-  ASSERT_EQ(run({{"sweep", "density-step"}, {"integrator", "leapfrog"}}), 0);
-  EXPECT_EQ(manifest()["metrics"]["leapfrog.refused"], manifest()["metrics"]["cells"]);
-  EXPECT_NE(text_of(folder_.path() / "cells.csv").find("leapfrog"), std::string::npos);
+TEST_F(StabilityCommand, RefusesAnIntegratorThatThereIsNot) {
+  try {
+    run({{"sweep", "density-step"}, {"integrator", "leapfrog"}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("leapfrog is not one of: semi-implicit"), std::string::npos);
+  }
 }
 
 TEST_F(StabilityCommand, MeasuresTheExplicitLimitOnEveryMesh) {

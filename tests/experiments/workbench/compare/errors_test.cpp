@@ -111,8 +111,8 @@ TEST(Errors, OfCountsThatAreAlikeAreNone) {
   std::vector<Repeated> repeats;
   for (int k = 1; k <= 8; ++k) repeats.push_back({{"draw-" + std::to_string(k), {}}, {{"node_count", 8.0}}});
   const Errors errors = errors_of("drape", {{"node_count", 8.0}}, repeats);
-  EXPECT_EQ(errors.metrics["node_count_mean"], 8);
-  EXPECT_EQ(errors.metrics["node_count_draw_error"], 0);
+  EXPECT_EQ(errors.metrics["node_count_mean"].number(), 8);
+  EXPECT_EQ(errors.metrics["node_count_draw_error"].number(), 0);
 }
 
 TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
