@@ -2,26 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <cmath>
 #include <iostream>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
 
-// NaN unless all of it is one.
-double number_in(const std::string& text) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size() ? value : std::nan("");
-}
-
 std::string four_digits(double value) { return fmt::format("{:.4g}", value); }
 
 std::string middle_of(const std::string& low, const std::string& high) {
-  return four_digits(std::sqrt(number_in(low) * number_in(high)));
+  return four_digits(std::sqrt(*number_in(low) * *number_in(high)));
 }
 
 // A column with one more key, "linear+fabric.damping=1e-3".
@@ -53,8 +46,9 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
   tuning.key = key_and_bracket.substr(0, equals);
   tuning.low = key_and_bracket.substr(equals + 1, colon - equals - 1);
   tuning.high = key_and_bracket.substr(colon + 1);
-  const double low = number_in(tuning.low), high = number_in(tuning.high);
-  if (!(low > 0 && low < high && std::isfinite(high))) throw refuse("a bracket with 0 < LOW < HIGH");
+  const std::optional<double> low = number_in(tuning.low), high = number_in(tuning.high);
+  if (!low || !high || !(*low > 0 && *low < *high && std::isfinite(*high)))
+    throw refuse("a bracket with 0 < LOW < HIGH");
   if (metrics.empty())
     throw Error::request(
         "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
@@ -108,7 +102,7 @@ Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& varian
   (options.json ? std::cerr : std::cout) << tuning.key << "=" << number << std::endl;
   return {{"column", variants[0].name},
           {"key", tuning.key},
-          {"value", number_in(number)},
+          {"value", *number_in(number)},
           {"metric", tuning.metric},
           {"target", tuning.target}};
 }

@@ -1,6 +1,5 @@
 #include "experiments/report/number_source.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -40,13 +40,11 @@ class Words {
 };
 
 std::optional<double> as_number(const std::string& text) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
+  const std::optional<double> value = number_in(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-double number_in(const Json& value, const std::string& name) {
+double number_of(const Json& value, const std::string& name) {
   if (!value.is_number()) throw Error::request(name + " is no number");
   return value.get<double>();
 }
@@ -58,7 +56,7 @@ std::string hint(const std::string& name, const std::vector<std::string>& known)
 
 double at_pointer(const Json& json, const std::string& pointer, const std::string& file) {
   try {
-    return number_in(json.at(Json::json_pointer(pointer)), file + " " + pointer);
+    return number_of(json.at(Json::json_pointer(pointer)), file + " " + pointer);
   } catch (const Json::exception&) {
     throw Error::request(file + " has no " + pointer);
   }
@@ -80,7 +78,7 @@ double metric_of(const Source& source, const std::string& key) {
   for (const auto& [name, value] : metrics.items()) known.push_back(name);
   if (!metrics.contains(key))
     throw Error::request(source.name + "/manifest.json has no metric " + key + hint(key, known));
-  return number_in(metrics[key], "metric " + key + " of " + source.name);
+  return number_of(metrics[key], "metric " + key + " of " + source.name);
 }
 
 std::size_t column_of(const TextTable& table, const std::string& name, const std::string& file) {

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
+#include "sim/base/number_in.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron {
@@ -86,12 +86,11 @@ class Rows {
 double number(std::string_view text, const Table& table, const std::string& column) {
   std::string_view digits = trimmed(text);
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (failure != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+  const std::optional<double> value = number_in(digits);
+  if (!value || !std::isfinite(*value))
     throw table.refusal(table.lines.size() - 1,
                         fmt::format("{} = '{}' must be a finite number", column, digits));
-  return value;
+  return *value;
 }
 
 // Index of `wanted` in the header, or -1.  A column of that name in another unit is an error, not an absence.

@@ -1,34 +1,28 @@
 #include "experiments/workbench/pages/text_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 namespace {
 
-bool is_number(const std::string& text, double& value) {
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size();
-}
-
 // Six significant digits of a number that has more, other texts as they are.
 std::string short_field(const std::string& text) {
-  double value = 0;
-  const bool exact = text.find_first_of(".e") == text.npos;
-  return exact || text.size() < 8 || !is_number(text, value) ? text : number_field(value);
+  if (text.find_first_of(".e") == text.npos || text.size() < 8) return text;
+  const std::optional<double> value = number_in(text);
+  return value ? number_field(*value) : text;
 }
 
 bool numeric(const TextTable& table, std::size_t column) {
   bool any = false;
   for (const auto& row : table.rows) {
-    double value = 0;
     if (row[column].empty()) continue;
-    if (!is_number(row[column], value)) return false;
+    if (!number_in(row[column])) return false;
     any = true;
   }
   return any;

@@ -1,11 +1,11 @@
 #include "sim/bending/laws/law_parameters.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
 #include "sim/bending/laws/every_law.h"
 
 namespace hysteron {
@@ -58,11 +58,9 @@ void ParameterText::refuse(const std::string& allowed) const {
 }
 
 double ParameterText::number(double low, double high, const std::string& allowed) const {
-  double x = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, x);
-  if (failure != std::errc() || stop != end || !(x >= low && x <= high)) refuse(allowed);
-  return x;
+  const std::optional<double> x = number_in(text);
+  if (!x || !(*x >= low && *x <= high)) refuse(allowed);
+  return *x;
 }
 
 double ParameterText::positive(const std::string& unit) const {
