@@ -6,16 +6,16 @@
 
 namespace hysteron {
 
-// v = (x - reference)/over with reference = (1 + lag) x_n - lag x_{n-1}.
+// v = (x - reference)/beta_dt with reference = (1 + e) x_n - e x_{n-1}, e the extrapolation.
 struct StepFormula {
-  double dt = 0;    // from x_n to x [s]
-  double over = 0;  // [s]; infinite in statics
-  double lag = 0;
+  double dt = 0;             // from x_n to x [s]
+  double beta_dt = 0;        // the formula's coefficient beta times dt [s]; infinite in statics
+  double extrapolation = 0;  // 0 in backward Euler
 
   static StepFormula backward_euler(double dt) { return {dt, dt, 0}; }
   // Equilibrium: no inertia, drag or viscosity.
   static StepFormula statics(double dt) { return {dt, std::numeric_limits<double>::infinity(), 0}; }
-  bool is_static() const { return std::isinf(over); }
+  bool is_static() const { return std::isinf(beta_dt); }
   // Two-step backward differences on unequal steps: ratio w = dt/before (Hairer, Norsett & Wanner 1993,
   // III.5).
   static StepFormula bdf2(double dt, double before) {

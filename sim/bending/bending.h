@@ -23,9 +23,9 @@ class Bending {
   void commit(const Vec3<Real>* position, const Vec3<Real>* velocity, Real dt);
   GatheredForces<Real> forces() const;
 
-  // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed: (angle - reference)/over
-  // with the reference (1 + lag) times the accepted angle minus lag times the one accepted before it; lag is
-  // 0 in backward Euler.  evaluate() tries a step to `position`; accept() commits it.
+  // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed, as
+  // (angle - reference)/beta_dt with the reference (1 + e) times the accepted angle minus e times the one
+  // accepted before it, e the extrapolation.  evaluate() tries a step to `position`; accept() commits it.
   void begin_step(const StepFormula& formula);
   void evaluate(const Vec3<Real>* position);                 // forces(), and energies()
   const double* energies() const { return energy_.data(); }  // incremental potential per element [J]

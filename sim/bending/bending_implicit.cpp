@@ -19,17 +19,18 @@ void Bending<Real, Device>::begin_step(const StepFormula& formula) {
     if (viscosity_ > 0) angle_before_ = Buffer<Real, Device>(device_, hinges_);
   }
   if (viscosity_ <= 0) return;
-  const Real now = static_cast<Real>(1 + formula.lag), lag = static_cast<Real>(formula.lag);
+  const Real now = static_cast<Real>(1 + formula.extrapolation),
+             extrapolation = static_cast<Real>(formula.extrapolation);
   const Real *angle = angle_.data(), *before = angle_before_.data();
   Real* reference = reference_.data();
   for_each(
       device_, "bending reference", hinges_,
-      HYST_KERNEL(int h) { reference[h] = now * angle[h] - lag * before[h]; });
+      HYST_KERNEL(int h) { reference[h] = now * angle[h] - extrapolation * before[h]; });
 }
 
 template <class Real, class Device>
 void Bending<Real, Device>::compute_trial_rates() {
-  const Real inverse = static_cast<Real>(1 / formula_.over);
+  const Real inverse = static_cast<Real>(1 / formula_.beta_dt);
   const Real *trial = trial_angle_.data(), *reference = reference_.data();
   Real* rate = rate_.data();
   for_each(
@@ -39,8 +40,8 @@ void Bending<Real, Device>::compute_trial_rates() {
 
 template <class Real, class Device>
 typename LawLoop<Real, Device>::Trial Bending<Real, Device>::trial_step() const {
-  const bool viscous = viscosity_ > 0 && std::isfinite(formula_.over);
-  return {static_cast<Real>(formula_.dt), static_cast<Real>(formula_.over), viscous ? viscosity_ : Real(0),
+  const bool viscous = viscosity_ > 0 && std::isfinite(formula_.beta_dt);
+  return {static_cast<Real>(formula_.dt), static_cast<Real>(formula_.beta_dt), viscous ? viscosity_ : Real(0),
           rate_.data()};
 }
 

@@ -48,9 +48,9 @@ class LawLoop {
   virtual void commit(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real dt,
                       const Viscous& viscous, Real* moment_area) = 0;
   // The step from the accepted history to these angles, tried: nothing is remembered.  angle_rate is built up
-  // over `over` [s], the inverse of its derivative by the angle.
+  // over `beta_dt` [s], the inverse of its derivative by the angle.
   struct Trial {
-    Real dt, over;           // [s]
+    Real dt, beta_dt;        // [s]
     Real viscosity;          // [N m s]
     const Real* angle_rate;  // per hinge [rad/s]; null without viscosity
   };

@@ -75,7 +75,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
           if (trial.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, trial.angle_rate);
             moment += trial.viscosity * rate;
-            potential += trial.viscosity * trial.over / 2 * rate.squaredNorm();
+            potential += trial.viscosity * trial.beta_dt / 2 * rate.squaredNorm();
           }
           for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
           energy[i] = static_cast<double>(op.area[i] * potential);
@@ -86,7 +86,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
                 Real* tangent_area) override {
     Law law = law_;
     set_step_time(law, trial.dt);
-    const Real viscous = trial.viscosity > 0 ? trial.viscosity / trial.over : Real(0);
+    const Real viscous = trial.viscosity > 0 ? trial.viscosity / trial.beta_dt : Real(0);
     const Real* history = history_.data();
     for_each(
         device, "bending tangent", op.elements, HYST_KERNEL(int i) {

@@ -26,18 +26,18 @@ struct Box {
   }
 };
 
-// Where vertices go within a step: from `from` to from + share (way - mean); the mean is what they have in
-// common.
+// Where vertices go within a step: from `from` to from + step_length (direction - mean); the mean is what
+// they have in common.
 template <class Real>
 struct Sweep {
-  const Vec3<Real>*from, *way;
+  const Vec3<Real>*from, *direction;
   Vec3<Real> mean;
-  Real share;
+  Real step_length;
   Real margin;  // boxes reach farther by this
 
   HYST_HD void include(Box<Real>& box, int vertex) const {
     box.include(from[vertex]);
-    box.include(from[vertex] + share * (way[vertex] - mean));
+    box.include(from[vertex] + step_length * (direction[vertex] - mean));
   }
   HYST_HD void widen(Box<Real>& box) const {
     box.low.array() -= margin;
@@ -85,7 +85,7 @@ class BoxTree {
   BoxTree(Device& device, const std::vector<std::array<int, 3>>& corners,
           const std::vector<Eigen::Vector3d>& rest);
 
-  // Boxes around everything that the items touch on their way.
+  // Boxes around everything that the items touch within a sweep.
   void fit(const Sweep<Real>& sweep);
   BoxTreeView<Real> view() const { return {leaves_, count_, item_.data(), box_.data()}; }
   std::size_t bytes() const { return item_.bytes() + corner_.bytes() + box_.bytes(); }

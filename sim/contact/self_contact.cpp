@@ -12,7 +12,7 @@ namespace {
 constexpr double kSlip = 0.01;              // elastic slip of friction over the thickness
 constexpr double kPressure = 50 * 98.0665;  // of the KES compression test [Pa] (Kawabata 1980)
 constexpr double kCompressed = 0.2;         // of the thickness, at that pressure
-constexpr double kWayOfEdge = 5;            // most of a way that is looked at, over the mean edge length
+constexpr double kDisplacementOfEdge = 5;   // largest that is looked at, over the mean edge length
 constexpr double kReachOfEdge = 0.2;        // most that lists reach beyond a path, over the mean edge length
 
 // Stiffness [N/m^3] of a barrier that gives in by kCompressed at kPressure.
@@ -36,12 +36,12 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       thickness_(static_cast<Real>(scene.fabric.thickness)),
       least_reach_(thickness_ / 4),
       most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
-      most_way_(std::max(4 * thickness_, static_cast<Real>(kWayOfEdge * mean_edge(mesh)))),
+      max_displacement_(std::max(4 * thickness_, static_cast<Real>(kDisplacementOfEdge * mean_edge(mesh)))),
       model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
              static_cast<Real>(scene.fabric.friction), static_cast<Real>(kSlip) * thickness_},
       pairs_(device, mesh, scene.fabric.thickness),
       center_(device, vertices_),
-      share_(device),
+      step_length_(device),
       friction_(device),
       old_friction_(device),
       presses_(device),
@@ -54,49 +54,51 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       sum_(device, 2),
       clock_(device) {}
 
-// Of any vertex, without what all have in common.
+// Of any vertex at the full step, without what all have in common.
 template <class Real, class Device>
-Real SelfContact<Real, Device>::longest_way(const Vec3<Real>* way) {
-  const Vec3<Real> mean = pairs_.mean_of(way);
-  Real* lengths = share_.reserve(vertices_);
+Real SelfContact<Real, Device>::longest_displacement(const Vec3<Real>* direction) {
+  const Vec3<Real> mean = pairs_.mean_of(direction);
+  Real* lengths = step_length_.reserve(vertices_);
   for_each(
-      device_, "self-contact: ways", vertices_, HYST_KERNEL(int i) { lengths[i] = -(way[i] - mean).norm(); });
+      device_, "self-contact: displacements", vertices_,
+      HYST_KERNEL(int i) { lengths[i] = -(direction[i] - mean).norm(); });
   return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
 }
 
-// Largest distance of the way's end from where the list of pairs was made for.
+// Largest distance of the step's end from where the list of pairs was made for.
 template <class Real, class Device>
-Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* way, Real share) {
+Real SelfContact<Real, Device>::farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length) {
   const Vec3<Real>* center = center_.data();
-  Real* lengths = share_.reserve(vertices_);
+  Real* lengths = step_length_.reserve(vertices_);
   for_each(
       device_, "self-contact: lengths", vertices_,
-      HYST_KERNEL(int i) { lengths[i] = -(x[i] + share * way[i] - center[i]).norm(); });
+      HYST_KERNEL(int i) { lengths[i] = -(x[i] + step_length * direction[i] - center[i]).norm(); });
   return -smallest(device_, pairs_.scratch(), lengths, vertices_, Real(0));
 }
 
 template <class Real, class Device>
-double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held,
-                                          double at_most) {
+double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held,
+                                          double max_step) {
   clock_.begin(Stage::contact);
-  const Real longest = longest_way(way), asked = static_cast<Real>(at_most),
-             most = asked * longest > most_way_ ? most_way_ / longest : asked;
-  if (!ready_ || pending_ || !(farthest(x, way, most) <= reach_))
-    rebuild(x, way, most, held, std::clamp(most * longest / 2, least_reach_, most_reach_));
+  const Real longest = longest_displacement(direction), asked = static_cast<Real>(max_step),
+             step_length = asked * longest > max_displacement_ ? max_displacement_ / longest : asked;
+  if (!ready_ || pending_ || !(farthest(x, direction, step_length) <= reach_))
+    rebuild(x, direction, step_length, held,
+            std::clamp(step_length * longest / 2, least_reach_, most_reach_));
   const SelfPair<Real>* pairs = pairs_.pairs();
-  Real* share = share_.reserve(pairs_.count());
+  Real* feasible = step_length_.reserve(pairs_.count());
   for_each(
       device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
         Vec3<Real> from[4], along[4];
         pair.gather(x, from);
-        pair.gather(way, along);
-        for (Vec3<Real>& w : along) w *= most;
-        share[p] = feasible_share(from, along, pair.is_edges(), least_distance(pair));
+        pair.gather(direction, along);
+        for (Vec3<Real>& d : along) d *= step_length;
+        feasible[p] = feasible_step(from, along, pair.is_edges(), least_distance(pair));
       });
-  const double least = smallest(device_, pairs_.scratch(), share, pairs_.count(), Real(1));
+  const double least = smallest(device_, pairs_.scratch(), feasible, pairs_.count(), Real(1));
   clock_.end(Stage::contact);
-  return static_cast<double>(most) * least;
+  return static_cast<double>(step_length) * least;
 }
 
 template <class Real, class Device>
@@ -109,10 +111,10 @@ void SelfContact<Real, Device>::moved(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* way, Real share,
+void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length,
                                         const char* held, Real reach) {
   reach_ = reach;
-  pairs_.find(x, way, share, held, reach);
+  pairs_.find(x, direction, step_length, held, reach);
   ready_ = pending_ = true;
   const int count = pairs_.count();
   carry_over();
@@ -344,9 +346,9 @@ std::vector<Vec3<Real>> SelfContact<Real, Device>::forces() const {
 
 template <class Real, class Device>
 SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
-  std::vector<Real> share(pairs_.count());
-  device_download(device_, share.data(), share_.data(), share.size() * sizeof(Real));
-  const auto least = std::min_element(share.begin(), share.end()) - share.begin();
+  std::vector<Real> feasible(pairs_.count());
+  device_download(device_, feasible.data(), step_length_.data(), feasible.size() * sizeof(Real));
+  const auto least = std::min_element(feasible.begin(), feasible.end()) - feasible.begin();
   SelfPair<Real> pair;
   device_download(device_, &pair, pairs_.pairs() + least, sizeof pair);
   return pair;
@@ -354,7 +356,7 @@ SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
 
 template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
-  return pairs_.bytes() + center_.bytes() + share_.bytes() + friction_.bytes() + old_friction_.bytes() +
+  return pairs_.bytes() + center_.bytes() + step_length_.bytes() + friction_.bytes() + old_friction_.bytes() +
          presses_.bytes() + pressing_.bytes() + stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() +
          slot_.bytes() + energy_.bytes() + sum_.bytes();
 }

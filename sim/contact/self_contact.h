@@ -53,10 +53,10 @@ class SelfContact {
  public:
   SelfContact(Device& device, const ClothMesh& mesh, const Scene& scene);
 
-  // Largest share of the way from x that keeps layers apart, and no vertex farther than some edges from where
-  // the others go on average; afterwards evaluate() and its kind may be called
-  // on the path up to there.  moved() tells which of its points was taken.
-  double prepare(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, double at_most = 1);
+  // Largest step length along `direction` from x, up to `max_step`, that keeps layers apart, and no vertex
+  // farther than some edges from where the others go on average; afterwards evaluate() and its kind may be
+  // called on the path up to there.  moved() tells which of its points was taken.
+  double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1);
   void moved(const Vec3<Real>* x);
 
   // As in Contact.
@@ -70,7 +70,7 @@ class SelfContact {
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
   // For messages: the forces on vertices where evaluate() was called last [N], and the pair that limited the
-  // way of the last prepare().
+  // step of the last prepare().
   std::vector<Vec3<Real>> forces() const;
   SelfPair<Real> blocking_pair() const;
 
@@ -80,10 +80,11 @@ class SelfContact {
   std::size_t bytes() const;
 
   // Parts; public because nvcc allows no device lambda in a private member function.
-  void rebuild(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held, Real reach);
+  void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
+               Real reach);
   void carry_over();
-  Real longest_way(const Vec3<Real>* way);
-  Real farthest(const Vec3<Real>* x, const Vec3<Real>* way, Real share);
+  Real longest_displacement(const Vec3<Real>* direction);
+  Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);
   GatheredForces<Real> gathered(const PairRows<Device>& rows) const {
     return {rows.start.data(), rows.item.data(), slot_.data()};
@@ -92,14 +93,14 @@ class SelfContact {
  private:
   Device& device_;
   int vertices_;
-  Real thickness_, least_reach_, most_reach_, most_way_;
+  Real thickness_, least_reach_, most_reach_, max_displacement_;
   SelfContactModel<Real> model_;
   SelfPairs<Real, Device> pairs_;
   bool ready_ = false, pending_ = false;
   Real reach_ = 0;
   double stored_ = 0, loss_ = 0;  // of friction [J]
   Buffer<Vec3<Real>, Device> center_;
-  GrowingBuffer<Real, Device> share_;
+  GrowingBuffer<Real, Device> step_length_;
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
   // Of the pairs that press or rub where linearise() was called last: their numbers among all follow from
   // `pressing_`, a running count.

@@ -40,11 +40,12 @@ struct Candidates {  // what the loops need, by value
   // Whether the pair can matter; completes it.
   HYST_HD bool complete(SelfPair<Real>& pair, bool edges) const {
     if (is_out(pair.v, edges)) return false;
-    Vec3<Real> x[4], way[4];
+    Vec3<Real> x[4], direction[4];
     pair.gather(sweep.from, x);
-    pair.gather(sweep.way, way);
-    remove_mean(way);
-    const Real near = distance_of(x, edges) - sweep.share * fastest_approach(way, edges) - 2 * reach;
+    pair.gather(sweep.direction, direction);
+    remove_mean(direction);
+    const Real near =
+        distance_of(x, edges) - sweep.step_length * fastest_approach(direction, edges) - 2 * reach;
     if (near > thickness) return false;
     pair.gather(rest, x);
     const Real apart = Real(kOfRestDistance) * distance_of(x, edges);
@@ -120,12 +121,12 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
 }
 
 template <class Real, class Device>
-Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* way) {
+Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* direction) {
   Vec3<double>* sum = sum_.data();
   for_each_sum<3>(
-      device_, "self-contact: mean way", vertices_,
+      device_, "self-contact: mean direction", vertices_,
       HYST_KERNEL(int i, Sums<3>& sums) {
-        for (int k = 0; k < 3; ++k) sums.term[k] += static_cast<double>(way[i][k]);
+        for (int k = 0; k < 3; ++k) sums.term[k] += static_cast<double>(direction[i][k]);
       },
       HYST_KERNEL(const Sums<3>& total) {
         for (int k = 0; k < 3; ++k) (*sum)[k] = total.term[k];
@@ -176,11 +177,11 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
 }
 
 template <class Real, class Device>
-void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held,
-                                   Real reach) {
+void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length,
+                                   const char* held, Real reach) {
   std::swap(start_, old_start_);
   pair_.swap(old_pair_);
-  const Sweep<Real> sweep{x, way, mean_of(way), share, thickness_ + 2 * reach};
+  const Sweep<Real> sweep{x, direction, mean_of(direction), step_length, thickness_ + 2 * reach};
   triangle_tree_.fit(sweep);
   Sweep<Real> half = sweep;  // both edges' boxes are wider
   half.margin = sweep.margin / 2;

@@ -22,9 +22,9 @@ struct SelfPair {
   }
 };
 
-// The pairs that can matter while vertices go from x along a share of `way`, and anywhere within `reach` of a
-// point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges by
-// rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held.
+// The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
+// of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
+// by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held.
 //
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
@@ -38,8 +38,8 @@ class SelfPairs {
 
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
   // many rows, and old_pairs() are those of the list before.
-  void find(const Vec3<Real>* x, const Vec3<Real>* way, Real share, const char* held, Real reach);
-  Vec3<Real> mean_of(const Vec3<Real>* way);
+  void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach);
+  Vec3<Real> mean_of(const Vec3<Real>* direction);
   int count() const { return count_; }
   int rows() const { return rows_; }
   const SelfPair<Real>* pairs() const { return pair_.data(); }

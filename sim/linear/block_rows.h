@@ -12,29 +12,29 @@ namespace hysteron {
 // A number for every block of a BlockRowsView: that multiple of the identity.
 template <class Real>
 struct ScalarRowsView {
-  Real* off = nullptr;
+  Real* off_diagonal = nullptr;
   Real* diagonal = nullptr;
 };
 
 template <class Real>
 struct BlockRowsView {
   int rows;
-  const int* start;  // off-diagonal blocks of row i: start[i] ... start[i+1]-1
-  const int* column;
-  Mat3<Real>* off;  // off-diagonal blocks
+  const int* row_ptr;  // off-diagonal blocks of row i: row_ptr[i] ... row_ptr[i+1]-1
+  const int* col;
+  Mat3<Real>* off_diagonal;
   Mat3<Real>* diagonal;
 
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v) const {
     Vec3<Real> sum = diagonal[i] * v[i];
-    for (int j = start[i]; j < start[i + 1]; ++j) sum += off[j] * v[column[j]];
+    for (int j = row_ptr[i]; j < row_ptr[i + 1]; ++j) sum += off_diagonal[j] * v[col[j]];
     return sum;
   }
   // The same with `added` on top.
   HYST_HD Vec3<Real> times(int i, const Vec3<Real>* v, const ScalarRowsView<Real>& added) const {
     Vec3<Real> sum = diagonal[i] * v[i] + added.diagonal[i] * v[i];
-    for (int j = start[i]; j < start[i + 1]; ++j) {
-      const Vec3<Real> other = v[column[j]];
-      sum += off[j] * other + added.off[j] * other;
+    for (int j = row_ptr[i]; j < row_ptr[i + 1]; ++j) {
+      const Vec3<Real> other = v[col[j]];
+      sum += off_diagonal[j] * other + added.off_diagonal[j] * other;
     }
     return sum;
   }
@@ -50,38 +50,41 @@ class BlockRows {
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           if (k != l) neighbours[f[k]].push_back(f[l]);
-    start_host.push_back(0);
+    row_ptr_host_.push_back(0);
     for (auto& row : neighbours) {
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
-      column_host.insert(column_host.end(), row.begin(), row.end());
-      start_host.push_back(static_cast<int>(column_host.size()));
+      col_host_.insert(col_host_.end(), row.begin(), row.end());
+      row_ptr_host_.push_back(static_cast<int>(col_host_.size()));
     }
-    start_ = Buffer<int, Device>(device, start_host);
-    column_ = Buffer<int, Device>(device, column_host);
-    off_ = Buffer<Mat3<Real>, Device>(device, column_host.size());
+    row_ptr_ = Buffer<int, Device>(device, row_ptr_host_);
+    col_ = Buffer<int, Device>(device, col_host_);
+    off_diagonal_ = Buffer<Mat3<Real>, Device>(device, col_host_.size());
     diagonal_ = Buffer<Mat3<Real>, Device>(device, mesh.vertices());
   }
 
   BlockRowsView<Real> view() {
-    return {static_cast<int>(diagonal_.size()), start_.data(), column_.data(), off_.data(), diagonal_.data()};
+    return {static_cast<int>(diagonal_.size()), row_ptr_.data(), col_.data(), off_diagonal_.data(),
+            diagonal_.data()};
   }
   // Position of block (row, column) among the off-diagonal blocks.
   int slot(int row, int column) const {
-    const auto first = column_host.begin() + start_host[row],
-               last = column_host.begin() + start_host[row + 1];
-    return static_cast<int>(std::lower_bound(first, last, column) - column_host.begin());
+    const auto first = col_host_.begin() + row_ptr_host_[row],
+               last = col_host_.begin() + row_ptr_host_[row + 1];
+    return static_cast<int>(std::lower_bound(first, last, column) - col_host_.begin());
   }
-  const std::vector<int>& start() const { return start_host; }
-  const std::vector<int>& column() const { return column_host; }
-  std::vector<Mat3<Real>> off() const { return off_.download(); }
+  const std::vector<int>& row_ptr() const { return row_ptr_host_; }
+  const std::vector<int>& col() const { return col_host_; }
+  std::vector<Mat3<Real>> off_diagonal() const { return off_diagonal_.download(); }
   std::vector<Mat3<Real>> diagonal() const { return diagonal_.download(); }
-  std::size_t bytes() const { return start_.bytes() + column_.bytes() + off_.bytes() + diagonal_.bytes(); }
+  std::size_t bytes() const {
+    return row_ptr_.bytes() + col_.bytes() + off_diagonal_.bytes() + diagonal_.bytes();
+  }
 
  private:
-  std::vector<int> start_host, column_host;
-  Buffer<int, Device> start_, column_;
-  Buffer<Mat3<Real>, Device> off_, diagonal_;
+  std::vector<int> row_ptr_host_, col_host_;
+  Buffer<int, Device> row_ptr_, col_;
+  Buffer<Mat3<Real>, Device> off_diagonal_, diagonal_;
 };
 
 }  // namespace hysteron

@@ -69,12 +69,12 @@ template <class Real, class Device>
 CoarseLevel<Real, Device>::CoarseLevel(Device& device, const RestLevel& level)
     : nodes(level.nodes),
       finer(device, device_form<Real>(level.finer)),
-      start(device, level.pattern.start),
-      column(device, level.pattern.item),
+      row_ptr(device, level.pattern.start),
+      col(device, level.pattern.item),
       upper(device, upper_blocks(level.pattern, level.nodes)),
-      plate_off(device, rounded<Real>(level.plate_off)),
+      plate_off_diagonal(device, rounded<Real>(level.plate_off_diagonal)),
       plate_diagonal(device, rounded<Real>(level.plate_diagonal)),
-      off(device, level.pattern.item.size()),
+      off_diagonal(device, level.pattern.item.size()),
       diagonal(device, nodes),
       inverse(device, nodes),
       inverse_eigenvalue(device, 1),
@@ -95,7 +95,7 @@ CoarseLevelView<Real> CoarseLevel<Real, Device>::view() {
           gather_start.data(),
           gather_item.data(),
           gather_weight.data(),
-          {nodes, start.data(), column.data(), off.data(), diagonal.data()},
+          {nodes, row_ptr.data(), col.data(), off_diagonal.data(), diagonal.data()},
           inverse.data(),
           inverse_eigenvalue.data(),
           b.data(),
@@ -105,9 +105,10 @@ CoarseLevelView<Real> CoarseLevel<Real, Device>::view() {
 
 template <class Real, class Device>
 std::size_t CoarseLevel<Real, Device>::bytes() const {
-  return finer.bytes() + gather_start.bytes() + gather_item.bytes() + gather_weight.bytes() + start.bytes() +
-         column.bytes() + upper.bytes() + plate_off.bytes() + plate_diagonal.bytes() + off.bytes() +
-         diagonal.bytes() + inverse.bytes() + inverse_eigenvalue.bytes() + b.bytes() + x.bytes() + y.bytes();
+  return finer.bytes() + gather_start.bytes() + gather_item.bytes() + gather_weight.bytes() +
+         row_ptr.bytes() + col.bytes() + upper.bytes() + plate_off_diagonal.bytes() + plate_diagonal.bytes() +
+         off_diagonal.bytes() + diagonal.bytes() + inverse.bytes() + inverse_eigenvalue.bytes() + b.bytes() +
+         x.bytes() + y.bytes();
 }
 
 template struct CoarseLevel<double, ThisDevice>;

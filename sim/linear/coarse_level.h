@@ -54,10 +54,10 @@ struct CoarseLevel {
   Buffer<DeviceInterpolation<Real>, Device> finer;
   Buffer<int, Device> gather_start, gather_item;
   Buffer<Real, Device> gather_weight;
-  Buffer<int, Device> start, column;
+  Buffer<int, Device> row_ptr, col;
   Buffer<UpperBlock, Device> upper;
-  Buffer<Real, Device> plate_off, plate_diagonal;
-  Buffer<Mat3<Real>, Device> off, diagonal, inverse;
+  Buffer<Real, Device> plate_off_diagonal, plate_diagonal;
+  Buffer<Mat3<Real>, Device> off_diagonal, diagonal, inverse;
   Buffer<double, Device> inverse_eigenvalue;
   Buffer<Vec3<Real>, Device> b, x, y;
 

@@ -115,18 +115,18 @@ void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* hel
           const Real own = coarse.weight[k];
           const Real diagonal = own * coarse.finer[i].weight_of(at.column);
           if (diagonal != 0) sum += (diagonal * finer.diagonal[i]).template cast<double>();
-          for (int j = finer.start[i]; j < finer.start[i + 1]; ++j) {
-            const int other = finer.column[j];
+          for (int j = finer.row_ptr[i]; j < finer.row_ptr[i + 1]; ++j) {
+            const int other = finer.col[j];
             const Real weight = own * coarse.finer[other].weight_of(at.column);
             if (weight == 0 || (held && held[other])) continue;
-            sum += (weight * finer.off[j]).template cast<double>();
+            sum += (weight * finer.off_diagonal[j]).template cast<double>();
           }
         }
         if (at.slot < 0) {
           coarse.matrix.diagonal[at.row] = (0.5 * (sum + sum.transpose())).template cast<Real>();
         } else {
-          coarse.matrix.off[at.slot] = sum.template cast<Real>();
-          coarse.matrix.off[at.mirror] = sum.transpose().template cast<Real>();
+          coarse.matrix.off_diagonal[at.slot] = sum.template cast<Real>();
+          coarse.matrix.off_diagonal[at.mirror] = sum.transpose().template cast<Real>();
         }
       });
 }
@@ -134,12 +134,12 @@ void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* hel
 template <class Real, class Device>
 void Multigrid<Real, Device>::add_plate(Real rigidity, CoarseLevel<Real, Device>& level) {
   const BlockRowsView<Real> matrix = level.view().matrix;
-  const Real *off = level.plate_off.data(), *diagonal = level.plate_diagonal.data();
+  const Real *off_diagonal = level.plate_off_diagonal.data(), *diagonal = level.plate_diagonal.data();
   for_each(
       device_, "multigrid: plate", matrix.rows, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += rigidity * diagonal[i];
-        for (int j = matrix.start[i]; j < matrix.start[i + 1]; ++j)
-          for (int k = 0; k < 3; ++k) matrix.off[j](k, k) += rigidity * off[j];
+        for (int j = matrix.row_ptr[i]; j < matrix.row_ptr[i + 1]; ++j)
+          for (int k = 0; k < 3; ++k) matrix.off_diagonal[j](k, k) += rigidity * off_diagonal[j];
       });
 }
 
@@ -179,8 +179,8 @@ void Multigrid<Real, Device>::invert_coarsest(CoarseLevel<Real, Device>& level) 
       device_, "multigrid: dense matrix", n, HYST_KERNEL(int i) {
         for (int j = 0; j < n; ++j) a[i * n + j].setZero();
         a[i * n + i] = matrix.diagonal[i].template cast<double>();
-        for (int j = matrix.start[i]; j < matrix.start[i + 1]; ++j)
-          a[i * n + matrix.column[j]] = matrix.off[j].template cast<double>();
+        for (int j = matrix.row_ptr[i]; j < matrix.row_ptr[i + 1]; ++j)
+          a[i * n + matrix.col[j]] = matrix.off_diagonal[j].template cast<double>();
       });
   for (int k = 0; k < n; ++k) {
     for_each(

@@ -133,7 +133,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
       device_, "solve: product", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (s->done || held[i]) return;
-        q[i] = softening.off ? matrix.times(i, p, softening) : matrix.times(i, p);
+        q[i] = softening.off_diagonal ? matrix.times(i, p, softening) : matrix.times(i, p);
         if (bending.start) q[i] -= bending.at(i);
         if (pressing.start) q[i] += pressing.at(i);
         sums.term[0] += static_cast<double>(p[i].dot(q[i]));

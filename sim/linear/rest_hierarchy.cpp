@@ -336,8 +336,9 @@ void add(const std::vector<Coefficient>& a, const std::vector<Coefficient>& b, d
          RestLevel& level) {
   for (const Coefficient& row : a)
     for (const Coefficient& column : b) {
-      double& entry = row.node == column.node ? level.plate_diagonal[row.node]
-                                              : level.plate_off[slot(level.pattern, row.node, column.node)];
+      double& entry = row.node == column.node
+                          ? level.plate_diagonal[row.node]
+                          : level.plate_off_diagonal[slot(level.pattern, row.node, column.node)];
       entry += factor * row.value * column.value;
     }
 }
@@ -363,7 +364,7 @@ void next_plate(const RestLevel& finer, RestLevel& level) {
     const auto row = seen(i);
     add(row, row, finer.plate_diagonal[i], level);
     for (int j = finer.pattern.start[i]; j < finer.pattern.start[i + 1]; ++j)
-      add(row, seen(finer.pattern.item[j]), finer.plate_off[j], level);
+      add(row, seen(finer.pattern.item[j]), finer.plate_off_diagonal[j], level);
   }
 }
 
@@ -383,7 +384,7 @@ RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const std::vector<char>
     const bool first = hierarchy.empty();
     level.pattern = first ? first_pattern(mesh, level) : next_pattern(hierarchy.back().pattern, level);
     level.plate_diagonal.assign(level.nodes, 0);
-    level.plate_off.assign(level.pattern.item.size(), 0);
+    level.plate_off_diagonal.assign(level.pattern.item.size(), 0);
     if (first)
       first_plate(mesh, held, level);
     else

@@ -18,7 +18,7 @@ struct RestLevel {
   int nodes = 0;
   std::vector<Interpolation> finer;  // for each node of the next finer level (the vertices, for the first)
   Adjacency pattern;                 // off-diagonal blocks of a matrix on these nodes, columns ascending
-  std::vector<double> plate_off, plate_diagonal;  // off: an entry for each of the pattern's
+  std::vector<double> plate_off_diagonal, plate_diagonal;  // the former: an entry for each of the pattern's
 };
 
 // From fine to coarse; empty for meshes too small to be worth it.  `plate` is the matrix of int (laplacian

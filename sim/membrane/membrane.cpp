@@ -91,7 +91,7 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
   const MembraneStress<Real>* tension = tension_.data();
   for_each(
       device_, "membrane matrix", vertices_, HYST_KERNEL(int v) {
-        for (int j = matrix.start[v]; j < matrix.start[v + 1]; ++j) matrix.off[j].setZero();
+        for (int j = matrix.row_ptr[v]; j < matrix.row_ptr[v + 1]; ++j) matrix.off_diagonal[j].setZero();
         Mat3<Real> diagonal = Mat3<Real>::Zero();
         for (int j = start[v]; j < start[v + 1]; ++j) {
           const int f = item[j] / 3, i = item[j] % 3;
@@ -99,12 +99,12 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
           const MembraneStress<Real> t{geometric * s.s11, geometric * s.s22, geometric * s.s12};
           diagonal += membrane_block(rest[f], c, factor, deformed[f], t, i, i);
           for (int k = 1; k < 3; ++k)
-            matrix.off[slot[2 * j + k - 1]] +=
+            matrix.off_diagonal[slot[2 * j + k - 1]] +=
                 membrane_block(rest[f], c, factor, deformed[f], t, i, (i + k) % 3);
         }
         matrix.diagonal[v] = diagonal;
       });
-  if (softening.off) assemble_softening(matrix, softening);
+  if (softening.off_diagonal) assemble_softening(matrix, softening);
 }
 
 template <class Real, class Device>
@@ -114,7 +114,7 @@ void Membrane<Real, Device>::assemble_softening(BlockRowsView<Real> matrix, Scal
   const MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
   for_each(
       device_, "membrane softening", vertices_, HYST_KERNEL(int v) {
-        for (int j = matrix.start[v]; j < matrix.start[v + 1]; ++j) softening.off[j] = 0;
+        for (int j = matrix.row_ptr[v]; j < matrix.row_ptr[v + 1]; ++j) softening.off_diagonal[j] = 0;
         Real diagonal = 0;
         for (int j = start[v]; j < start[v + 1]; ++j) {
           const int f = item[j] / 3, i = item[j] % 3;
@@ -122,7 +122,8 @@ void Membrane<Real, Device>::assemble_softening(BlockRowsView<Real> matrix, Scal
           const MembraneStress<Real> compression{s.s11 - t.s11, s.s22 - t.s22, s.s12 - t.s12};
           diagonal += geometric_stiffness(rest[f], compression, i, i);
           for (int k = 1; k < 3; ++k)
-            softening.off[slot[2 * j + k - 1]] += geometric_stiffness(rest[f], compression, i, (i + k) % 3);
+            softening.off_diagonal[slot[2 * j + k - 1]] +=
+                geometric_stiffness(rest[f], compression, i, (i + k) % 3);
         }
         softening.diagonal[v] = diagonal;
       });

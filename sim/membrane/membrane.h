@@ -49,9 +49,9 @@ class Membrane {
   void assemble_softening(BlockRowsView<Real> matrix, ScalarRowsView<Real> softening);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
-  // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + lag) E(now) - lag E(before)
-  // (`before` may be null if lag = 0).  evaluate() sets forces(), energies() of elastic and viscous stress,
-  // and what assemble() needs, at `position`.
+  // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
+  // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic and
+  // viscous stress, and what assemble() needs, at `position`.
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position);
   const double* energies() const { return measure_.data(); }  // per face [J]

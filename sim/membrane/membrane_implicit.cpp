@@ -1,5 +1,5 @@
 // The membrane in an implicit step: elastic energy W(E), and viscosity as the potential
-//   damping/over * W(E - E_ref),   whose stress is damping * C dE/dt with dE/dt = (E - E_ref)/over,
+//   damping/beta_dt * W(E - E_ref),   whose stress is damping * C dE/dt with dE/dt = (E - E_ref)/beta_dt,
 // so that a step is a minimum problem and rotations cost nothing.
 #include <cmath>
 
@@ -13,7 +13,7 @@ void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<R
   formula_ = formula;
   if (damping_ <= 0) return;
   if (reference_.size() == 0) reference_ = Buffer<Vec3<Real>, Device>(device_, faces_);
-  const Real lag = static_cast<Real>(formula.lag);
+  const Real extrapolation = static_cast<Real>(formula.extrapolation);
   const MembraneRest<Real>* rest = rest_.data();
   const Eigen::Vector3i* corner = corner_.data();
   Vec3<Real>* reference = reference_.data();
@@ -22,15 +22,16 @@ void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<R
         const Eigen::Vector3i t = corner[f];
         const Vec3<Real> last = green_strain(deformation(rest[f], now[t[0]], now[t[1]], now[t[2]]));
         reference[f] = last;
-        if (lag > 0)
+        if (extrapolation > 0)
           reference[f] +=
-              lag * (last - green_strain(deformation(rest[f], before[t[0]], before[t[1]], before[t[2]])));
+              extrapolation *
+              (last - green_strain(deformation(rest[f], before[t[0]], before[t[1]], before[t[2]])));
       });
 }
 
 template <class Real, class Device>
 Real Membrane<Real, Device>::viscous_factor() const {
-  return std::isfinite(formula_.over) ? damping_ / static_cast<Real>(formula_.over) : Real(0);
+  return std::isfinite(formula_.beta_dt) ? damping_ / static_cast<Real>(formula_.beta_dt) : Real(0);
 }
 
 template <class Real, class Device>
@@ -50,9 +51,9 @@ void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
         Vec3<Real> strain = green_strain(d);
         Real potential = membrane_energy(c, strain);
         if (viscous > 0) {
-          const Vec3<Real> way = strain - reference[f];
-          potential += viscous * membrane_energy(c, way);
-          strain += viscous * way;
+          const Vec3<Real> change = strain - reference[f];
+          potential += viscous * membrane_energy(c, change);
+          strain += viscous * change;
         }
         deformed[f] = d;
         stress[f] = membrane_stress(c, strain);
@@ -67,15 +68,15 @@ void Membrane<Real, Device>::add_viscous_loss() {
   if (!(viscous > 0)) return;
   const MembraneStiffness<Real> c = stiffness_;
   // dt damping dE/dt C dE/dt
-  const Real factor = 2 * viscous * static_cast<Real>(formula_.dt / formula_.over);
+  const Real factor = 2 * viscous * static_cast<Real>(formula_.dt / formula_.beta_dt);
   const MembraneRest<Real>* rest = rest_.data();
   const Deformation<Real>* deformed = deformation_.data();
   const Vec3<Real>* reference = reference_.data();
   double* lost = viscous_.data();
   for_each(
       device_, "viscous loss", faces_, HYST_KERNEL(int f) {
-        const Vec3<Real> way = green_strain(deformed[f]) - reference[f];
-        lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, way));
+        const Vec3<Real> change = green_strain(deformed[f]) - reference[f];
+        lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, change));
       });
 }
 

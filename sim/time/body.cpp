@@ -58,7 +58,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
 
 template <class Real, class Device>
 void Body<Real, Device>::meet(double start, Real h) {
-  hands.grip(*this, start);
+  hands.attach_and_release(*this, start);
   if (contact && start >= next_obstacle_) {
     refuse_arrival(*this, met_, start);
     met_ = start;

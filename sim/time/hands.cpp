@@ -27,7 +27,7 @@ Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& clot
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::grip(Body<Real, Device>& body, double start) {
+void Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
   if (start < next_) return;
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
   next_ = next == times_.end() ? 1e30 : *next;

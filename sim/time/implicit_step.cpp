@@ -1,5 +1,6 @@
-// Ledger.  Over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, a = (v_{n+1} -
-// v^)/over with v^ the formula's combination of older velocities.  What of it does not become kinetic energy,
+// Ledger.  Over a displacement d = x_{n+1} - x_n all forces together do the work m a.d, where the
+// acceleration is a = (v_{n+1} - v^)/beta_dt with v^ the formula's combination of older velocities.  What of
+// it does not become kinetic energy,
 //   m a.d - m (|v_{n+1}|^2 - |v_n|^2)/2,   in backward Euler m |dv|^2/2,
 // the integrator has taken away; so it has, of each energy, the gap between its change and the work of its
 // forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
@@ -74,7 +75,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       acceleration_(device, vertices_),
       x_before_(device, two_step_ ? vertices_ : 0),
       v_before_(device, two_step_ ? vertices_ : 0),
-      way_(device, self_contact ? vertices_ : 0) {}
+      displacement_(device, self_contact ? vertices_ : 0) {}
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
@@ -87,7 +88,7 @@ void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
 template <class Real, class Device>
 std::size_t ImplicitStep<Real, Device>::bytes() const {
   return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
-         way_.bytes();
+         displacement_.bytes();
 }
 
 template <class Real, class Device>
@@ -107,13 +108,13 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
     begun = potential_of_guess(state, true);
     if (!(begun < steady)) begun = potential_of_guess(state, false);
   }
-  if (!std::isfinite(begun)) {  // the handles' way is not free, or the state not finite
+  if (!std::isfinite(begun)) {  // the handles' motion is not free, or the state not finite
     NewtonOutcome outcome;
     outcome.blocked = potential_.has_self_contact() && !keep_apart(state);
     return outcome;
   }
-  const double over = static_ ? 1.0 : formula_.over;
-  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, over);
+  const double beta_dt = static_ ? 1.0 : formula_.beta_dt;
+  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, beta_dt);
 }
 
 template <class Real, class Device>
@@ -156,37 +157,38 @@ double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& s
 // What the formula starts from.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
-  const Real over = static_ ? Real(0) : static_cast<Real>(formula_.over);
-  const Real lag = static_cast<Real>(formula_.lag);
+  const Real beta_dt = static_ ? Real(0) : static_cast<Real>(formula_.beta_dt);
+  const Real extrapolation = static_cast<Real>(formula_.extrapolation);
   const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
   Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
   for_each(
       device_, "implicit start", vertices_, HYST_KERNEL(int i) {
         reference[i] = x[i];
         drift[i] = v[i];
-        if (lag > 0) {
-          reference[i] += lag * (x[i] - x0[i]);
-          drift[i] += lag * (v[i] - v0[i]);
+        if (extrapolation > 0) {
+          reference[i] += extrapolation * (x[i] - x0[i]);
+          drift[i] += extrapolation * (v[i] - v0[i]);
         }
-        predicted[i] = reference[i] + over * drift[i];
+        predicted[i] = reference[i] + beta_dt * drift[i];
       });
 }
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool accelerated) {
   const Real h = static_cast<Real>(formula_.dt);
-  const double way = static_ ? formula_.dt : formula_.over * formula_.over;
-  const Real share = accelerated ? static_cast<Real>(way) : Real(0);
+  // Of the acceleration in the guess [s^2]; in statics, which keep a velocity in its place, [s].
+  const double full_weight = static_ ? formula_.dt : formula_.beta_dt * formula_.beta_dt;
+  const Real weight = accelerated ? static_cast<Real>(full_weight) : Real(0);
   const Vec3<Real>*x = state.x, *v = state.v, *predicted = predicted_.data(), *a = acceleration_.data();
   const char* held = state.held;
   Vec3<Real>* end = end_.data();
   for_each(
       device_, "implicit guess", vertices_, HYST_KERNEL(int i) {
-        end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + share * a[i]);
+        end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + weight * a[i]);
       });
 }
 
-// Shortens the guess until the cloth does not pass through itself on the way there; held vertices have to go
+// Shortens the guess until the cloth does not pass through itself on the path there; held vertices have to go
 // all of theirs.
 template <class Real, class Device>
 bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
@@ -194,8 +196,8 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
   constexpr double kWithin = 0.99, kFastest = 0.1;
   double shorter = 1;
   for (int k = 0; k < kMostShortenings; ++k) {
-    shorten_way(state, static_cast<Real>(shorter));
-    const double feasible = potential_.feasible_share(state.x, way_.data(), 1);
+    shorten_guess(state, static_cast<Real>(shorter));
+    const double feasible = potential_.feasible_step(state.x, displacement_.data(), 1);
     if (feasible >= 1) {
       potential_.took(end_.data());
       return true;
@@ -205,16 +207,16 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
   return false;
 }
 
-// The way to the guess, of free vertices this share of it; the guess moves there.
+// The displacement to the guess, of free vertices times `step_length`; the guess moves there.
 template <class Real, class Device>
-void ImplicitStep<Real, Device>::shorten_way(const VertexState<Real>& state, Real share) {
+void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, Real step_length) {
   const Vec3<Real>* x = state.x;
   const char* held = state.held;
-  Vec3<Real>*end = end_.data(), *way = way_.data();
+  Vec3<Real>*end = end_.data(), *displacement = displacement_.data();
   for_each(
-      device_, "implicit: way", vertices_, HYST_KERNEL(int i) {
-        way[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(share * (end[i] - x[i]));
-        end[i] = x[i] + way[i];
+      device_, "implicit: displacement", vertices_, HYST_KERNEL(int i) {
+        displacement[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(step_length * (end[i] - x[i]));
+        end[i] = x[i] + displacement[i];
       });
 }
 
@@ -224,7 +226,7 @@ template <class Real, class Device>
 double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
   const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
   const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
-  const bool second = formula_.lag > 0;
+  const bool second = formula_.extrapolation > 0;
   const double share = second ? of_bdf2 / (of_bdf2 + of_extrapolation) : 0.5;
   const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
   const Vec3<Real>*x = state.x, *v = state.v, *a = acceleration_.data(), *end = end_.data();
@@ -256,7 +258,7 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
 // gradient.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
-  const Real rate = static_cast<Real>(1 / formula_.over);  // 0 in statics
+  const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
   const Real inertia = rate * rate, drag = drag_ * rate;
   const Vec3<Real> g = gravity_, carried = (1 - share_) * gravity_;
   const GatheredForces<Real> bending = bending_.forces();
@@ -295,7 +297,7 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
-  const Real rate = static_cast<Real>(1 / formula_.over), h = static_cast<Real>(formula_.dt);
+  const Real rate = static_cast<Real>(1 / formula_.beta_dt), h = static_cast<Real>(formula_.dt);
   const bool two_step = two_step_, statics = static_;
   Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
   const Vec3<Real>*end = end_.data(), *reference = reference_.data();

@@ -46,7 +46,7 @@ class ImplicitStep {
   // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
   // mean square by mass [m].  It is of the order error_order() in the step.
   double local_error(const VertexState<Real>& state);
-  double error_order() const { return formula_.lag > 0 ? 3 : 2; }
+  double error_order() const { return formula_.extrapolation > 0 ? 3 : 2; }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const char* held) const;
   // Where solve() has ended without success.
@@ -57,7 +57,7 @@ class ImplicitStep {
   void place(const VertexState<Real>& state);
   void guess(const VertexState<Real>& state, bool accelerated);
   bool keep_apart(const VertexState<Real>& state);
-  void shorten_way(const VertexState<Real>& state, Real share);
+  void shorten_guess(const VertexState<Real>& state, Real step_length);
   void book(const VertexState<Real>& state, VertexLedger* ledger);
   void move_on(const VertexState<Real>& state);
 
@@ -86,7 +86,7 @@ class ImplicitStep {
   // Over the step before: acceleration [m/s^2]; in statics the velocity of the load [m/s].
   Buffer<Vec3<Real>, Device> acceleration_;
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
-  Buffer<Vec3<Real>, Device> way_;                  // to a guess; with self-contact only
+  Buffer<Vec3<Real>, Device> displacement_;         // to a guess; with self-contact only
 };
 
 }  // namespace hysteron

@@ -22,7 +22,7 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
       rest_diagonal_(device, vertices_),
-      softening_off_(device, matrix.column().size()),
+      softening_off_diagonal_(device, matrix.col().size()),
       softening_diagonal_(device, vertices_),
       sums_(device, 1) {}
 
@@ -34,9 +34,9 @@ void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
 }
 
 template <class Real, class Device>
-double IncrementalPotential<Real, Device>::feasible_share(const Vec3<Real>* x, const Vec3<Real>* way,
-                                                          double at_most) {
-  return self_contact_ ? self_contact_->prepare(x, way, start_.held, at_most) : at_most;
+double IncrementalPotential<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction,
+                                                         double max_step) {
+  return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step) : max_step;
 }
 
 template <class Real, class Device>
@@ -81,8 +81,8 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
 template <class Real, class Device>
 void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const StepStart<Real> s = start_;
-  const Real over = static_cast<Real>(s.formula.over);
-  const Real inertia = 1 / (over * over), drag = s.drag / over;  // 0 in statics
+  const Real beta_dt = static_cast<Real>(s.formula.beta_dt);
+  const Real inertia = 1 / (beta_dt * beta_dt), drag = s.drag / beta_dt;  // 0 in statics
   const Vec3<Real> g = s.share * s.gravity;
   const MembraneForceView<Real> membrane = membrane_.forces();
   const GatheredForces<Real> bending = bending_.forces();
@@ -153,11 +153,11 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
                                                                          bool full) {
   const BlockRowsView<Real> matrix = matrix_.view();
   ScalarRowsView<Real> softening;
-  if (full) softening = {softening_off_.data(), softening_diagonal_.data()};
+  if (full) softening = {softening_off_diagonal_.data(), softening_diagonal_.data()};
   membrane_.assemble(1 + membrane_.viscous_factor(), 1, matrix, softening);
   if (!bending_lags_) bending_.linearise();
-  const Real over = static_cast<Real>(start_.formula.over);
-  const Real inertia = 1 / (over * over) + start_.drag / over + shift;
+  const Real beta_dt = static_cast<Real>(start_.formula.beta_dt);
+  const Real inertia = 1 / (beta_dt * beta_dt) + start_.drag / beta_dt + shift;
   const Real* mass = mass_.data();
   Mat3<Real>* rest = rest_diagonal_.data();
   for_each(

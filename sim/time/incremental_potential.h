@@ -1,14 +1,14 @@
 // An implicit step as a minimum problem (Martin et al. 2011 for elastic bodies; with hysteresis because
 // moment is a function of curvature from the accepted history on):
 //
-//   Phi(x) = sum m/2 |x - y|^2/over^2 + drag m/2 |x - r|^2/over - m g.(x - x_n)
+//   Phi(x) = sum m/2 |x - y|^2/beta_dt^2 + drag m/2 |x - r|^2/beta_dt - m g.(x - x_n)
 //            + membrane + bending law + viscosity + contact + friction [J]
 //
 // Lagged bending (of `semi-implicit`) is the force of the state accepted last: -f.(x - x_n) takes the place
 // of its energy.
 //
-// r = the formula's reference position, y = r + over * (the same combination of velocities).  Statics have
-// over = infinity: no inertia, drag or viscosity.
+// r = the formula's reference position, y = r + beta_dt * (the same combination of velocities).  Statics have
+// beta_dt = infinity: no inertia, drag or viscosity.
 #pragma once
 
 #include "sim/bending/bending.h"
@@ -23,7 +23,7 @@ namespace hysteron {
 template <class Real>
 struct StepStart {
   StepFormula formula;
-  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read if formula.lag = 0)
+  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read if formula.extrapolation = 0)
   const Vec3<Real>*reference, *predicted;  // r, y
   const char* held;
   Vec3<Real> gravity;  // [m/s^2]
@@ -50,9 +50,9 @@ class IncrementalPotential {
                        bool bending_lags);
 
   void begin(const StepStart<Real>& start);
-  // Largest share of the way from x, up to `at_most`, on which the cloth does not pass through itself.
-  // evaluate() then serves points up to there; took() tells which of them was taken.
-  double feasible_share(const Vec3<Real>* x, const Vec3<Real>* way, double at_most);
+  // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
+  // itself. evaluate() then serves points up to there; took() tells which of them was taken.
+  double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   void took(const Vec3<Real>* x);
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
@@ -67,8 +67,8 @@ class IncrementalPotential {
   double load();  // norm of the weight of all free vertices [N]
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
-    return gradient_.bytes() + rest_diagonal_.bytes() + softening_off_.bytes() + softening_diagonal_.bytes() +
-           sums_.bytes();
+    return gradient_.bytes() + rest_diagonal_.bytes() + softening_off_diagonal_.bytes() +
+           softening_diagonal_.bytes() + sums_.bytes();
   }
 
   struct Totals {  // on the device
@@ -93,7 +93,7 @@ class IncrementalPotential {
   StepStart<Real> start_{};
   Buffer<Vec3<Real>, Device> gradient_;
   Buffer<Mat3<Real>, Device> rest_diagonal_;
-  Buffer<Real, Device> softening_off_, softening_diagonal_;
+  Buffer<Real, Device> softening_off_diagonal_, softening_diagonal_;
   Buffer<Totals, Device> sums_;
 };
 

@@ -43,7 +43,7 @@ Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<
 // Linear systems are solved the better the nearer the minimum (Eisenstat & Walker 1996, choice 2).
 template <class Real, class Device>
 NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
-                                             double total_mass, double over) {
+                                             double total_mass, double beta_dt) {
   constexpr double kLoosest = 0.1, kTightest = 1e-5;
   constexpr double kNear = 0.1;  // share of the first unbalanced force below which the full stiffness is used
   NewtonOutcome outcome;
@@ -51,8 +51,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   potential_.lag_friction(x);
   PotentialValue value = potential_.evaluate(x, nullptr);
   const double first = value.residual;
-  // What a way may meet costs the more the longer it is: the next one is looked at as far as a few times the
-  // last.
+  // What a step may meet costs the more the longer it is: the next direction is looked along as far as a few
+  // times the last step.
   constexpr double kLonger = 4;
   double farthest = std::numeric_limits<double>::infinity();  // [m]
   double forcing = kLoosest, shift = limits_.first_shift, rounding = 0;
@@ -61,7 +61,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
     // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
     outcome.converged |= value.residual <= std::max(limits_.residual * outcome.load, rounding) ||
-                         value.residual * over * std::sqrt(vertices_) / total_mass <= limits_.velocity;
+                         value.residual * beta_dt * std::sqrt(vertices_) / total_mass <= limits_.velocity;
     if (outcome.converged || !std::isfinite(value.energy)) break;
     if (outcome.iterations == limits_.iterations) {
       outcome.converged = outcome.unbalanced = limits_.take_unconverged;
@@ -80,11 +80,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
     const double blurred =
         std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
-    const double share = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
-    if (potential_.has_self_contact()) farthest = kLonger * share * length;
+    const double step_length = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
+    if (potential_.has_self_contact()) farthest = kLonger * step_length * length;
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
-    if (share == 0) {
+    if (step_length == 0) {
       outcome.converged = value.residual <= rounding ||
                           (balanced && (unmoved || -correction.slope <= blurred));  // no more to gain
       outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
@@ -92,8 +92,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
       break;
     }
     outcome.converged =
-        balanced && shift <= limits_.least_shift && (unmoved || length / over <= limits_.velocity);
-    shift = std::max(limits_.least_shift, share == 1 ? shift / 8 : shift * 2);
+        balanced && shift <= limits_.least_shift && (unmoved || length / beta_dt <= limits_.velocity);
+    shift = std::max(limits_.least_shift, step_length == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
       potential_.lag_friction(x);
       value = potential_.evaluate(x, nullptr);
@@ -114,30 +114,30 @@ long Newton<Real, Device>::find_direction(const LinearSystem<Real, Device>& syst
   return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
 }
 
-// Takes the first share of the direction, as much as is feasible or less, that lowers the potential enough,
-// and returns it; 0 if there is none.  Where the difference is within rounding, the slope must have become
-// flatter instead (Hager & Zhang 2005).
+// Takes the first step along the direction, as long as is feasible or shorter, that lowers the potential
+// enough, and returns its length; 0 if there is none.  Where the difference is within rounding, the slope
+// must have become flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most,
+double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double max_step,
                                     double blurred) {
   if (!(slope < 0)) return 0;
-  double share = potential_.feasible_share(x, direction_.data(), at_most);
-  if (!(share > 0)) return 0;
+  double step_length = potential_.feasible_step(x, direction_.data(), max_step);
+  if (!(step_length > 0)) return 0;
   for (int halving = 0; halving < kMostHalvings; ++halving) {
-    try_share(x, static_cast<Real>(share));
+    try_step(x, static_cast<Real>(step_length));
     const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
     const double rise = trial.energy - value.energy;
-    const bool lower = rise <= kEnough * share * slope,
+    const bool lower = rise <= kEnough * step_length * slope,
                flatter = std::abs(rise) <= blurred && std::abs(trial.slope) <= -0.9 * slope;
     if (lower || flatter) {
       take_trial(x);
       potential_.took(x);
       value = trial;
-      return share;
+      return step_length;
     }
-    const double curved = 2 * (rise - share * slope);  // minimum of the parabola through what is known
-    const double next = curved > 0 ? -slope * share * share / curved : 0;
-    share = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * share, 0.5 * share);
+    const double curved = 2 * (rise - step_length * slope);  // minimum of the parabola through what is known
+    const double next = curved > 0 ? -slope * step_length * step_length / curved : 0;
+    step_length = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * step_length, 0.5 * step_length);
   }
   return 0;
 }
@@ -167,11 +167,11 @@ typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correcti
 }
 
 template <class Real, class Device>
-void Newton<Real, Device>::try_share(const Vec3<Real>* x, Real share) {
+void Newton<Real, Device>::try_step(const Vec3<Real>* x, Real step_length) {
   const Vec3<Real>* d = direction_.data();
   Vec3<Real>* trial = trial_.data();
   for_each(
-      device_, "newton: try", vertices_, HYST_KERNEL(int i) { trial[i] = x[i] + share * d[i]; });
+      device_, "newton: try", vertices_, HYST_KERNEL(int i) { trial[i] = x[i] + step_length * d[i]; });
 }
 
 template <class Real, class Device>

@@ -23,7 +23,7 @@ struct NewtonLimits {
 struct NewtonOutcome {
   bool converged = false;   // or taken as it is
   bool unbalanced = false;  // taken as it is
-  bool blocked = false;     // the handles' own way leads the cloth through itself
+  bool blocked = false;     // the handles' own motion leads the cloth through itself
   int iterations = 0;
   long linear_iterations = 0;
   double residual = 0;  // [N]
@@ -36,9 +36,10 @@ class Newton {
   Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
          LinearSolver<Real, Device>& solver, const NewtonLimits& limits);
 
-  // Minimises the potential over the vertices that are not held, from x on.  `over` turns corrections into
-  // velocities [s].  Each accepted iterate lowers the potential, up to rounding.
-  NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass, double over);
+  // Minimises the potential over the vertices that are not held, from x on.  `beta_dt` turns corrections
+  // into velocities [s].  Each accepted iterate lowers the potential, up to rounding.
+  NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass,
+                         double beta_dt);
   void set_limits(const NewtonLimits& limits) { limits_ = limits; }
   std::size_t bytes() const { return direction_.bytes() + trial_.bytes() + rhs_.bytes() + sums_.bytes(); }
 
@@ -52,13 +53,13 @@ class Newton {
   };
   Correction measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
                                 const Real* mass, const char* held, bool is_free);
-  void try_share(const Vec3<Real>* x, Real share);
+  void try_step(const Vec3<Real>* x, Real step_length);
   void take_trial(Vec3<Real>* x);
   void negate_gradient();
 
  private:
   long find_direction(const LinearSystem<Real, Device>& system, const char* held, double tolerance);
-  double search(Vec3<Real>* x, PotentialValue& value, double slope, double at_most, double blurred);
+  double search(Vec3<Real>* x, PotentialValue& value, double slope, double max_step, double blurred);
 
   Device& device_;
   int vertices_;

@@ -121,14 +121,14 @@ struct Frames {
     std::string name;
     std::optional<Bar> bar{};  // of its colours
   };
-  struct Moment {
+  struct Instant {
     double time = 0;  // [s]
     std::string phase;
     std::optional<double> difference_rms{};  // of look `difference` [1/m]
   };
   std::vector<Look> looks;
   double metres_per_pixel = 0;
-  std::vector<Moment> moments;
+  std::vector<Instant> instants;
 };
 
 // A curve that a comparison draws of every column: two columns of a file in its folder.

@@ -88,9 +88,9 @@ void check_manifest(const Json& manifest, const std::filesystem::path& file) {
     if (const Json* names = find(manifest, path)) check_names(*names, path, file);
   for (const Entries& wanted : kEntries)
     if (const Json* entries = find(manifest, wanted.path)) check_entries(*entries, wanted, file);
-  if (const Json* moments = find(manifest, "/frames/moments"))
-    for (const Json& moment : *moments)
-      if (!moment["s"].is_number()) throw bad(file, "/frames/moments", "has a time s that is no number");
+  if (const Json* instants = find(manifest, "/frames/moments"))
+    for (const Json& instant : *instants)
+      if (!instant["s"].is_number()) throw bad(file, "/frames/moments", "has a time s that is no number");
 }
 
 }  // namespace hysteron::experiments

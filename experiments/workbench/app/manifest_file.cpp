@@ -40,17 +40,17 @@ Json to_json(const Metrics& metrics) {
 }
 
 Json to_json(const Frames& frames) {
-  Json looks = Json::object(), moments = Json::array();
+  Json looks = Json::object(), instants = Json::array();
   for (const auto& [name, bar] : frames.looks) {
     looks[name] = nullptr;
     if (bar)
       looks[name] = {{"label", bar->label}, {"unit", bar->unit}, {"low", bar->low}, {"high", bar->high}};
   }
-  for (const Frames::Moment& moment : frames.moments) {
-    moments.push_back({{"s", moment.time}, {"phase", moment.phase}});
-    if (moment.difference_rms) moments.back()["difference_rms_per_m"] = *moment.difference_rms;
+  for (const Frames::Instant& instant : frames.instants) {
+    instants.push_back({{"s", instant.time}, {"phase", instant.phase}});
+    if (instant.difference_rms) instants.back()["difference_rms_per_m"] = *instant.difference_rms;
   }
-  return {{"looks", looks}, {"m_per_pixel", frames.metres_per_pixel}, {"moments", moments}};
+  return {{"looks", looks}, {"m_per_pixel", frames.metres_per_pixel}, {"moments", instants}};
 }
 
 Json to_json(const Curve& curve) {
@@ -194,9 +194,9 @@ std::optional<Frames> frames_of(const Json& json) {
                                  number_at(bar, "high")};
   }
   frames.metres_per_pixel = number_at(json, "m_per_pixel");
-  for (const Json& moment : at(json, "moments"))
-    frames.moments.push_back(
-        {number_at(moment, "s"), text_at(moment, "phase"), known_at<double>(moment, "difference_rms_per_m")});
+  for (const Json& instant : at(json, "moments"))
+    frames.instants.push_back({number_at(instant, "s"), text_at(instant, "phase"),
+                               known_at<double>(instant, "difference_rms_per_m")});
   return frames;
 }
 

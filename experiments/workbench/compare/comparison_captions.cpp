@@ -32,7 +32,8 @@ std::string numbers_text(const std::vector<SweepColumn>& columns) {
 
 std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::string text;
-  for (const std::string& moment : shown_moments(page, columns)) text += (text.empty() ? "" : "; ") + moment;
+  for (const std::string& instant : shown_instants(page, columns))
+    text += (text.empty() ? "" : "; ") + instant;
   text = "Rows: " + text + " (each column's picture nearest to that time, in look " + page.look +
          ", from one camera).";
   if (page.to >= 0) {

@@ -27,18 +27,18 @@ constexpr std::size_t kMostNumbers = 5;
 constexpr const char* kDifference = "difference";  // the look of it
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
 
-const std::vector<Frames::Moment>& moments(const SweepColumn& column) {
-  return column.manifest->frames->moments;
+const std::vector<Frames::Instant>& instants(const SweepColumn& column) {
+  return column.manifest->frames->instants;
 }
-double second(const SweepColumn& column, std::size_t frame) { return moments(column).at(frame).time; }
+double second(const SweepColumn& column, std::size_t frame) { return instants(column).at(frame).time; }
 bool has_frames(const SweepColumn& column) {
-  return column.manifest && column.manifest->frames && !moments(column).empty();
+  return column.manifest && column.manifest->frames && !instants(column).empty();
 }
 
 // The picture nearest to a time, the last one where the run had ended before.
 std::size_t frame_at(const SweepColumn& column, double time) {
   std::size_t nearest = 0;
-  for (std::size_t f = 0; f < moments(column).size(); ++f)
+  for (std::size_t f = 0; f < instants(column).size(); ++f)
     if (std::abs(second(column, f) - time) < std::abs(second(column, nearest) - time)) nearest = f;
   return nearest;
 }
@@ -54,22 +54,22 @@ std::vector<double> times_of(const std::vector<SweepColumn>& columns, int rows) 
   const SweepColumn* longest = nullptr;
   for (const SweepColumn& c : columns)
     if (has_frames(c) &&
-        (!longest || second(c, moments(c).size() - 1) > second(*longest, moments(*longest).size() - 1)))
+        (!longest || second(c, instants(c).size() - 1) > second(*longest, instants(*longest).size() - 1)))
       longest = &c;
   std::vector<double> times;
   if (!longest) return times;
-  const int last = static_cast<int>(moments(*longest).size()) - 1, count = std::min(rows, std::max(1, last));
+  const int last = static_cast<int>(instants(*longest).size()) - 1, count = std::min(rows, std::max(1, last));
   for (int r = 1; r <= count; ++r)
     times.push_back(second(*longest, static_cast<std::size_t>(std::lround(1.0 * r * last / count))));
   return times;
 }
 
-std::string moment_text(const std::vector<SweepColumn>& columns, double time) {
+std::string instant_text(const std::vector<SweepColumn>& columns, double time) {
   for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
-    const Frames::Moment& moment = moments(c).at(frame_at(c, time));
-    if (std::abs(moment.time - time) > 1e-9) continue;
-    return fmt::format("t = {:.2f} s{}{}", time, moment.phase.empty() ? "" : ", ", moment.phase);
+    const Frames::Instant& instant = instants(c).at(frame_at(c, time));
+    if (std::abs(instant.time - time) > 1e-9) continue;
+    return fmt::format("t = {:.2f} s{}{}", time, instant.phase.empty() ? "" : ", ", instant.phase);
   }
   return fmt::format("t = {:.2f} s", time);
 }
@@ -80,7 +80,7 @@ struct Drawn {
   std::vector<double> times;
 
   render::ComparisonRow pictures(double time) const {
-    render::ComparisonRow row{moment_text(columns, time), {}};
+    render::ComparisonRow row{instant_text(columns, time), {}};
     for (const SweepColumn& c : columns) {
       row.cells.emplace_back();
       if (!has_frames(c)) continue;
@@ -116,7 +116,7 @@ struct Drawn {
   static render::ComparisonCell of_curvature(const SweepColumn& column, double time) {
     const std::size_t frame = frame_at(column, time);
     return {render::read_png(picture_of(column, kDifference, frame)),
-            fmt::format("rms {:.3g} 1/m", moments(column).at(frame).difference_rms.value())};
+            fmt::format("rms {:.3g} 1/m", instants(column).at(frame).difference_rms.value())};
   }
 
   render::ComparisonRow outlines() const {
@@ -130,7 +130,7 @@ struct Drawn {
         if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
         render::draw_outline(over, shape, render::method_color(c), std::max(1, shape.width() / 320));
       }
-      row.cells.push_back({std::move(over), moment_text(columns, time)});
+      row.cells.push_back({std::move(over), instant_text(columns, time)});
     }
     return row;
   }
@@ -168,9 +168,9 @@ render::Image strip_of(const ComparisonPage& page, const std::vector<SweepColumn
     strip.columns.push_back({columns[c].name, {}, render::method_color(c)});
     strip.rows[0].cells.emplace_back();
     if (!has_frames(columns[c])) continue;
-    const std::size_t last = moments(columns[c]).size() - 1;
+    const std::size_t last = instants(columns[c]).size() - 1;
     strip.rows[0].cells[c].image = render::read_png(picture_of(columns[c], page.look, std::min(f, last)));
-    if (f <= last) strip.rows[0].label = moment_text({columns[c]}, second(columns[c], f));
+    if (f <= last) strip.rows[0].label = instant_text({columns[c]}, second(columns[c], f));
   }
   return render::draw_comparison(strip);
 }
@@ -180,8 +180,8 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
   std::size_t frames = 0;
   double rate = 1;  // [1/s]
   for (const SweepColumn& c : columns) {
-    if (!has_frames(c) || moments(c).size() <= frames) continue;
-    frames = moments(c).size();
+    if (!has_frames(c) || instants(c).size() <= frames) continue;
+    frames = instants(c).size();
     if (frames > 1) rate = static_cast<double>(frames - 1) / (second(c, frames - 1) - second(c, 0));
   }
   for (std::size_t f = 0; f < frames; ++f) {
@@ -286,9 +286,9 @@ void plot_answers(Run& run, const std::string& title, const std::vector<SweepCol
 
 }  // namespace
 
-std::vector<std::string> shown_moments(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::vector<std::string> texts;
-  for (double time : times_of(columns, page.rows)) texts.push_back(moment_text(columns, time));
+  for (double time : times_of(columns, page.rows)) texts.push_back(instant_text(columns, time));
   return texts;
 }
 

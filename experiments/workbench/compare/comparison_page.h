@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 struct ComparisonPage {
   std::string title;
   std::vector<std::string> notes;
-  int rows = 4;            // moments
+  int rows = 4;            // instants
   std::string look;        // of the pictures
   int to = -1;             // the column that others differ from; -1: no differences
   bool curvature = false;  // what differs: curvature, as the columns pictured it, not pictures
@@ -37,7 +37,7 @@ std::vector<std::string> numbers_of(const SweepColumn& column);
 // Names of the metrics among them, of any column.
 std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns);
 // "t = 0.50 s, hang" of each of the page's rows.
-std::vector<std::string> shown_moments(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
+std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
 // Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
 // that its manifest's `curves` name; and bars of what it is asked for.

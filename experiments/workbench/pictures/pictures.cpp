@@ -110,15 +110,15 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
-  Frames::Moment moment{simulation_.time(), scene_.phase_at(simulation_.time())};
+  Frames::Instant instant{simulation_.time(), scene_.phase_at(simulation_.time())};
   for (const Order& order : orders) {
     frames->looks.push_back({order.look});
     if (const auto bar = color_bar_of(scene_, options_, order.look))
       frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
-    if (order.look == "difference") moment.difference_rms = root_mean_square(order.shown.values);
+    if (order.look == "difference") instant.difference_rms = root_mean_square(order.shown.values);
   }
   frames->metres_per_pixel = camera().metres_per_pixel(bounds_.center(), options_.height());
-  frames->moments.push_back(std::move(moment));
+  frames->instants.push_back(std::move(instant));
 }
 
 void Pictures::frame(Run& run) {

@@ -19,7 +19,7 @@ ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
   const Json json = json_or_none(file);
   if (json.is_object())
     if (const Manifest manifest = checked_manifest(json, file); manifest.frames)
-      for (const Frames::Moment& moment : manifest.frames->moments) time_.push_back(moment.time);
+      for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
   std::error_code ignored;
   if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
     throw Error::request("reference = " + folder_.string() +

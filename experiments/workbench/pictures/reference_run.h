@@ -14,13 +14,13 @@ class ReferenceRun {
   // `folder`: of a run with pictures and `--export ply`.  Throws Error::request if it is none.
   explicit ReferenceRun(std::filesystem::path folder);
 
-  // One a vertex [1/m], at that run's moment nearest to `time` [s]: its last one where it ended before.
+  // One a vertex [1/m], at that run's instant nearest to `time` [s]: its last one where it ended before.
   // Throws Error::request if its triangles are not those of `mesh`.
   std::vector<float> curvature(const ClothMesh& mesh, double time) const;
 
  private:
   std::filesystem::path folder_;
-  std::vector<double> time_;  // of each moment [s]
+  std::vector<double> time_;  // of each instant [s]
 };
 
 }  // namespace hysteron::experiments

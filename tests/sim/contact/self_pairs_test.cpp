@@ -56,28 +56,28 @@ TEST_P(Figures, ClosestPointsAreThoseOfAFineSearch) {
 }
 
 // Collision detection stops short of contact, and not much earlier than it has to.
-TEST_P(Figures, FeasibleWaysEndBeforeContact) {
+TEST_P(Figures, FeasibleStepsEndBeforeContact) {
   std::mt19937 random(2);
   constexpr double kLeast = 0.05;
   int stopped = 0;
   for (int k = 0; k < 2000; ++k) {
-    Vector x[4], way[4];
+    Vector x[4], direction[4];
     for (Vector& v : x) v = random_vector(random);
-    for (Vector& v : way) v = random_vector(random);
+    for (Vector& v : direction) v = random_vector(random);
     if (distance_of(x, GetParam()) < 2 * kLeast) continue;
     Vector from[4], along[4];
     std::copy(x, x + 4, from);
-    std::copy(way, way + 4, along);
-    const double share = feasible_share(from, along, GetParam(), kLeast);
+    std::copy(direction, direction + 4, along);
+    const double step_length = feasible_step(from, along, GetParam(), kLeast);
     const auto at = [&](double s) {
       Vector y[4];
-      for (int i = 0; i < 4; ++i) y[i] = x[i] + s * way[i];
+      for (int i = 0; i < 4; ++i) y[i] = x[i] + s * direction[i];
       return distance_of(y, GetParam());
     };
-    for (int i = 0; i <= 100; ++i) EXPECT_GT(at(share * i / 100), kLeast) << k;
-    if (share == 1) continue;
+    for (int i = 0; i <= 100; ++i) EXPECT_GT(at(step_length * i / 100), kLeast) << k;
+    if (step_length == 1) continue;
     ++stopped;
-    EXPECT_LT(at(share), kLeast + 0.11 * (distance_of(x, GetParam()) - kLeast)) << k;
+    EXPECT_LT(at(step_length), kLeast + 0.11 * (distance_of(x, GetParam()) - kLeast)) << k;
   }
   EXPECT_GT(stopped, 50);
 }
@@ -113,16 +113,16 @@ TEST(SelfPairs, MissNoneThatComesNear) {
   build_topology(mesh, "test");
   constexpr double kThickness = 2e-3, kReach = 1e-3;
   std::mt19937 random(3);
-  std::vector<Vector> x, way;
+  std::vector<Vector> x, direction;
   for (const Vector& r : mesh.rest) {
     x.push_back(
         {0.02 * std::sin(70 * r.x()), 0.03 * std::sin(50 * r.y() + 20 * r.x()), 0.02 * std::cos(60 * r.x())});
-    way.push_back(Vector(0.3, 0.1, 0) + 2e-3 * random_vector(random));
+    direction.push_back(Vector(0.3, 0.1, 0) + 2e-3 * random_vector(random));
   }
   const std::vector<char> held(mesh.vertices());
   Cpu cpu(1);
   SelfPairs<double, Cpu> pairs(cpu, mesh, kThickness);
-  pairs.find(x.data(), way.data(), 1, held.data(), kReach);
+  pairs.find(x.data(), direction.data(), 1, held.data(), kReach);
   std::set<std::tuple<bool, std::array<int, 4>>> listed;
   for (int p = 0; p < pairs.count(); ++p) {
     const SelfPair<double>& pair = pairs.pairs()[p];
@@ -144,7 +144,7 @@ TEST(SelfPairs, MissNoneThatComesNear) {
     bool comes_near = false;
     for (int step = 0; step <= 8; ++step) {
       Vector y[4];
-      for (int i = 0; i < 4; ++i) y[i] = x[v[i]] + step / 8.0 * way[v[i]];
+      for (int i = 0; i < 4; ++i) y[i] = x[v[i]] + step / 8.0 * direction[v[i]];
       comes_near |= distance_of(y, edges) < shell;
     }
     if (!comes_near) return;

@@ -175,8 +175,8 @@ struct Preconditioned {
       diagonal.push_back(view.diagonal[i].cast<Real>());
       bending_diagonal.push_back(a.bending_diagonal[i].template cast<Real>());
     }
-    for (int j = 0; j < view.start[view.rows]; ++j) off.push_back(view.off[j].cast<Real>());
-    multigrid.rebuild({view.rows, view.start, view.column, off.data(), diagonal.data()},
+    for (int j = 0; j < view.row_ptr[view.rows]; ++j) off.push_back(view.off_diagonal[j].cast<Real>());
+    multigrid.rebuild({view.rows, view.row_ptr, view.col, off.data(), diagonal.data()},
                       bending_diagonal.data(), static_cast<Real>(a.bending()), a.held.data());
   }
 
@@ -274,7 +274,7 @@ TEST(Multigrid, HasTheSameBitsOnAnyNumberOfThreadsAndAfterAnotherRebuild) {
   const Field first = one(a.load), second = two(a.load);
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(Vector3d)), 0);
   const BlockRowsView<double> view = a.rows.view();
-  two.multigrid.rebuild({view.rows, view.start, view.column, two.off.data(), two.diagonal.data()},
+  two.multigrid.rebuild({view.rows, view.row_ptr, view.col, two.off.data(), two.diagonal.data()},
                         two.bending_diagonal.data(), static_cast<float>(a.bending()), a.held.data());
   const Field third = two(a.load);
   EXPECT_EQ(std::memcmp(first.data(), third.data(), first.size() * sizeof(Vector3d)), 0);

@@ -88,7 +88,7 @@ TEST(Plate, ResistsBendingAndNothingElse) {
       for (int i = 0; i < level.nodes; ++i) {
         sum += w(node[i]) * level.plate_diagonal[i] * w(node[i]) / 2;
         for (int j = level.pattern.start[i]; j < level.pattern.start[i + 1]; ++j)
-          sum += w(node[i]) * level.plate_off[j] * w(node[level.pattern.item[j]]) / 2;
+          sum += w(node[i]) * level.plate_off_diagonal[j] * w(node[level.pattern.item[j]]) / 2;
       }
       return sum;
     };

@@ -124,8 +124,8 @@ struct Step {
     for (std::size_t i = 0; i < p.size(); ++i)
       if (!held[i]) {
         const int row = static_cast<int>(i);
-        q[i] = (system.softening.off ? system.matrix.times(row, p.data(), system.softening)
-                                     : system.matrix.times(row, p.data())) -
+        q[i] = (system.softening.off_diagonal ? system.matrix.times(row, p.data(), system.softening)
+                                              : system.matrix.times(row, p.data())) -
                bending_force.at(row);
       }
     return q;

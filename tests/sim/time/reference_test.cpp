@@ -57,12 +57,12 @@ struct ImplicitSystem {
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) entries.emplace_back(3 * place[i] + a, 3 * place[j] + b, block(a, b));
     };
-    const auto diagonal = rows.diagonal(), off = rows.off();
+    const auto diagonal = rows.diagonal(), off_diagonal = rows.off_diagonal();
     for (std::size_t i = 0; i < held.size(); ++i) {
       if (held[i]) continue;
       add(static_cast<int>(i), static_cast<int>(i), diagonal[i]);
-      for (int j = rows.start()[i]; j < rows.start()[i + 1]; ++j)
-        if (!held[rows.column()[j]]) add(static_cast<int>(i), rows.column()[j], off[j]);
+      for (int j = rows.row_ptr()[i]; j < rows.row_ptr()[i + 1]; ++j)
+        if (!held[rows.col()[j]]) add(static_cast<int>(i), rows.col()[j], off_diagonal[j]);
     }
     Eigen::SparseMatrix<double> matrix(3 * size, 3 * size);
     matrix.setFromTriplets(entries.begin(), entries.end());
