@@ -16,7 +16,7 @@ class GlPositions {
   GlPositions& operator=(const GlPositions&) = delete;
   virtual ~GlPositions() = default;
 
-  // x, y, z of every vertex at this moment [m]; GL calls that follow on this thread see them.  False, and
+  // x, y, z of every vertex at this instant [m]; GL calls that follow on this thread see them.  False, and
   // why, if the driver refuses; the buffer's content is undefined then.
   virtual bool write(std::string& reason) = 0;
 };

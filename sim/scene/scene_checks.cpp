@@ -64,7 +64,7 @@ void check_one_mesh(const Scene& scene) {
   if (cloth.shape != "file" || cloth.file.empty() || !scene.origin.count("mesh")) return;
   throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
                        ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
-                       ") both say what the triangles are: leave one out");
+                       ") both define the triangles: leave one out");
 }
 
 void check_method(const Scene& scene) {

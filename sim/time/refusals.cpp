@@ -101,7 +101,7 @@ void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, dou
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, unconcerned, scene.fabric.thickness);
   if (found.count == 0) return;
-  throw Error::run(at_time(time) + "a pin lets go of the cloth inside an obstacle: " +
+  throw Error::run(at_time(time) + "a pin releases the cloth inside an obstacle: " +
                    immersion_text(found, scene.obstacle, x) + others(found));
 }
 
@@ -145,7 +145,7 @@ void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& ste
   if (!(outcome.load > 0))
     throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");
   message += "an unbalanced force of " + number(outcome.residual) +
-             " N remains (weight, handles and inertia: " + number(outcome.load) + " N)";
+             " N remains (weight, pins and inertia: " + number(outcome.load) + " N)";
   const Unbalanced worst = step.most_unbalanced(body.held.data());
   if (worst.vertex < 0) throw Error::run(message);
   const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);

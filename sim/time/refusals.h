@@ -15,7 +15,7 @@ void refuse_divergence(Body<Real, Device>& body, double time);
 // told.
 template <class Real, class Device>
 void refuse_arrival(Body<Real, Device>& body, double met, double time);
-// Hands let go of cloth inside an obstacle.
+// Hands release cloth inside an obstacle.
 template <class Real, class Device>
 void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
 // Something drives the cloth into an obstacle from the other side.

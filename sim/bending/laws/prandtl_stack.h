@@ -166,7 +166,7 @@ struct PrandtlStack {
     m[kDirection] = direction;
   }
 
-  // Full slip in direction s: as if the branch had begun 2 K0 before, with all stops slipping the other way.
+  // Full slip in direction s: as if the branch had begun 2 K0 before, with all stops slipping along -s.
   HYST_HD void slip_through(Real s, Real curvature, Memory& m) const {
     put(m, 0, {curvature - s * 2 * k0, -s * m0, m0 * k0 / 3});
     m[kCount] = 1, m[kSlippedThrough] = 1;

@@ -1,4 +1,4 @@
-// What is left of a bend when it is let go: residual curvature by closed form, and the chapter's three cases.
+// What is left of a bend after release: residual curvature by closed form, and the chapter's three cases.
 //
 // Cases by the moment at the reversal (Wong 4.3.3, after Anandjiwala & Leaf 1991):  |M| <= Ma,
 // Ma < |M| <= 2 Ma,  |M| > 2 Ma,  with Ma = M0 + b2 K0.

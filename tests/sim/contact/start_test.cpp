@@ -166,7 +166,7 @@ TEST(Start, OfHeldVerticesInsideAnObstacleIsFine) {
   trial.scene.pin[0].until = 0.005;  // let go where the sphere is
   const Failure failure = failure_of([&] { trial.after(10); });
   EXPECT_EQ(failure.exit_code, 3);
-  expect_naming(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin lets go of the cloth"});
+  expect_naming(failure, {"inside obstacle[1] (sphere)", "at t = 0.005 s a pin releases the cloth"});
 }
 
 // What comes later cannot be known at the start.
