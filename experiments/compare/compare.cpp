@@ -10,9 +10,9 @@
 #include "experiments/compare/plan.h"
 #include "experiments/compare/tuning.h"
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_captions.h"
 #include "experiments/workbench/compare/comparison_page.h"
-#include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 
@@ -61,14 +61,6 @@ std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& co
   return title + what;
 }
 
-void write_table(Run& run, const Plan& plan) {
-  std::vector<ComparisonRow> rows;
-  for (const SweepColumn& c : plan.columns) {
-    rows.push_back({c.name, c.manifest ? c.manifest->metrics : Metrics(), c.stopped});
-  }
-  write_comparison_table(run, plan.varied, rows);
-}
-
 std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
   if (plan.laws < 2) return {};
   if (choice.match == "fabric")
@@ -80,14 +72,6 @@ std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan)
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], plan.columns[c].name);
   return {note};
-}
-
-int explain_columns(const Plan& plan) {
-  for (std::size_t c = 0; c < plan.lines.size(); ++c) {
-    std::cout << plan.columns[c].name << ":" << std::endl;
-    experiment_named(plan.lines[c].experiment).run(plan.lines[c]);
-  }
-  return 0;
 }
 
 // Where another's files stand, that is said before the columns run.
@@ -138,8 +122,8 @@ int run_compare(const CommandLine& line) {
   Options options;
   read_flags(line, choice, options);
   const CommandLine inner = line_of_columns(line, choice);
-  std::vector<LawVariant> variants = variants_of(inner);
-  if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out));
+  std::vector<Variant> variants = variants_of(inner);
+  if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
@@ -151,10 +135,7 @@ int run_compare(const CommandLine& line) {
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
-  run_columns(
-      plan.columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
-      [&](const std::string& line) { run.progress(line); });
-  write_table(run, plan);
+  run_comparison(run, plan.varied, plan.columns, jobs);
   if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);
   run.finish();
   write_report(run.folder());

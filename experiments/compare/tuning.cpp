@@ -18,7 +18,7 @@ std::string middle_of(const std::string& low, const std::string& high) {
 }
 
 // A column with one more key, "linear+fabric.damping=1e-3".
-LawVariant with_key(LawVariant variant, const std::string& key, const std::string& number) {
+Variant with_key(Variant variant, const std::string& key, const std::string& number) {
   variant.name += "+" + key + "=" + number;
   variant.flags.push_back({key, number});
   return variant;
@@ -26,11 +26,12 @@ LawVariant with_key(LawVariant variant, const std::string& key, const std::strin
 
 double metric_in(const SweepColumn& column, const std::string& metric) {
   if (!column.stopped.empty()) throw Error::run("compare.tune: " + column.name + ": " + column.stopped);
-  const MetricValue value = column.manifest ? column.manifest->metrics[metric] : MetricValue();
-  if (!value.is_number())
+  const double value = column.metrics().number(metric);
+  if (std::isnan(value))
     throw Error::request(column.name + " has no metric " + metric +
-                         " that is a number (--compare.tune-metric)");
-  return value.number();
+                         " that is a number (--compare.tune-metric)")
+        .of("compare.tune-metric", metric);
+  return value;
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   return middle;
 }
 
-Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& variants, CompareChoice choice,
+Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
                        SweepJobs jobs, const Options& options) {
   const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
   if (variants.size() < 2)

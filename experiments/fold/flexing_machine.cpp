@@ -74,8 +74,7 @@ void FlexingMachine::end_cycle(int cycle) {
     materials_.row({static_cast<double>(cycle), reading_.material.friction, reading_.material.loop_width,
                     reading_.material.permanent_set, crown_.dissipated});
   }
-  cycle_.push_back(cycle);
-  recovery_.push_back(reading_.recovery_angle);
+  ended_ = cycle;
   lost_ = lost;
   crown_lost_ = crown_.dissipated;
   largest_ = curvature_;
@@ -89,8 +88,8 @@ bool FlexingMachine::pictured() const {
 }
 
 std::string FlexingMachine::progress(const Snapshot& moment) const {
-  return fmt::format("t = {:.3f} s  cycles {}  crown {:.0f} 1/m  recovery {:.1f} degree", moment.time,
-                     cycle_.size(), curvature_, reading_.recovery_angle);
+  return fmt::format("t = {:.3f} s  cycles {}  crown {:.0f} 1/m  recovery {:.1f} degree", moment.time, ended_,
+                     curvature_, reading_.recovery_angle);
 }
 
 void FlexingMachine::finish() {

@@ -35,9 +35,7 @@ class FlexingMachine {
   void finish();
 
   const FoldReading& reading() const { return reading_; }
-  const std::vector<double>& cycle() const { return cycle_; }              // number, at each return
-  const std::vector<double>& recovery_angle() const { return recovery_; }  // likewise [degree]
-  const std::vector<render::Series>& loops() const { return loops_; }      // of the crown, in pictured cycles
+  const std::vector<render::Series>& loops() const { return loops_; }  // of the crown, in pictured cycles
 
  private:
   void add_to_loops();
@@ -56,7 +54,7 @@ class FlexingMachine {
   double crown_lost_ = 0;  // by the law at the crown before this cycle [J/m^2]
   double time_ = 0;        // of the last moment [s]
   FoldReading reading_;
-  std::vector<double> cycle_, recovery_;
+  int ended_ = 0;  // cycles
   std::vector<render::Series> loops_;
 };
 

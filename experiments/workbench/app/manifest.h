@@ -73,6 +73,8 @@ class Metrics {
   bool contains(const std::string& name) const;
   // What is not there is not known.
   const MetricValue& operator[](const std::string& name) const;
+  // NaN where it is no number.
+  double number(const std::string& name) const;
   bool empty() const { return entries_.empty(); }
   auto begin() const { return entries_.begin(); }
   auto end() const { return entries_.end(); }

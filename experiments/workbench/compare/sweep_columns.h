@@ -13,14 +13,23 @@
 namespace hysteron::experiments {
 
 struct SweepColumn {
-  std::string name;                // its folder's
-  std::vector<std::string> words;  // after `hysteron`, without --out, --threads and what else does not matter
+  std::string name;  // its folder's
+  CommandLine line;  // without --out, --threads and what else does not matter
   std::filesystem::path folder;
   // After run_columns():
-  bool kept = false;    // from an earlier comparison
-  std::string stopped;  // why it could not go on; empty: complete
-  std::optional<Manifest> manifest;
+  bool kept = false;      // from an earlier comparison
+  std::string stopped{};  // why it could not go on; empty: complete
+  int exit_code = 0;
+  std::optional<Manifest> manifest{};
+
+  Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
 };
+
+// The line with the column's own flags, in OUT/<name>/, without what the page keeps for itself.
+SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+                      const std::filesystem::path& out);
+// Prints what each of them includes and leaves out (--explain).
+void explain_columns(const std::vector<SweepColumn>& columns);
 
 // What is not asked of the runs but of how they are run.
 struct SweepJobs {

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "experiments/fold/material.h"
-#include "experiments/workbench/compare/law_page.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -156,12 +156,11 @@ nlohmann::json metrics_of(const std::filesystem::path& run) {
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  EXPECT_EQ(experiment_named("fold").run(fold_line(out, {{"law", "linear,prandtl"},
-                                                         {"triangles", "150"},
-                                                         {"fold.cycles", "3"},
-                                                         {"fold.fatigue", "1"},
-                                                         {"threads", "1"}})),
-            0);
+  const Outcome outcome = program(
+      "fold --law linear,prandtl --triangles 150 --fold.cycles 3 --fold.fatigue 1 --threads 1 --no-images "
+      "--quiet --out " +
+      out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = text_of(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
