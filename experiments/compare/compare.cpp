@@ -1,4 +1,5 @@
-// One question under several laws, fabrics or integrators, on one page: a column each, a row for each moment.
+// One question under several laws, fabrics or integrators, on one page: a column each, a row for each
+// instant.
 //
 //   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
 //   OUT/sheet.png
@@ -22,18 +23,18 @@ namespace {
 using C = CompareChoice;
 // clang-format off
 const KeyRow<CompareChoice> kRows[] = {
-    {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; each may carry further keys, linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
-    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics apart by commas, or all"},
-    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators apart by commas, or all"},
-    {"compare.to", at<&C::to>, "", any(), "", "column that is subtracted from the others, in rows of their own"},
+    {"laws", at<&C::laws>, "", any(), "", "columns: laws separated by commas, or all; each may carry further keys, as in linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
+    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics separated by commas, or all"},
+    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators separated by commas, or all"},
+    {"compare.to", at<&C::to>, "", any(), "", "column to subtract from the others, in rows of their own"},
     {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
-    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "moments on the page"},
-    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
-    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
-    {"resume", at<&C::resume>, "", any(), "", "keeps columns that the same program has finished in this folder"},
-    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal between laws: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
-    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "to which energy is matched"},
-    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, where ffmpeg is there"},
+    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
+    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
+    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
+    {"resume", at<&C::resume>, "", any(), "", "keep the columns that the same program has finished in this folder"},
+    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "up to which the work is matched"},
+    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
     {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
 };

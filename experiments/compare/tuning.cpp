@@ -38,7 +38,8 @@ double metric_in(const SweepColumn& column, const std::string& metric) {
 
 Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics) {
   const auto refuse = [&](const std::string& must) {
-    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)");
+    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)")
+        .of("compare.tune", key_and_bracket);
   };
   const std::size_t equals = key_and_bracket.find('='), colon = key_and_bracket.find(':', equals);
   if (equals == 0 || colon == std::string::npos)
@@ -54,7 +55,8 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
     throw Error::request(
         "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
         "second "
-        "column");
+        "column")
+        .of("compare.tune-metric", "");
   const std::size_t between = metrics.find('=');
   tuning.metric = metrics.substr(0, between);
   tuning.target = between == metrics.npos ? metrics : metrics.substr(between + 1);
@@ -66,7 +68,8 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   if ((at_low < 0) == (at_high < 0))
     throw Error::request(tuning.metric + " is " + (at_low < 0 ? "below" : "not below") +
                          " the second column's " + tuning.target + " at both ends of " + tuning.key + " = " +
-                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)");
+                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)")
+        .of("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
   std::string low = tuning.low, high = tuning.high, middle;
   for (int i = 0; i < kBisections; ++i) {
     middle = middle_of(low, high);
@@ -79,7 +82,8 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
                        SweepJobs jobs, const Options& options) {
   const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
-    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)");
+    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)")
+        .of("compare.tune", choice.tune);
   const auto say = [&](const std::string& line) {
     if (!options.quiet) std::cerr << line << std::endl;
   };

@@ -1,5 +1,5 @@
 // Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
-// Figure 4.1); with `--law all`, or several laws apart by commas, each of them, on one page.  The scene's
+// Figure 4.1); with `--law all`, or several laws separated by commas, each of them, on one page.  The scene's
 // file says how: crumple-sphere, crumple-tube, crumple-fist, or one's own.
 #include <fmt/core.h>
 
@@ -23,7 +23,7 @@ struct CrumpleChoice {
 using C = CrumpleChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as a ridge"},
+    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
 };
 // clang-format on
 

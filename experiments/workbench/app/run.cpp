@@ -71,7 +71,7 @@ std::string program_version() {
 Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options, to_json(setup.scene)) {}
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys)
-    : folder_(options.out, line),
+    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(first_entries(line, keys)) {

@@ -26,7 +26,8 @@ std::string program_version();
 // of an exception, keeps its files and a manifest with "complete": false.
 class Run {
  public:
-  // Takes the folder as RunFolder does.  Throws Error::request, Error::machine.
+  // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::request,
+  // Error::machine.
   Run(const CommandLine& line, const Setup& setup);
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
   Run(const CommandLine& line, const Options& options, const Json& keys);

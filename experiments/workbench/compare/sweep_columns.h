@@ -45,7 +45,7 @@ struct SweepJobs {
 // "kept", "done", or why it stopped.
 std::string outcome_of(const SweepColumn& column);
 
-// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first moment.
+// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first instant.
 std::string progress_in(const std::filesystem::path& folder);
 
 // `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,

@@ -6,9 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
-#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/assets.h"
 
 namespace hysteron::experiments {
@@ -30,7 +28,7 @@ std::vector<std::string> names_in(const CommandLine& line, const std::string& ke
   for (const Flag& flag : line.flags)
     if (key_of(flag) == key) text = flag.text;
   if (text.empty()) return {""};
-  return text == "all" ? every : split(text);
+  return listed(text, every);
 }
 
 // "linear" is --law linear; "linear+fabric.damping=1e-3" is --fabric.damping 1e-3 besides.
@@ -93,8 +91,7 @@ std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& l
 }
 
 std::vector<Variant> variants_of(const CommandLine& line) {
-  std::vector<std::string> every_law;
-  for (const auto& law : law_catalogue()) every_law.push_back(law.name);
+  const std::vector<std::string> every_law = law_names();
   std::vector<Variant> variants = {{"", {}}};
   const std::pair<const char*, std::vector<std::string>> keys[] = {
       {"fabric", list_assets("fabrics")},

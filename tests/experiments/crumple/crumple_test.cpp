@@ -11,9 +11,9 @@ namespace {
 TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  const Outcome outcome = program(
-      "crumple --scene crumple-tube --law linear,prandtl --triangles 300 --no-images --quiet --out " +
-      out.string());
+  const Outcome outcome =
+      program("crumple --scene crumple-tube --law linear,prandtl --triangles 300 --no-images --quiet --out " +
+              out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto manifest_of = [&](const char* law) {
     return nlohmann::json::parse(text_of(out / law / "manifest.json"));
