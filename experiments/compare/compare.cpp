@@ -33,7 +33,7 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
     {"resume", at<&C::resume>, "", any(), "", "keep the columns that the same program has finished in this folder"},
     {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
-    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "up to which the work is matched"},
+    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
     {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},

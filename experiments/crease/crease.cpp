@@ -18,9 +18,9 @@ using C = CreaseChoice;
 const KeyRow<C> kRows[] = {
     {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
     {"crease.release", at<&C::release>, "", any(), "slow | quick", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
-    {"crease.force", at<&C::force>, "N", positive(), "", "of the plate"},
-    {"crease.radius", at<&C::radius>, "m", positive(), "", "of the rod"},
-    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "between the limbs of the pleat at rest"},
+    {"crease.force", at<&C::force>, "N", positive(), "", "force of the plate"},
+    {"crease.radius", at<&C::radius>, "m", positive(), "", "radius of the rod"},
+    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "angle between the limbs of the pleat at rest"},
     {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the full load"},
     {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
     {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},

@@ -35,9 +35,9 @@ const KeyRow<KesFlags> kRows[] = {
     {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
     {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
     {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
-    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "of the curvature; the tester's is 0.5 per cm and second"},
-    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "where the slope B begins to be taken"},
-    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "and where it ends"},
+    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "rate of the curvature; the tester's is 0.5 per cm and second"},
+    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "curvature from which the slope B is taken"},
+    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "curvature up to which the slope B is taken"},
     {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
     {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude"},
     {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
@@ -47,7 +47,7 @@ const KeyRow<KesFlags> kRows[] = {
 const KeyRow<KesFlags> kStripRows[] = {
     {"mesh", at<&K::mesh>, "", any(), "", "of strips, several separated by commas: aligned, aligned-45, flipped, unionjack, equilateral, random; or all"},
     {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
-    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "of a strip, about; their size times the amplitude must stay small"},
+    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "about how many a strip has; their size times the amplitude must stay small"},
     {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
     {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
 };

@@ -35,7 +35,7 @@ using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
     {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; without it pictures carry the frame's number"},
-    {"render.unit", at<&F::unit>, "", any(), "", "of length in the files: metre | centimetre | millimetre, for all or for each"},
+    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre, for all or for each"},
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
     {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics"},
     {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},

@@ -16,7 +16,7 @@ using O = Options;
 const KeyRow<Options> kRows[] = {
     {"scene", at<&O::scene>, "", any(), "", "a scene of assets/scenes or a TOML file"},
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
-    {"size", at<&O::size>, "", any(), "", "of the pictures, WIDTHxHEIGHT pixels"},
+    {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
@@ -24,7 +24,7 @@ const KeyRow<Options> kRows[] = {
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars"},
-    {"light", at<&O::light>, "", any(), "studio | raking", "raking: from the side, almost in the plane of the picture, as wrinkles are photographed"},
+    {"light", at<&O::light>, "", any(), "studio | raking", "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed"},
     {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},

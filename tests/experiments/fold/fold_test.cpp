@@ -192,6 +192,22 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   EXPECT_TRUE(std::is_sorted(wears.columns[1].values.begin(), wears.columns[1].values.end()));
 }
 
+TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
+  const Folder folder;
+  const Outcome outcome = program(
+      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images "
+      "--quiet --out " +
+      folder.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const TextTable table = read_words(folder.path() / "table.csv");
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_NE(table.rows[1].back().find("law = nonsense must be"), std::string::npos);
+  for (const std::size_t row : {0, 2}) {
+    EXPECT_EQ(table.rows[row].back(), "");
+    EXPECT_NE(table.rows[row][1], "");
+  }
+}
+
 TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
   const Folder folder;
   const auto out = folder.path() / "run";
