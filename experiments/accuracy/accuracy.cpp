@@ -21,7 +21,7 @@ struct AccuracyFlags {
 using F = AccuracyFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several apart by commas, or all"},
+    {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
     {"device", at<&F::device>, "", any(), "cpu | cuda", "where settings are computed, one after the other; on the cpu by one thread"},
 };
 // clang-format on
@@ -80,7 +80,6 @@ int run_accuracy(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags));
   const std::vector<Problem> problems = problems_of(flags);
-  if (flags.options.out.empty()) flags.options.out = "out/accuracy";
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   std::vector<Solution> solutions;
   for (const Problem& problem : problems) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "experiments/accuracy/motion.h"
+#include "experiments/specimens/clamped_mesh.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -19,16 +20,12 @@ Scene crease(const Setting& setting) {
   scene.cloth.width = kWidth;
   scene.seconds = 0.8;
   scene.air_drag = 0.3;
-  Pin fixed, folding;
-  fixed.low = {-1, -1, -1};
-  fixed.high = {kClamp, 1, 1};
-  folding.low = {kLength - kClamp, -1, -1};
-  folding.high = {1, 1, 1};
+  Pin folding = held_between(kLength - kClamp, 1);
   folding.until = kReleased;
   folding.motion.axis = {0, 1, 0};
   folding.motion.center = {kLength / 2, 0, 0};
   folding.motion.keys = {{0, {0, 0, 0}, 0}, {kFolded, {0, 0, 0}, -kFold}, {kReleased, {0, 0, 0}, -kFold}};
-  scene.pin = {fixed, folding};
+  scene.pin = {held_between(-1, kClamp), folding};
   return scene;
 }
 

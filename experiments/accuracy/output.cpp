@@ -140,7 +140,7 @@ void draw_accuracy(Run& run, const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
     const render::Plot plot = plot_of(solution);
     if (plot.series.back().x.empty()) continue;
-    run.plot("plot_" + solution.problem.name, [&](const auto& base) { render::write_plot(base, plot); });
+    run.plot("plot_" + solution.problem.name, plot);
   }
 }
 

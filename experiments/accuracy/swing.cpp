@@ -1,6 +1,7 @@
 // A strip held out straight, let go, swings through its first quarter second: a motion that is smooth in
 // time.
 #include "experiments/accuracy/motion.h"
+#include "experiments/specimens/clamped_mesh.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -18,10 +19,7 @@ Scene swing_scene(const Setting& setting) {
   scene.newton_residual = 1e-9;
   // The waves that the release excites die within the shortest of the steps compared.
   scene.fabric.damping = 2e-3;
-  Pin clamp;
-  clamp.low = {-1, -1, -1};
-  clamp.high = {kClamp, 1, 1};
-  scene.pin = {clamp};
+  scene.pin = {held_between(-1, kClamp)};
   return scene;
 }
 

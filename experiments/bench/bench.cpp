@@ -9,6 +9,7 @@
 
 #include "experiments/bench/law_cost.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/simulation.h"
@@ -79,7 +80,7 @@ double bytes_per_step(const Simulation& simulation) {
 }
 
 // One row of the table.
-Json measure(Simulation& simulation, const Scene& scene, int triangles, int steps) {
+Metrics measure(Simulation& simulation, const Scene& scene, int triangles, int steps) {
   simulation.advance(steps);  // warm caches, and away from the flat start
   std::vector<double> ms;
   const auto before = simulation.stage_seconds();
@@ -92,38 +93,43 @@ Json measure(Simulation& simulation, const Scene& scene, int triangles, int step
   }
   std::sort(ms.begin(), ms.end());
   const double median = ms[kBatches / 2];
-  Json row;
-  row["scene"] = "hanging-square";
-  row["triangles"] = triangles;
-  row["device"] = simulation.device();
-  row["precision"] = name_of(scene.precision);
-  row["element"] = name_of(scene.element);
-  row["law"] = scene.law;
-  if (scene.law == "prandtl") row["memory"] = scene.param.at("memory");
-  row["integrator"] = name_of(scene.integrator);
-  row["substeps"] = simulation.limits().substeps;
-  row["solver_iterations"] = simulation.solver_iterations();
-  row["ms_per_step"] = median;
-  row["ms_per_step_fastest"] = ms.front();
+  Metrics row;
+  row.set("scene", "hanging-square");
+  row.set("triangles", triangles);
+  row.set("device", simulation.device());
+  row.set("precision", name_of(scene.precision));
+  row.set("element", name_of(scene.element));
+  row.set("law", scene.law);
+  if (scene.law == "prandtl") row.set("memory", scene.param.at("memory"));
+  row.set("integrator", name_of(scene.integrator));
+  row.set("substeps", simulation.limits().substeps);
+  row.set("solver_iterations", simulation.solver_iterations());
+  row.set("ms_per_step", median);
+  row.set("ms_per_step_fastest", ms.front());
   const auto after = simulation.stage_seconds();
   for (std::size_t s = 0; s < after.size(); ++s)
-    row["ms_" + after[s].first] = 1e3 * (after[s].second - before[s].second) / (kBatches * steps);
+    row.set("ms_" + after[s].first, 1e3 * (after[s].second - before[s].second) / (kBatches * steps));
   const double bytes = bytes_per_step(simulation);
-  row["bytes_device"] = simulation.device_bytes();
-  row["bytes_per_triangle"] = static_cast<double>(simulation.device_bytes()) / triangles;
-  row["bytes_per_step"] = bytes;
-  row["fraction_of_copy_bandwidth"] = bytes / (1e-3 * median) / simulation.copy_bandwidth();
-  row["state_hash"] = fmt::format("{:016x}", simulation.state_hash());
+  row.set("bytes_device", simulation.device_bytes());
+  row.set("bytes_per_triangle", static_cast<double>(simulation.device_bytes()) / triangles);
+  row.set("bytes_per_step", bytes);
+  row.set("fraction_of_copy_bandwidth", bytes / (1e-3 * median) / simulation.copy_bandwidth());
+  row.set("state_hash", fmt::format("{:016x}", simulation.state_hash()));
   return row;
 }
 
-void print(const Json& row) {
-  fmt::print("{:8} {:<7} {:<6} {:<8} {:3} {:7.1f} {:10.3f} {:9.1f}   {}\n", row["triangles"].get<int>(),
-             row["precision"].get<std::string>(), row["element"].get<std::string>(),
-             row["law"].get<std::string>(), row["substeps"].get<int>(),
-             row["solver_iterations"].get<double>(), row["ms_per_step"].get<double>(),
-             row["bytes_per_triangle"].get<double>(), row["device"].get<std::string>());
+void print(const Metrics& row) {
+  fmt::print("{:8.0f} {:<7} {:<6} {:<8} {:3.0f} {:7.1f} {:10.3f} {:9.1f}   {}\n", row["triangles"].number(),
+             row["precision"].text(), row["element"].text(), row["law"].text(), row["substeps"].number(),
+             row["solver_iterations"].number(), row["ms_per_step"].number(),
+             row["bytes_per_triangle"].number(), row["device"].text());
   std::fflush(stdout);
+}
+
+void print_json(const std::vector<Metrics>& rows) {
+  Json list = Json::array();
+  for (const Metrics& row : rows) list.push_back(to_json(row));
+  std::cout << list.dump(2) << std::endl;
 }
 
 // All laws of an element take the substeps of the stiffest, so that the rows differ by the law alone.
@@ -141,19 +147,18 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
   Options options = setup.options;
   options.json = false;  // of its rows, not of the manifest
   Run run(line, options, to_json(setup.scene));
-  const Json rows = law_cost_table(setup.scene, elements);
+  const std::vector<Metrics> rows = law_cost_table(setup.scene, elements);
   write_law_costs(run, rows, !options.no_images);
   run.finish();
   if (setup.options.json) {
-    std::cout << rows.dump(2) << std::endl;
+    print_json(rows);
     return 0;
   }
   fmt::print("{:<18} element  largest  rms [% of M0]  ns/element  bytes/element\n", "law");
-  for (const Json& row : rows) {
-    fmt::print("{:<18} {:<7} {:8.2f} {:8.2f} {:12.3f} {:10.0f}\n", row["law"].get<std::string>(),
-               row["element"].get<std::string>(), row["largest_error_percent_of_M0"].get<double>(),
-               row["rms_error_percent_of_M0"].get<double>(), row["ns_per_element"].get<double>(),
-               row["history_bytes_per_element"].get<double>());
+  for (const Metrics& row : rows) {
+    fmt::print("{:<18} {:<7} {:8.2f} {:8.2f} {:12.3f} {:10.0f}\n", row["law"].text(), row["element"].text(),
+               row["largest_error_percent_of_M0"].number(), row["rms_error_percent_of_M0"].number(),
+               row["ns_per_element"].number(), row["history_bytes_per_element"].number());
   }
   return 0;
 }
@@ -163,7 +168,7 @@ int run_bench(const CommandLine& line) {
   const Setup setup = set_up(line, defaults(), bind(kRows, own),
                              [&](Setup&) { own.elements = std::min(own.elements, kQuickElements); });
   if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
-  Json rows = Json::array();
+  std::vector<Metrics> rows;
   const Cloth cloth = make_cloth(setup.scene);
   Scene scene = setup.scene;
   scene.substeps = common_substeps(setup.scene, cloth);
@@ -175,7 +180,7 @@ int run_bench(const CommandLine& line) {
     rows.push_back(measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? 4 : 40));
     if (!setup.options.json) print(rows.back());
   }
-  if (setup.options.json) std::cout << rows.dump(2) << std::endl;
+  if (setup.options.json) print_json(rows);
   return 0;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "sim/bending/laws/law_run.h"
@@ -70,10 +69,10 @@ bool on_gpu(const Scene& scene) {
 
 }  // namespace
 
-Json law_cost_table(const Scene& scene, int elements) {
+std::vector<Metrics> law_cost_table(const Scene& scene, int elements) {
   const VirginCurve curve = scene.fabric.virgin_curve();
   const bool gpu = on_gpu(scene);
-  Json rows = Json::array();
+  std::vector<Metrics> rows;
   for (const Variant& variant : variants()) {
     const MomentError error = moment_error(variant, curve);
     for (const int dimension : {1, 3}) {
@@ -84,18 +83,18 @@ Json law_cost_table(const Scene& scene, int elements) {
         const auto found = variant.parameters.find(key);
         return found == variant.parameters.end() ? std::string() : " " + found->second;
       };
-      rows.push_back(
-          {{"law", variant.law +
-                       (choice.name == "prandtl" ? (choice.stack ? " stack" : " stops") : std::string()) +
-                       size("stops") + size("stack")},
-           {"element", dimension == 1 ? "hinge" : "shape"},
-           {"largest_error_percent_of_M0", 100 * error.largest / curve.friction_moment()},
-           {"rms_error_percent_of_M0", 100 * error.rms / curve.friction_moment()},
-           {"ns_per_element", cost.ns_per_element},
-           {"history_bytes_per_element", cost.bytes_per_element},
-           {"elements", elements},
-           {"precision", name_of(scene.precision)},
-           {"device", gpu ? gpu_description(0) : cpu_description()}});
+      rows.push_back(Metrics{
+          {"law", variant.law +
+                      (choice.name == "prandtl" ? (choice.stack ? " stack" : " stops") : std::string()) +
+                      size("stops") + size("stack")},
+          {"element", dimension == 1 ? "hinge" : "shape"},
+          {"largest_error_percent_of_M0", 100 * error.largest / curve.friction_moment()},
+          {"rms_error_percent_of_M0", 100 * error.rms / curve.friction_moment()},
+          {"ns_per_element", cost.ns_per_element},
+          {"history_bytes_per_element", cost.bytes_per_element},
+          {"elements", elements},
+          {"precision", name_of(scene.precision)},
+          {"device", gpu ? gpu_description(0) : cpu_description()}});
     }
   }
   return rows;

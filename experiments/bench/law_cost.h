@@ -10,9 +10,9 @@ namespace hysteron::experiments {
 // One row per law and memory: largest and root-mean-square error of the moment over random histories [% of
 // M0] against a stack of 64, nanoseconds per element and step on the scene's device, bytes of history per
 // element.
-Json law_cost_table(const Scene& scene, int elements);
+std::vector<Metrics> law_cost_table(const Scene& scene, int elements);
 
 // table.csv of these rows and, with pictures, plot_cost and plot_error with their captions in README.md.
-void write_law_costs(Run& run, const Json& rows, bool pictures);
+void write_law_costs(Run& run, const std::vector<Metrics>& rows, bool pictures);
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,5 @@
-// One question under several laws, fabrics or integrators, on one page: a column each, a row for each moment.
+// One question under several laws, fabrics or integrators, on one page: a column each, a row for each
+// instant.
 //
 //   experiment + flags -> columns (a process each, in OUT/<name>/) -> pictures at common times ->
 //   OUT/sheet.png
@@ -10,9 +11,9 @@
 #include "experiments/compare/plan.h"
 #include "experiments/compare/tuning.h"
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/comparison_captions.h"
 #include "experiments/workbench/compare/comparison_page.h"
-#include "experiments/workbench/compare/comparison_table.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 
@@ -22,18 +23,18 @@ namespace {
 using C = CompareChoice;
 // clang-format off
 const KeyRow<CompareChoice> kRows[] = {
-    {"laws", at<&C::laws>, "", any(), "", "columns: laws apart by commas, or all; each may carry further keys, linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
-    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics apart by commas, or all"},
-    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators apart by commas, or all"},
-    {"compare.to", at<&C::to>, "", any(), "", "column that is subtracted from the others, in rows of their own"},
+    {"laws", at<&C::laws>, "", any(), "", "columns: laws separated by commas, or all; each may carry further keys, as in linear+fabric.damping=1e-3; default linear,pabst,obrien,narain,kim,dahl,prandtl"},
+    {"fabrics", at<&C::fabrics>, "", any(), "", "columns: fabrics separated by commas, or all"},
+    {"integrators", at<&C::integrators>, "", any(), "", "columns: integrators separated by commas, or all"},
+    {"compare.to", at<&C::to>, "", any(), "", "column to subtract from the others, in rows of their own"},
     {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
-    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "moments on the page"},
-    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row of outlines over each other"},
-    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "columns that run at a time; 0: one for each GPU, or for each core"},
-    {"resume", at<&C::resume>, "", any(), "", "keeps columns that the same program has finished in this folder"},
-    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what is equal between laws: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
-    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "to which energy is matched"},
-    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, where ffmpeg is there"},
+    {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
+    {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
+    {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
+    {"resume", at<&C::resume>, "", any(), "", "keep the columns that the same program has finished in this folder"},
+    {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
+    {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
+    {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
     {"compare.tune", at<&C::tune>, "", any(), "", "KEY=LOW:HIGH: the first column's KEY is bisected between these, before all columns run, until its compare.tune-metric is the second column's; KEY=NUMBER on stdout"},
     {"compare.tune-metric", at<&C::tune_metric>, "", any(), "", "what compare.tune makes equal: METRIC, or METRIC=METRIC of the second column"},
 };
@@ -61,14 +62,6 @@ std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& co
   return title + what;
 }
 
-void write_table(Run& run, const Plan& plan) {
-  std::vector<ComparisonRow> rows;
-  for (const SweepColumn& c : plan.columns) {
-    rows.push_back({c.name, c.manifest ? c.manifest->metrics : Metrics(), c.stopped});
-  }
-  write_comparison_table(run, plan.varied, rows);
-}
-
 std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan) {
   if (plan.laws < 2) return {};
   if (choice.match == "fabric")
@@ -80,14 +73,6 @@ std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan)
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     note += fmt::format("{} {:.3g} ({})", c ? "," : "", plan.scales[c], plan.columns[c].name);
   return {note};
-}
-
-int explain_columns(const Plan& plan) {
-  for (std::size_t c = 0; c < plan.lines.size(); ++c) {
-    std::cout << plan.columns[c].name << ":" << std::endl;
-    experiment_named(plan.lines[c].experiment).run(plan.lines[c]);
-  }
-  return 0;
 }
 
 // Where another's files stand, that is said before the columns run.
@@ -138,8 +123,8 @@ int run_compare(const CommandLine& line) {
   Options options;
   read_flags(line, choice, options);
   const CommandLine inner = line_of_columns(line, choice);
-  std::vector<LawVariant> variants = variants_of(inner);
-  if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out));
+  std::vector<Variant> variants = variants_of(inner);
+  if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
@@ -151,10 +136,7 @@ int run_compare(const CommandLine& line) {
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
-  run_columns(
-      plan.columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
-      [&](const std::string& line) { run.progress(line); });
-  write_table(run, plan);
+  run_comparison(run, plan.varied, plan.columns, jobs);
   if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);
   run.finish();
   write_report(run.folder());

@@ -13,11 +13,10 @@ namespace {
 constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
 constexpr const char* kCompared[] = {"drape", "swing", "crease", "fold", "crumple"};
 
-// Flags that are the page's own; all others are the columns'.
-bool is_own(const std::string& path) {
-  static const std::vector<std::string> kNames = {"laws", "fabrics", "integrators", "out",
-                                                  "json", "quiet",   "resume",      "threads"};
-  return path.starts_with("compare.") || std::find(kNames.begin(), kNames.end(), path) != kNames.end();
+// Flags that make the columns; all others are theirs.
+bool is_own(const Flag& flag) {
+  return flag.path.starts_with("compare.") || flag.path == "laws" || flag.path == "fabrics" ||
+         flag.path == "integrators";
 }
 
 LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::string& law) {
@@ -52,14 +51,14 @@ ColumnFabric fabric_of(const CommandLine& line) {
   return {setup.scene.fabric, last_text(line.flags, "law", setup.scene.law)};
 }
 
-CommandLine with(CommandLine line, const LawVariant& variant) {
+CommandLine with(CommandLine line, const Variant& variant) {
   line.flags = with_later(line.flags, variant.flags);
   return line;
 }
 
 // Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
 // goes with it.
-std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, const std::string& to,
+std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, const std::string& to,
                           const CompareChoice& choice, double& scale) {
   scale = 1;
   const Match match = match_named(choice.match);
@@ -71,9 +70,9 @@ std::vector<Flag> matched(const CommandLine& inner, const LawVariant& variant, c
 }
 
 // Colours mean the same in all columns, though fabrics have different transition curvatures.
-Flag shared_range(const CommandLine& inner, const std::vector<LawVariant>& variants) {
+Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants) {
   double k0 = 0;
-  for (const LawVariant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
+  for (const Variant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
   return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
 }
 
@@ -94,12 +93,6 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
   return flags;
 }
 
-std::vector<std::string> words_of(const CommandLine& line) {
-  std::vector<std::string> words = {line.experiment};
-  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
-  return words;
-}
-
 }  // namespace
 
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
@@ -108,7 +101,7 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   const std::string what = line.names.front();
   inner.experiment =
       std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "swing";
-  std::erase_if(inner.flags, [](const Flag& f) { return is_own(f.path); });
+  std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) inner.flags.push_back({"scene", what});
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
   if (!choice.integrators.empty()) inner.flags.push_back({"integrator", choice.integrators});
@@ -119,11 +112,11 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   return inner;
 }
 
-Plan plan_of(const CommandLine& inner, const std::vector<LawVariant>& variants, const CompareChoice& choice,
+Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
              const std::filesystem::path& out) {
   Plan plan;
   std::set<std::string> laws;
-  for (const LawVariant& variant : variants) {
+  for (const Variant& variant : variants) {
     const std::string law = last_text(variant.flags, "law", "");
     if (plan.reference != "prandtl") plan.reference = law;
     laws.insert(law);
@@ -131,25 +124,20 @@ Plan plan_of(const CommandLine& inner, const std::vector<LawVariant>& variants, 
   plan.laws = laws.size();
   const Flag range = shared_range(inner, variants);
   plan.varied = varied_of(variants);
-  for (const LawVariant& variant : variants) {
+  for (const Variant& variant : variants) {
     double scale = 1;
     std::vector<Flag> own = variant.flags;
     for (const Flag& flag : matched(inner, variant, plan.reference, choice, scale)) own.push_back(flag);
-    SweepColumn column;
-    column.name = variant.name.empty() ? inner.experiment : variant.name;
-    if (column.name == choice.to) plan.to = static_cast<int>(plan.columns.size());
+    const std::string name = variant.name.empty() ? inner.experiment : variant.name;
+    if (name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);
-    for (const Flag& flag : asked_for_the_page(inner, choice, out, column.name == choice.to))
-      own.push_back(flag);
-    plan.lines.push_back(inner);
-    plan.lines.back().flags = with_later(inner.flags, own);
-    column.words = words_of(plan.lines.back());
-    column.folder = out / column.name;
-    plan.columns.push_back(std::move(column));
+    for (const Flag& flag : asked_for_the_page(inner, choice, out, name == choice.to)) own.push_back(flag);
+    plan.columns.push_back(column_of(name, inner, own, out));
     plan.scales.push_back(scale);
   }
   if (!choice.to.empty() && plan.to < 0)
-    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)");
+    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)")
+        .of("compare.to", choice.to);
   return plan;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/sweep_columns.h"
+#include "experiments/workbench/compare/variants.h"
 
 namespace hysteron::experiments {
 
@@ -28,7 +28,6 @@ struct CompareChoice {
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
 
 struct Plan {
-  std::vector<CommandLine> lines;  // of the columns
   std::vector<SweepColumn> columns;
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
@@ -39,7 +38,7 @@ struct Plan {
 
 // A column for each variant of that line, in OUT/<name>/.  Throws Error::request if the column to subtract is
 // none of them.
-Plan plan_of(const CommandLine& inner, const std::vector<LawVariant>& variants, const CompareChoice& choice,
+Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
              const std::filesystem::path& out);
 
 }  // namespace hysteron::experiments

@@ -18,7 +18,7 @@ std::string middle_of(const std::string& low, const std::string& high) {
 }
 
 // A column with one more key, "linear+fabric.damping=1e-3".
-LawVariant with_key(LawVariant variant, const std::string& key, const std::string& number) {
+Variant with_key(Variant variant, const std::string& key, const std::string& number) {
   variant.name += "+" + key + "=" + number;
   variant.flags.push_back({key, number});
   return variant;
@@ -26,18 +26,20 @@ LawVariant with_key(LawVariant variant, const std::string& key, const std::strin
 
 double metric_in(const SweepColumn& column, const std::string& metric) {
   if (!column.stopped.empty()) throw Error::run("compare.tune: " + column.name + ": " + column.stopped);
-  const MetricValue value = column.manifest ? column.manifest->metrics[metric] : MetricValue();
-  if (!value.is_number())
+  const double value = column.metrics().number(metric);
+  if (std::isnan(value))
     throw Error::request(column.name + " has no metric " + metric +
-                         " that is a number (--compare.tune-metric)");
-  return value.number();
+                         " that is a number (--compare.tune-metric)")
+        .of("compare.tune-metric", metric);
+  return value;
 }
 
 }  // namespace
 
 Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics) {
   const auto refuse = [&](const std::string& must) {
-    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)");
+    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)")
+        .of("compare.tune", key_and_bracket);
   };
   const std::size_t equals = key_and_bracket.find('='), colon = key_and_bracket.find(':', equals);
   if (equals == 0 || colon == std::string::npos)
@@ -53,7 +55,8 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
     throw Error::request(
         "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
         "second "
-        "column");
+        "column")
+        .of("compare.tune-metric", "");
   const std::size_t between = metrics.find('=');
   tuning.metric = metrics.substr(0, between);
   tuning.target = between == metrics.npos ? metrics : metrics.substr(between + 1);
@@ -65,7 +68,8 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   if ((at_low < 0) == (at_high < 0))
     throw Error::request(tuning.metric + " is " + (at_low < 0 ? "below" : "not below") +
                          " the second column's " + tuning.target + " at both ends of " + tuning.key + " = " +
-                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)");
+                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)")
+        .of("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
   std::string low = tuning.low, high = tuning.high, middle;
   for (int i = 0; i < kBisections; ++i) {
     middle = middle_of(low, high);
@@ -74,11 +78,12 @@ std::string tuned(const Tuning& tuning, const Excess& excess) {
   return middle;
 }
 
-Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& variants, CompareChoice choice,
+Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
                        SweepJobs jobs, const Options& options) {
   const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
-    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)");
+    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)")
+        .of("compare.tune", choice.tune);
   const auto say = [&](const std::string& line) {
     if (!options.quiet) std::cerr << line << std::endl;
   };

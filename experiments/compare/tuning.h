@@ -33,7 +33,7 @@ std::string tuned(const Tuning& tuning, const Excess& excess);
 // number, then the first variant gets the last number, which goes to stdout, "fabric.damping=0.004839".
 // Returns what the manifest keeps.  Throws Error::request, Error::run where a try could not go on, and what
 // running throws.
-Json tune_first_column(const CommandLine& inner, std::vector<LawVariant>& variants, CompareChoice choice,
+Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
                        SweepJobs jobs, const Options& options);
 
 }  // namespace hysteron::experiments

@@ -1,16 +1,14 @@
 // Crease recovery (ISO 2313, AATCC 66): a specimen is folded, loaded, let go, and opens again; with
-// `--law all`, or several laws apart by commas, each of them, on one page.
+// `--law all`, or several laws separated by commas, each of them, on one page.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "experiments/crease/specimen.h"
-#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/session.h"
-#include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -18,12 +16,12 @@ namespace {
 using C = CreaseChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
+    {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
     {"crease.release", at<&C::release>, "", any(), "slow | quick", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
-    {"crease.force", at<&C::force>, "N", positive(), "", "of the plate"},
-    {"crease.radius", at<&C::radius>, "m", positive(), "", "of the rod"},
-    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "between the limbs of the pleat at rest"},
-    {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the whole load"},
+    {"crease.force", at<&C::force>, "N", positive(), "", "force of the plate"},
+    {"crease.radius", at<&C::radius>, "m", positive(), "", "radius of the rod"},
+    {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "angle between the limbs of the pleat at rest"},
+    {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the full load"},
     {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
     {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
 };
@@ -58,13 +56,10 @@ void let_go_quickly(Scene& scene) {
   if (!scene.origin.contains("newton-residual")) scene.newton_residual = 1e-6;
 }
 
-// What came of one law.
+// What is read off the specimen as time goes on.
 struct Recovered {
-  std::string law;
-  std::vector<double> time, opening;  // [s], [degree]
-  double force = 0;                   // of the plate before it goes [N]
-  double of_law = NAN;                // opening that the law alone would leave [degree]
-  std::optional<render::Image> picture{};
+  double opening = NAN;  // [degree]
+  double force = 0;      // of the plate before it goes [N]
 };
 
 // Curvature along the strip that was largest in each triangle, with its sign [1/m].
@@ -93,12 +88,11 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
     const double force = plate ? crease.plate_force(m.x, m.time) : 0;
     if (plate) recovered.force = force;
     if (m.time <= crease.times.released + crease.scene.step / 2) keep_largest(session.simulation(), largest);
-    recovered.time.push_back(m.time);
-    recovered.opening.push_back(crease.opening(m.x));
-    return {recovered.opening.back(), force};
+    recovered.opening = crease.opening(m.x);
+    return {recovered.opening, force};
   };
   question.progress = [&](const Snapshot& m) {
-    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening.back());
+    return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening);
   };
   return question;
 }
@@ -114,13 +108,20 @@ std::vector<render::Series> published(double end) {
           {"", {0, end}, {kMostResin, kMostResin}, Style::dashed, "#B0A070", 1.2}};
 }
 
-std::string caption_of(const Recovered& recovered) {
-  return fmt::format("{:.0f} deg (law alone {:.0f})", recovered.opening.back(), recovered.of_law);
+// The opening after release, and where a plate was on it what is in print.
+TablePlot opening_plot(const std::string& title, const C& choice, double end) {
+  TablePlot plot{"plot_opening",
+                 {title, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}},
+                 "metrics.csv",
+                 "time",
+                 "opening"};
+  if (choice.fold == "plate") plot.plot.series = published(end);
+  return plot;
 }
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }
 
-Recovered crease_once(const CommandLine& line) {
+void crease_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   if (choice.release == "quick") let_go_quickly(setup.scene);
@@ -133,69 +134,44 @@ Recovered crease_once(const CommandLine& line) {
                                                : pleated(setup.scene, choice);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
-  Recovered recovered{setup.scene.law, {}, {}};
-  if (session.only_explain()) return recovered;
-  std::vector<double> largest;
+  if (session.only_explain()) return;
+  Recovered recovered;
+  std::vector<double> largest, left;
   session.simulate(question_of(session, crease, largest, recovered));
-  if (session.simulation().dimension() == 3) recovered.of_law = crease.opening_of_law(largest);
-  std::vector<double> left;
   keep_largest(session.simulation(), left);
   Run& run = session.run();
-  run.metric("recovery_angle_deg", recovered.opening.back());
-  run.metric("law_recovery_angle_deg", recovered.of_law);
+  run.metric("recovery_angle_deg", recovered.opening);
+  run.metric("law_recovery_angle_deg",
+             session.simulation().dimension() == 3 ? crease.opening_of_law(largest) : NAN);
   const auto [least, most] = std::minmax_element(left.begin(), left.end());
   run.metric("residual_curvature_per_m", std::max(-*least, *most));
   if (pressed) {
     run.metric("plate_force_N", recovered.force);
     run.metric("plate_height_m", plate);
   }
-  if (session.pictures()) {
-    const std::string what = setup.scene.fabric.name + ", law " + setup.scene.law;
-    recovered.picture = session.pictures()->picture("cloth", session.pictures()->camera(),
-                                                    what + ": " + caption_of(recovered));
-    render::Plot plot{
-        "Opening after release, " + what, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}};
-    if (pressed) plot.series = published(crease.times.end);
-    plot.series.push_back({setup.scene.law, recovered.time, recovered.opening});
-    session.plot("plot_opening", plot);
-  }
-  session.finish("Crease: " + setup.scene.fabric.name + ", law " + setup.scene.law);
-  return recovered;
+  const std::string what = setup.scene.fabric.name + ", law " + setup.scene.law;
+  if (session.pictures())
+    draw(run, opening_plot("Opening after release, " + what, choice, crease.times.end), setup.scene.law);
+  session.finish("Crease: " + what);
 }
 
-// The same for several laws.
-LawOutcome outcome_of(const Recovered& recovered) {
-  LawOutcome outcome;
-  if (recovered.opening.empty()) return outcome;
-  outcome.caption = caption_of(recovered);
-  outcome.numbers = {{"recovery_angle_deg", recovered.opening.back()},
-                     {"law_recovery_angle_deg", recovered.of_law},
-                     {"plate_force_N", recovered.force}};
-  outcome.series = {{recovered.law, recovered.time, recovered.opening}};
-  outcome.picture = recovered.picture;
-  return outcome;
-}
-
-int crease_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
+VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
   C choice;
-  const CommandLine first = without_lists(line);
-  const Setup setup = set_up(first, defaults(), bind(kRows, choice));
-  LawPage page{page_title("Crease recovery", line, setup), laws, {}, {}};
-  page.plots = {
-      {"plot_opening", {page.title, {"time [s]"}, {"angle between the limbs [degree]", false, 0, 180}}}};
-  if (choice.fold == "plate")
-    page.plots[0].second.series =
-        published(creased(setup.scene, choice, 2 * setup.scene.fabric.thickness).times.end);
-  page.once = [](const CommandLine& one) { return outcome_of(crease_once(one)); };
-  return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
+  const Setup setup = set_up(line, defaults(), bind(kRows, choice));
+  const bool pressed = choice.fold == "plate";
+  const double end = pressed ? creased(setup.scene, choice, 2 * setup.scene.fabric.thickness).times.end : 0;
+  return {"Crease recovery",
+          setup,
+          to_json(bind(kRows, choice)),
+          {"recovery_angle_deg", "law_recovery_angle_deg", "plate_force_N"},
+          [](const Metrics& m) {
+            return fmt::format("{:.0f} deg (law alone {:.0f})", m.number("recovery_angle_deg"),
+                               m.number("law_recovery_angle_deg"));
+          },
+          {opening_plot("", choice, end)}};
 }
 
-int run_crease(const CommandLine& line) {
-  const std::vector<LawVariant> laws = variants_of(line);
-  if (laws.size() > 1) return crease_laws(line, laws);
-  crease_once(line);
-  return 0;
-}
+int run_crease(const CommandLine& line) { return run_variants(line, crease_once, page_of); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "experiments/crease/specimen.h"
+#include "experiments/specimens/clamped_mesh.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -93,13 +94,10 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   rod.height = 2 * scene.cloth.width;
   rod.until = crease.times.released;
   scene.obstacle = {rod};
-  Pin clamp = crease_clamp(scene), hand;
-  clamp.high.x() = kGrip * limbs;
-  hand.low = {scene.cloth.length - kGrip * limbs, -1, -1};
-  hand.high = {2 * scene.cloth.length, 1, 1};
+  Pin hand = held_between(scene.cloth.length - kGrip * limbs, 2 * scene.cloth.length);
   hand.until = crease.times.released;
   hand.motion = around_rod(shell, axis_at);
-  scene.pin = {clamp, hand};
+  scene.pin = {held_between(-1, kGrip * limbs), hand};
   return finished(std::move(crease), crease_specimen(scene, taken / 2));
 }
 

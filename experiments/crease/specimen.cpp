@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/recovery.h"
 #include "sim/contact/penalty.h"
@@ -57,12 +58,7 @@ ClothMesh crease_specimen(const Scene& scene, double fine) {
   return graded;
 }
 
-Pin crease_clamp(const Scene& scene) {
-  Pin pin;
-  pin.low = {-1, -1, -1};
-  pin.high = {kGrip * scene.cloth.length, 1, 1};
-  return pin;
-}
+Pin crease_clamp(const Scene& scene) { return held_between(-1, kGrip * scene.cloth.length); }
 
 namespace {
 
@@ -77,9 +73,7 @@ Keyframe key(double time, double height, double angle = 0) {
 // The far limb's end goes over by half a turn, then down; it is let go before the plate presses.
 Pin hand(const Scene& scene, double ground, double lowered) {
   const double length = scene.cloth.length, radius = kLoop * length;
-  Pin pin;
-  pin.low = {(1 - kGrip) * length, -1, -1};
-  pin.high = {2 * length, 1, 1};
+  Pin pin = held_between((1 - kGrip) * length, 2 * length);
   pin.until = lowered;
   pin.motion.axis = {0, -1, 0};
   pin.motion.center = {length / 2, 0, ground + radius};

@@ -1,5 +1,5 @@
 // Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
-// Figure 4.1); with `--law all`, or several laws apart by commas, each of them, on one page.  The scene's
+// Figure 4.1); with `--law all`, or several laws separated by commas, each of them, on one page.  The scene's
 // file says how: crumple-sphere, crumple-tube, crumple-fist, or one's own.
 #include <fmt/core.h>
 
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/session/session.h"
+#include "sim/base/csv.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 
@@ -22,7 +23,7 @@ struct CrumpleChoice {
 using C = CrumpleChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as a ridge"},
+    {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
 };
 // clang-format on
 
@@ -88,10 +89,10 @@ Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
   return question;
 }
 
-// Share of the area by curvature, of what the cloth has now or would keep.
-render::Series histogram(const Session& session, const std::vector<double>& curvature, int dimension,
-                         const std::string& label) {
+// residual.csv: share of the area by the curvature that it would keep.
+void write_histogram(Session& session) {
   const ClothMesh& mesh = session.cloth().mesh;
+  const int dimension = session.simulation().dimension();
   std::vector<double> area = mesh.face_area;
   if (dimension == 1) {
     area.clear();
@@ -99,41 +100,42 @@ render::Series histogram(const Session& session, const std::vector<double>& curv
       area.push_back(mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]);
   }
   const double bin = 2 * session.scene().fabric.k0 / kBins;
-  render::Series series{label, {}, {}};
-  const std::vector<double> share = area_shares(curvature_size(curvature, dimension), area, bin, kBins);
-  for (int k = 0; k < kBins; ++k) {
-    series.x.push_back((k + 0.5) * bin);
-    series.y.push_back(share[k] > 0 ? 100 * share[k] : NAN);
-  }
-  return series;
+  const std::vector<double> share =
+      area_shares(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);
+  CsvFile file(session.run().path("residual.csv"), "residual_curvature [1/m],share [%]");
+  for (int k = 0; k < kBins; ++k) file.row({(k + 0.5) * bin, share[k] > 0 ? 100 * share[k] : NAN});
+  file.commit();
 }
 
-// One for each series of an outcome, still without it.
-std::vector<std::pair<std::string, render::Plot>> plots_of(const std::string& title) {
+std::vector<TablePlot> plots_of(const std::string& title) {
   return {{"plot_residual",
-           {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}}},
-          {"plot_curvature", {title, {"time [s]"}, {"curvature, root mean square [1/m]"}}}};
+           {title, {"norm of the residual curvature [1/m]"}, {"share of the area per bin [%]", true}},
+           "residual.csv",
+           "residual_curvature",
+           "share"},
+          {"plot_curvature",
+           {title, {"time [s]"}, {"curvature, root mean square [1/m]"}},
+           "metrics.csv",
+           "time",
+           "curvature_rms"}};
 }
 
-std::string caption_of(const RidgeMetrics& w) {
-  return fmt::format("curvature {:.1f} 1/m, residual {:.1f} 1/m", w.curvature, w.residual);
+std::string caption_of(double curvature, double residual) {
+  return fmt::format("curvature {:.1f} 1/m, residual {:.1f} 1/m", curvature, residual);
 }
 
-void draw(Session& session, const RidgeMetrics& wrinkles, LawOutcome& outcome) {
+void draw_all(Session& session, const RidgeMetrics& wrinkles) {
   Pictures& pictures = *session.pictures();
   const Scene& scene = session.scene();
-  const std::string caption = scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles);
+  const std::string caption =
+      scene.fabric.name + ", law " + scene.law + ": " + caption_of(wrinkles.curvature, wrinkles.residual);
   for (const char* look : {"curvature", "residual"})
     render::write_png(session.run().path(std::string(look) + ".png"),
                       pictures.picture(look, pictures.camera(), caption), render::PngEffort::best);
   pictures.set_light("raking");
-  outcome.picture = pictures.picture("cloth", pictures.camera(), caption);
-  render::write_png(session.run().path("raking.png"), *outcome.picture, render::PngEffort::best);
-  auto plots = plots_of(scene.fabric.name);
-  for (std::size_t p = 0; p < plots.size(); ++p) {
-    plots[p].second.series = {outcome.series[p]};
-    session.plot(plots[p].first, plots[p].second);
-  }
+  render::write_png(session.run().path("raking.png"), pictures.picture("cloth", pictures.camera(), caption),
+                    render::PngEffort::best);
+  for (const TablePlot& plot : plots_of(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
 
 void limit_to_quick(Setup& setup) {
@@ -141,45 +143,35 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, kQuickFps);
 }
 
-LawOutcome crumple_once(const CommandLine& line) {
+void crumple_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Session session(line, setup);
-  LawOutcome outcome;
-  if (session.only_explain()) return outcome;
+  if (session.only_explain()) return;
   RidgeMetrics wrinkles;
   session.simulate(question_of(session, choice, wrinkles));
-  Simulation& simulation = session.simulation();
-  const std::string& law = setup.scene.law;
-  outcome.caption = caption_of(wrinkles);
-  outcome.numbers = {{"residual_curvature_rms_per_m", wrinkles.residual},
-                     {"ridge_length_m", wrinkles.ridges},
-                     {"curvature_rms_per_m", wrinkles.curvature},
-                     {"intersections", static_cast<double>(session.intersections())}};
   session.run().metric("ridge_length_m", wrinkles.ridges);
   session.run().metric("curvature_rms_per_m", wrinkles.curvature);
-  outcome.series = {histogram(session, simulation.residual_curvature(), simulation.dimension(), law),
-                    render::series_from_csv(session.run().path("metrics.csv"), "time", "curvature_rms", law)};
-  if (session.pictures()) draw(session, wrinkles, outcome);
-  session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + law);
-  return outcome;
+  write_histogram(session);
+  if (session.pictures()) draw_all(session, wrinkles);
+  session.finish("Crumpled: " + setup.scene.fabric.name + ", law " + setup.scene.law);
 }
 
-int crumple_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
+VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
   C choice;
-  const CommandLine first = without_lists(line);
-  const Setup setup = set_up(first, defaults(), bind(kRows, choice));
-  LawPage page{page_title("Crumpled", line, setup), laws, {}, crumple_once};
-  page.plots = plots_of(page.title);
-  return compare_laws(line, setup, to_json(bind(kRows, choice)), page);
+  const Setup setup = set_up(line, defaults(), bind(kRows, choice));
+  return {"Crumpled",
+          setup,
+          to_json(bind(kRows, choice)),
+          {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m", "intersections"},
+          [](const Metrics& m) {
+            return caption_of(m.number("curvature_rms_per_m"), m.number("residual_curvature_rms_per_m"));
+          },
+          plots_of(""),
+          "raking.png"};
 }
 
-int run_crumple(const CommandLine& line) {
-  const std::vector<LawVariant> laws = variants_of(line);
-  if (laws.size() > 1) return crumple_laws(line, laws);
-  crumple_once(line);
-  return 0;
-}
+int run_crumple(const CommandLine& line) { return run_variants(line, crumple_once, page_of); }
 
 }  // namespace
 

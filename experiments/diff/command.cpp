@@ -60,12 +60,14 @@ void require_other(const fs::path& out, const fs::path& input) {
   std::error_code missing;
   if (fs::equivalent(out, input, missing))
     throw Error::request("--out " + out.string() + " is " + input.string() +
-                         ", which is compared: give another name");
+                         ", which is compared: give another name")
+        .of("out", out.string());
 }
 
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
-    throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures");
+    throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
+        .of("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   const Comparison comparison = compare_files(a, b, flags);
   const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits);
@@ -92,7 +94,8 @@ void require_outside(const fs::path& out, const fs::path& folder) {
   const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   if (end == outer.end())
     throw Error::request("--out " + out.string() + " must not be in " + folder.string() +
-                         ", whose pictures are compared");
+                         ", whose pictures are compared")
+        .of("out", out.string());
 }
 
 void print_row(const std::string& name, std::size_t width, const std::vector<std::string>& cells) {

@@ -29,7 +29,7 @@ struct DrapeChoice {
 using D = DrapeChoice;
 // clang-format off
 const KeyRow<DrapeChoice> kRows[] = {
-    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted", "how the hanging ring is released: a plate below it sinks; at once; or the plate sinks, lifts it flat again and sinks a second time"},
+    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted", "how the overhanging ring is released: a plate below it sinks; all at once; or the plate sinks, lifts it flat again and sinks a second time"},
     {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
     {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
     {"drape.still", at<&D::still>, "m/s", positive(), "", "the motion ends when no vertex moves faster between two pictures; then the equilibrium nearby is sought"},
@@ -68,7 +68,8 @@ Setup defaults() {
 void check_disc(const Scene& scene, const DrapeChoice& choice) {
   if (choice.disc < scene.cloth.radius) return;
   throw Error::request("drape.disc = " + number_text(choice.disc) +
-                       " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m");
+                       " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m")
+      .of("drape.disc", number_text(choice.disc));
 }
 
 // Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.

@@ -37,7 +37,6 @@ std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
 
 int run_figures(const CommandLine& line) {
   Options options;
-  options.out = "out/figures";
   set_keys(line, bind_output_options(options));
   const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
   Scene scene;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "experiments/fit/curve.h"
 #include "experiments/fit/profile.h"
@@ -41,10 +40,10 @@ using M = Measured;
 // clang-format off
 const KeyRow<FitFlags> kRows[] = {
     {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
-    {"law", at<&F::law>, "", any(), "", "of the loop: a name, names apart by commas, or all, to compare"},
+    {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
     {"param", at<&F::param>, "", any(), "", "parameters of that law"},
     {"stops", at<&F::stops>, "", between(1, kMostStops), "", "instead of a law: this many friction elements with free thresholds"},
-    {"offset", at<&F::offset>, "", any(), "", "seek the zero of the measured moments, too"},
+    {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
     {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
@@ -79,15 +78,9 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 
 std::vector<std::string> laws_of(const std::string& text) {
   std::vector<std::string> laws;
-  if (text == "all") {
-    for (const LawEntry& law : law_catalogue()) laws.push_back(law.name);
-    return laws;
-  }
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
+  for (const std::string& word : listed(text, law_names()))
     if (!word.empty() && !std::count(laws.begin(), laws.end(), word)) laws.push_back(word);
-  }
-  if (laws.empty()) throw Error::request("law = \"\" must name a law (--law)");
+  if (laws.empty()) throw Error::request("law = \"\" must name a law (--law)").of("law", "");
   return laws;
 }
 
@@ -143,24 +136,26 @@ Answer from_loop(const FitFlags& flags) {
 Answer from_virgin(const FitFlags& flags) {
   if (!flags.virgin_file.empty()) {
     if (flags.virgin.b1.given() || flags.virgin.c1.given())
-      throw Error::request("takes virgin.file or virgin.b1 with virgin.c1, not both");
+      throw Error::request("takes virgin.file or virgin.b1 with virgin.c1, not both")
+          .of("virgin.file", flags.virgin_file);
     return {
         {identify_virgin(read_virgin(flags.virgin_file), flags.assume)}, {}, file_name(flags.virgin_file)};
   }
   if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
-    throw Error::request("a virgin curve needs both --virgin.b1 and --virgin.c1");
+    throw Error::request("a virgin curve needs both --virgin.b1 and --virgin.c1").of("virgin.b1", "");
   return {{identify_virgin(flags.virgin, flags.assume)}, {}, "b1 and c1 of its virgin curve"};
 }
 
 Answer from_kes(const FitFlags& flags) {
   if (!flags.kes.b.given() || !flags.kes.two_hb.given())
-    throw Error::request("KES-FB2 needs both --kes.b and --kes.2hb");
+    throw Error::request("KES-FB2 needs both --kes.b and --kes.2hb").of("kes.b", "");
   return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
 }
 
 Answer from_profile(const FitFlags& flags) {
   if (std::isnan(flags.density))
-    throw Error::request("a profile needs --fabric.density: the moments are those of the strip's weight");
+    throw Error::request("a profile needs --fabric.density: the moments are those of the strip's weight")
+        .of("fabric.density", "");
   return {{identify_profile(read_profile(flags.profile), flags.density, flags.assume)},
           {},
           file_name(flags.profile)};
@@ -169,7 +164,8 @@ Answer from_profile(const FitFlags& flags) {
 void refuse_without_loop(const FitFlags& flags) {
   if (!flags.loop.empty()) return;
   if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
-    throw Error::request("--law, --param, --stops and --offset go with --loop: only a loop tells laws apart");
+    throw Error::request("--law, --param, --stops and --offset go with --loop: only a loop tells laws apart")
+        .of("loop", "");
 }
 
 Answer identify(const FitFlags& flags) {

@@ -69,8 +69,8 @@ void draw_one(Run& run, const Identification& fit, const std::string& title) {
                           curves(fit)};
   const render::Plot left{"Data minus law, " + title, curvature, axis("residual [mN]", milli(left_over(fit))),
                           residuals(fit)};
-  run.plot("plot_fit", [&](const std::filesystem::path& base) { render::write_plot(base, data); });
-  run.plot("plot_residual", [&](const std::filesystem::path& base) { render::write_plot(base, left); });
+  run.plot("plot_fit", data);
+  run.plot("plot_residual", left);
 }
 
 // One panel a law, the best first, on common axes.

@@ -26,7 +26,8 @@ void check_c1(double c1, const std::string& where) {
   throw Error::request(
       where + " = " + number_text(c1) +
       " N m^2 must be < 0: with c1 >= 0 the fabric stiffens as it bends, and k0 = (b2 - b1)/(2 "
-      "c1), where friction saturates and stiffness has fallen to b2 <= b1, does not exist");
+      "c1), where friction saturates and stiffness has fallen to b2 <= b1, does not exist")
+      .of(where, number_text(c1));
 }
 
 Measured mean_of(const std::vector<double>& values) {
@@ -119,12 +120,14 @@ void check_kes(const KesNumbers& numbers) {
   const double b = numbers.b.value, hb = numbers.two_hb.value / 2;
   if (!(b > 0)) {
     throw Error::request("kes.b = " + number_text(b) +
-                         " N m must be > 0: a fabric that does not resist bending has no slope");
+                         " N m must be > 0: a fabric that does not resist bending has no slope")
+        .of("kes.b", number_text(b));
   }
   check_rigidity(b, "kes.b");
   if (!(hb >= 0)) {
     throw Error::request("kes.2hb = " + number_text(2 * hb) +
-                         " N must be >= 0: a loop that gives work back has no width");
+                         " N must be >= 0: a loop that gives work back has no width")
+        .of("kes.2hb", number_text(2 * hb));
   }
   if (hb / b > kLargestHbOverB) {
     throw Error::request(
@@ -132,7 +135,8 @@ void check_kes(const KesNumbers& numbers) {
         " N: HB/B = " + rounded(hb / b) +
         " 1/m would leave folds of a radius below a millimetre; KES prints gf cm/cm, which is "
         "0.00980665 N, and times 0.00980665 it is " +
-        rounded(2 * hb * kGramForceCentimetrePerCentimetre) + " N");
+        rounded(2 * hb * kGramForceCentimetrePerCentimetre) + " N")
+        .of("kes.2hb", number_text(2 * hb));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sim/base/csv.h"
 #include "sim/scene/key_table.h"
@@ -81,9 +80,7 @@ void report_fits(Run& run, const std::vector<Identification>& fits, const Fabric
   const bool several = fits.size() > 1;
   if (several) run.metric("best_law", fits[0].law);
   for (const Identification& fit : fits) add_metrics(run, fit, several ? fit.law + "." : "");
-  Json statements = Json::object();
-  for (const Identification& fit : fits) statements[fit.law] = fit.statements;
-  run.note("statements", several ? statements : Json(fits[0].statements));
+  for (const Identification& fit : fits) run.manifest().statements.push_back({fit.law, fit.statements});
   draw_fits(run, fits, notes.name + ": " + notes.from);
 }
 

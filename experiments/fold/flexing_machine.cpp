@@ -34,17 +34,17 @@ std::vector<std::string> FlexingMachine::columns() {
   return {"clamp_distance [m]", "crown_curvature [1/m]", "crown_moment [N]"};
 }
 
-std::vector<double> FlexingMachine::measure(const Snapshot& moment) {
+std::vector<double> FlexingMachine::measure(const Snapshot& instant) {
   curvature_ = gauge_.crown(session_.simulation().curvature());
   largest_ = std::max(largest_, curvature_);
-  if (moment.time > 0) crown_ = material_.to({curvature_, moment.time - time_});
-  time_ = moment.time;
-  reading_.lowest = lowest(moment.x) / kMillimetre;
+  if (instant.time > 0) crown_ = material_.to({curvature_, instant.time - time_});
+  time_ = instant.time;
+  reading_.lowest = lowest(instant.x) / kMillimetre;
   add_to_loops();
   const int period = 2 * fold_.half, cycle = count_ / period;
   if (cycle > 0 && cycle <= fold_.cycles && count_ % period == 0) end_cycle(cycle);
   ++count_;
-  return {fold_.distance(moment.time), curvature_, crown_.moment};
+  return {fold_.distance(instant.time), curvature_, crown_.moment};
 }
 
 // A return ends one cycle and begins the next.
@@ -74,23 +74,22 @@ void FlexingMachine::end_cycle(int cycle) {
     materials_.row({static_cast<double>(cycle), reading_.material.friction, reading_.material.loop_width,
                     reading_.material.permanent_set, crown_.dissipated});
   }
-  cycle_.push_back(cycle);
-  recovery_.push_back(reading_.recovery_angle);
+  ended_ = cycle;
   lost_ = lost;
   crown_lost_ = crown_.dissipated;
   largest_ = curvature_;
 }
 
 bool FlexingMachine::pictured() const {
-  const int moment = count_ - 1;  // `measure` has counted it
+  const int instant = count_ - 1;  // `measure` has counted it
   if (session_.simulation().time() >= fold_.scene.seconds - fold_.scene.step / 2) return true;
-  if (moment == 0 || moment % fold_.half != 0 || moment > 2 * fold_.half * fold_.cycles) return false;
-  return is_pictured((moment - 1) / (2 * fold_.half) + 1, fold_.cycles);
+  if (instant == 0 || instant % fold_.half != 0 || instant > 2 * fold_.half * fold_.cycles) return false;
+  return is_pictured((instant - 1) / (2 * fold_.half) + 1, fold_.cycles);
 }
 
-std::string FlexingMachine::progress(const Snapshot& moment) const {
-  return fmt::format("t = {:.3f} s  cycles {}  crown {:.0f} 1/m  recovery {:.1f} degree", moment.time,
-                     cycle_.size(), curvature_, reading_.recovery_angle);
+std::string FlexingMachine::progress(const Snapshot& instant) const {
+  return fmt::format("t = {:.3f} s  cycles {}  crown {:.0f} 1/m  recovery {:.1f} degree", instant.time,
+                     ended_, curvature_, reading_.recovery_angle);
 }
 
 void FlexingMachine::finish() {

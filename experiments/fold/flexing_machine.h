@@ -19,7 +19,7 @@ struct FoldReading {
   MaterialReading material;     // of the crown, at the last chosen cycle
 };
 
-// Watches every recorded moment; writes a row of cycles.csv at each return and of material.csv at the chosen
+// Watches every recorded instant; writes a row of cycles.csv at each return and of material.csv at the chosen
 // ones.
 class FlexingMachine {
  public:
@@ -28,16 +28,14 @@ class FlexingMachine {
   // Columns of metrics.csv: distance between the clamps; curvature of the crown; the law's moment there,
   // driven alone through the crown's curvatures.
   static std::vector<std::string> columns();
-  std::vector<double> measure(const Snapshot& moment);
+  std::vector<double> measure(const Snapshot& instant);
   // Both ends of the stroke in cycles 1, 10, 100, ... and the last; the end.
   bool pictured() const;
-  std::string progress(const Snapshot& moment) const;
+  std::string progress(const Snapshot& instant) const;
   void finish();
 
   const FoldReading& reading() const { return reading_; }
-  const std::vector<double>& cycle() const { return cycle_; }              // number, at each return
-  const std::vector<double>& recovery_angle() const { return recovery_; }  // likewise [degree]
-  const std::vector<render::Series>& loops() const { return loops_; }      // of the crown, in pictured cycles
+  const std::vector<render::Series>& loops() const { return loops_; }  // of the crown, in pictured cycles
 
  private:
   void add_to_loops();
@@ -48,15 +46,15 @@ class FlexingMachine {
   FoldGauge gauge_;
   LawWalk material_;
   Record cycles_, materials_;
-  int count_ = 0;          // moments so far
+  int count_ = 0;          // instants so far
   LawPoint crown_;         // the law's, at the crown
   double curvature_ = 0;   // of the crown now [1/m]
   double largest_ = 0;     // in this cycle [1/m]
   double lost_ = 0;        // by bending friction before this cycle [J]
   double crown_lost_ = 0;  // by the law at the crown before this cycle [J/m^2]
-  double time_ = 0;        // of the last moment [s]
+  double time_ = 0;        // of the last instant [s]
   FoldReading reading_;
-  std::vector<double> cycle_, recovery_;
+  int ended_ = 0;  // cycles
   std::vector<render::Series> loops_;
 };
 

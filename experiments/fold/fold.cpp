@@ -1,5 +1,5 @@
 // Repeated folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after many
-// folds, and what they leave in the cloth; with `--law all`, or several laws apart by commas, each on one
+// folds, and what they leave in the cloth; with `--law all`, or several laws separated by commas, each on one
 // page.
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "experiments/fold/flexing_machine.h"
 #include "experiments/fold/material.h"
-#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "sim/base/csv.h"
@@ -22,12 +22,12 @@ namespace {
 using C = FoldChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
-    {"fold.cycles", at<&C::cycles>, "", between(1, 10'000'000), "", "how often it is folded; default 100"},
-    {"fold.period", at<&C::period>, "s", positive(), "", "of a cycle; default 1"},
-    {"fold.stroke", at<&C::stroke>, "", between(0.05, 0.95), "", "of the moving clamp over the length between the clamps; default 0.4"},
+    {"fold.cycles", at<&C::cycles>, "", between(1, 10'000'000), "", "number of folds; default 100"},
+    {"fold.period", at<&C::period>, "s", positive(), "", "duration of a cycle; default 1"},
+    {"fold.stroke", at<&C::stroke>, "", between(0.05, 0.95), "", "stroke of the moving clamp over the length between the clamps; default 0.4"},
     {"fold.fatigue", at<&C::fatigue>, "J/m^2", at_least(0), "", "fatigue.dc of laws that know it, unless --param gives one; 0: no fatigue; default 5"},
     {"fold.law-alone", at<&C::law_alone>, "", any(), "", "no cloth: the law alone, bent to fold.curvature and back"},
-    {"fold.curvature", at<&C::curvature>, "1/m", positive(), "", "largest one of the law alone; default 150"},
+    {"fold.curvature", at<&C::curvature>, "1/m", positive(), "", "largest curvature of the law alone; default 150"},
 };
 // clang-format on
 
@@ -76,16 +76,48 @@ std::string law_of(const Scene& scene) {
 
 std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law_of(scene); }
 
-render::Axis cycles_axis() { return {"cycles", true}; }
-render::Axis friction_axis() { return {"2HB [mN]"}; }
+using Numbers = std::vector<std::pair<std::string, double>>;
 
-// The last cycle as metrics and for the page; the first number, with its `unit`, stands in the caption.
-LawOutcome note(Run& run, std::vector<std::pair<std::string, double>> numbers, const char* unit) {
-  LawOutcome outcome;
-  outcome.caption = fmt::format("{:.3g} {}", numbers[0].second, unit);
+// Of the last cycle, as metrics; a page shows the first.
+Numbers numbers_of(const FoldReading& last) {
+  return {{"recovery_angle_deg", last.recovery_angle},
+          {"2HB_N", last.material.loop_width},
+          {"set_curvature_per_m", last.set},
+          {"M0_N", last.material.friction},
+          {"sag_mm", last.sag},
+          {"permanent_set_per_m", last.material.permanent_set},
+          {"let_go_drop_mm", last.lowest}};
+}
+
+Numbers numbers_of(const BendingCycle& last) {
+  return {{"2HB_N", last.material.loop_width},
+          {"set_curvature_per_m", last.set},
+          {"M0_N", last.material.friction},
+          {"permanent_set_per_m", last.material.permanent_set},
+          {"dissipated_J_per_m2", last.total}};
+}
+
+void note(Run& run, const Numbers& numbers) {
   for (const auto& [name, value] : numbers) run.metric(name, value);
-  outcome.numbers = std::move(numbers);
-  return outcome;
+}
+
+TablePlot over_cycles(const std::string& name, const render::Plot& plot, const std::string& file,
+                      const std::string& y, double scale = 1) {
+  return {name, plot, file, "cycle", y, render::Series::Style::line_and_points, scale};
+}
+
+// What runs over cycles, of a fabric and law.
+std::vector<TablePlot> plots_of(bool law_alone, const std::string& name) {
+  const render::Axis cycles{"cycles", true};
+  const render::Plot width{(law_alone ? "2HB, " : "2HB of the crown, ") + name, cycles, {"2HB [mN]"}};
+  if (law_alone)
+    return {
+        over_cycles("plot_2HB", width, "cycles.csv", "2HB", 1e3),
+        over_cycles("plot_set", {"Residual curvature, " + name, cycles, {"curvature without moment [1/m]"}},
+                    "cycles.csv", "set_curvature")};
+  return {over_cycles("plot_recovery", {"Recovery angle, " + name, cycles, {"recovery angle [degree]"}},
+                      "cycles.csv", "recovery_angle"),
+          over_cycles("plot_2HB", width, "material.csv", "2HB", 1e3)};
 }
 
 Question question_of(const Fold& fold, FlexingMachine& folding) {
@@ -98,15 +130,6 @@ Question question_of(const Fold& fold, FlexingMachine& folding) {
   question.pictured = [&](const Snapshot&) { return folding.pictured(); };
   question.progress = [&](const Snapshot& m) { return folding.progress(m); };
   return question;
-}
-
-// One series for each of the page's plots.
-std::vector<render::Series> series_of(Session& session, const FlexingMachine& folding) {
-  const auto style = render::Series::Style::line_and_points;
-  render::Series width = render::series_from_csv(session.run().path("material.csv"), "cycle", "2HB", "");
-  for (double& newton : width.y) newton *= 1e3;
-  width.style = style;
-  return {{"", folding.cycle(), folding.recovery_angle(), style}, width};
 }
 
 // Of the figures over cycles, which both the cloth and the law alone have.
@@ -128,128 +151,73 @@ std::vector<FigureCaption> captions_of_cloth(const Scene& scene, const FoldChoic
        "Moment of the law against the curvature of the strip's most bent place in single cycles."}};
 }
 
-void plot(Session& session, const FlexingMachine& folding, const std::vector<render::Series>& series) {
+void plot(Session& session, const FlexingMachine& folding) {
   const std::string name = what(session.scene());
-  session.plot("plot_recovery",
-               {"Recovery angle, " + name, cycles_axis(), {"recovery angle [degree]"}, {series[0]}});
-  session.plot("plot_2HB", {"2HB of the crown, " + name, cycles_axis(), friction_axis(), {series[1]}});
+  for (const TablePlot& plot : plots_of(false, name)) draw(session.run(), plot, "");
   session.plot("plot_loop",
                {"The crown, " + name, {"curvature [1/m]"}, {"moment of the law [mN]"}, folding.loops()});
 }
 
-LawOutcome fold_cloth(const CommandLine& line, Request& request) {
+void fold_cloth(const CommandLine& line, Request& request) {
   const Fold fold = folded(request.setup.scene, request.choice, request.setup.options.fps);
   request.setup.scene = fold.scene;
   request.setup.options.fps = fold.fps;
   Session session(line, request.setup, fold.cloth);
-  if (session.only_explain()) return {};
+  if (session.only_explain()) return;
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
   if (!request.setup.options.no_images) run.path("README.md");
   FlexingMachine folding(fold, session);
   session.simulate(question_of(fold, folding));
   folding.finish();
-  const FoldReading& last = folding.reading();
-  LawOutcome outcome = note(run,
-                            {{"recovery_angle_deg", last.recovery_angle},
-                             {"2HB_N", last.material.loop_width},
-                             {"set_curvature_per_m", last.set},
-                             {"M0_N", last.material.friction},
-                             {"sag_mm", last.sag},
-                             {"permanent_set_per_m", last.material.permanent_set},
-                             {"let_go_drop_mm", last.lowest}},
-                            "deg");
-  outcome.series = series_of(session, folding);
-  if (session.pictures()) {
-    outcome.picture =
-        session.pictures()->picture("cloth", session.pictures()->camera(), what(fold.scene) + ", let go");
-    plot(session, folding, outcome.series);
-  }
+  note(run, numbers_of(folding.reading()));
+  if (session.pictures()) plot(session, folding);
   session.finish("Folded " + std::to_string(request.choice.cycles) + " times: " + what(fold.scene));
   if (session.pictures()) write_run_captions(run.folder(), captions_of_cloth(fold.scene, request.choice));
-  return outcome;
-}
-
-render::Series over_cycles(const std::vector<BendingCycle>& all, double (*value)(const BendingCycle&)) {
-  render::Series series{"", {}, {}, render::Series::Style::line_and_points};
-  for (const BendingCycle& c : all) {
-    series.x.push_back(c.cycle);
-    series.y.push_back(value(c));
-  }
-  return series;
 }
 
 void write_cycles(Run& run, const std::vector<BendingCycle>& all) {
-  Table table{{{"cycle", {}},
-               {"M0 [N]", {}},
-               {"2HB [N]", {}},
-               {"set_curvature [1/m]", {}},
-               {"permanent_set [1/m]", {}},
-               {"dissipated [J/m^2]", {}},
-               {"dissipated_in_all [J/m^2]", {}}},
-              {}};
-  for (const BendingCycle& c : all) {
-    const double row[] = {static_cast<double>(c.cycle),
-                          c.material.friction,
-                          c.material.loop_width,
-                          c.set,
-                          c.material.permanent_set,
-                          c.dissipated,
-                          c.total};
-    for (std::size_t i = 0; i < std::size(row); ++i) table.columns[i].values.push_back(row[i]);
-  }
-  write_csv(run.path("cycles.csv"), table);
+  Record file(run.path("cycles.csv"),
+              {"cycle", "M0 [N]", "2HB [N]", "set_curvature [1/m]", "permanent_set [1/m]",
+               "dissipated [J/m^2]", "dissipated_in_all [J/m^2]"});
+  for (const BendingCycle& c : all)
+    file.row({static_cast<double>(c.cycle), c.material.friction, c.material.loop_width, c.set,
+              c.material.permanent_set, c.dissipated, c.total});
+  file.finish();
 }
 
-render::Axis set_axis() { return {"curvature without moment [1/m]"}; }
-
-LawOutcome fold_law(const CommandLine& line, const Request& request) {
+void fold_law(const CommandLine& line, const Request& request) {
   const Scene& scene = request.setup.scene;
   if (request.setup.options.explain) {
     std::cout << "the law alone: no cloth, nothing on a device\n";
-    return {};
+    return;
   }
   if (request.setup.options.errors)
-    throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors");
+    throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
+        .of("errors", "true");
   Json keys = to_json(scene);
   keys.update(request.keys);
   Run run(line, request.setup.options, keys);
   const std::vector<BendingCycle> all = bend_repeatedly(scene, request.choice);
   write_cycles(run, all);
-  const BendingCycle& last = all.back();
-  LawOutcome outcome = note(run,
-                            {{"2HB_N", last.material.loop_width},
-                             {"set_curvature_per_m", last.set},
-                             {"M0_N", last.material.friction},
-                             {"permanent_set_per_m", last.material.permanent_set},
-                             {"dissipated_J_per_m2", last.total}},
-                            "N");
-  outcome.series = {over_cycles(all, [](const BendingCycle& c) { return 1e3 * c.material.loop_width; }),
-                    over_cycles(all, [](const BendingCycle& c) { return c.set; })};
-  if (!request.setup.options.no_images) {
-    const auto draw = [&](const char* name, const render::Plot& plot) {
-      run.plot(name, [&](const std::filesystem::path& base) { render::write_plot(base, plot); });
-    };
-    draw("plot_2HB", {"2HB, " + what(scene), cycles_axis(), friction_axis(), {outcome.series[0]}});
-    draw("plot_set", {"Residual curvature, " + what(scene), cycles_axis(), set_axis(), {outcome.series[1]}});
-  }
+  note(run, numbers_of(all.back()));
+  if (!request.setup.options.no_images)
+    for (const TablePlot& plot : plots_of(true, what(scene))) draw(run, plot, "");
   finish_with_report(run);
-  return outcome;
 }
 
-LawOutcome fold_once(const CommandLine& line) {
+void fold_once(const CommandLine& line) {
   Request request = read(line);
-  return request.choice.law_alone ? fold_law(line, request) : fold_cloth(line, request);
+  request.choice.law_alone ? fold_law(line, request) : fold_cloth(line, request);
 }
 
 // Laws that know fatigue come twice: without it, and with it as NAME-fatigue.
-std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& laws,
-                                                 const std::string& usual) {
-  std::vector<LawVariant> all;
-  for (const LawVariant& law : laws) {
+std::vector<Variant> with_and_without_fatigue(const std::vector<Variant>& laws, const std::string& usual) {
+  std::vector<Variant> all;
+  for (const Variant& law : laws) {
     const std::vector<std::string> known = law_parameter_names(last_text(law.flags, "law", usual));
     const bool tires = std::find(known.begin(), known.end(), "fatigue.dc") != known.end();
-    LawVariant sound = law;
+    Variant sound = law;
     if (tires) sound.flags.push_back({"fold.fatigue", "0"});
     all.push_back(sound);
     if (tires) all.push_back({law.name + "-fatigue", law.flags});
@@ -257,29 +225,19 @@ std::vector<LawVariant> with_and_without_fatigue(const std::vector<LawVariant>& 
   return all;
 }
 
-int fold_laws(const CommandLine& line, const std::vector<LawVariant>& laws) {
-  const CommandLine first = without_lists(line);
-  const Request request = read(first);
-  const bool as_asked = request.own_fatigue || request.choice.fatigue == 0;
-  LawPage page{page_title("Repeated folding", line, request.setup),
-               as_asked ? laws : with_and_without_fatigue(laws, request.setup.scene.law),
-               {},
-               fold_once};
-  const std::pair<std::string, render::Plot> width = {"plot_2HB",
-                                                      {page.title, cycles_axis(), friction_axis()}};
-  if (request.choice.law_alone)
-    page.plots = {width, {"plot_set", {page.title, cycles_axis(), set_axis()}}};
-  else
-    page.plots = {{"plot_recovery", {page.title, cycles_axis(), {"recovery angle [degree]"}}}, width};
-  return compare_laws(line, request.setup, request.keys, page);
+VariantPage page_of(const CommandLine& line, std::vector<Variant>& variants) {
+  const Request request = read(line);
+  const bool alone = request.choice.law_alone;
+  if (!request.own_fatigue && request.choice.fatigue != 0)
+    variants = with_and_without_fatigue(variants, request.setup.scene.law);
+  VariantPage page{"Repeated folding", request.setup, request.keys, {}, {}, plots_of(alone, "")};
+  for (const auto& [name, value] : alone ? numbers_of(BendingCycle{}) : numbers_of(FoldReading{}))
+    page.metrics.push_back(name);
+  page.caption = [](const Metrics& m) { return fmt::format("{:.3g} deg", m.number("recovery_angle_deg")); };
+  return page;
 }
 
-int run_fold(const CommandLine& line) {
-  const std::vector<LawVariant> laws = variants_of(line);
-  if (laws.size() > 1) return fold_laws(line, laws);
-  fold_once(line);
-  return 0;
-}
+int run_fold(const CommandLine& line) { return run_variants(line, fold_once, page_of); }
 
 }  // namespace
 

@@ -17,13 +17,6 @@ constexpr double kHang = 1;       // after the last return, from one clamp [s]
 constexpr double kJaw = 2e-3;     // half the height of a clamp [m]
 constexpr double kNoContact = 3;  // between cloth and the clamps that are seen, in thicknesses
 
-Pin clamp(double low, double high) {
-  Pin pin;
-  pin.low = {low, -1, -1};
-  pin.high = {high, 1, 1};
-  return pin;
-}
-
 Keyframe shifted(double time, double distance) {
   Keyframe key;
   key.time = time;
@@ -109,7 +102,7 @@ Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
       clamped_mesh(scene.mesh, fold.free_length, scene.cloth.width, scene.triangles, 2, scene.seed);
   scene.cloth.shape = "strip";
   scene.triangles = clamped.mesh.faces();
-  scene.pin = {clamp(-1, clamped.near()), clamp(clamped.far(), 1)};
+  scene.pin = {held_between(-1, clamped.near()), held_between(clamped.far(), 1)};
   scene.pin[1].motion = motion_of(choice, fold.free_length);
   scene.pin[1].until = fold.released + scene.step / 2;
   scene.obstacle = {jaw(scene, 0, -1), jaw(scene, clamped.length, 1)};

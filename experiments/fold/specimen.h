@@ -22,8 +22,8 @@ struct Fold {
   Scene scene;  // its phases name what each picture shows
   Cloth cloth;
   double free_length = 0;  // between the clamps' middles on the flat cloth [m]
-  double fps = 0;          // recorded moments per second
-  int half = 0;            // recorded moments from one end of the stroke to the other
+  double fps = 0;          // recorded instants per second
+  int half = 0;            // recorded instants from one end of the stroke to the other
   int cycles = 0;
   double released = 0;  // the moving clamp lets go [s]
 

@@ -10,7 +10,6 @@
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
-#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
@@ -33,22 +32,22 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
-    {"law", at<&K::law>, "", any(), "", "NAME, several apart by commas, or all; see `hysteron list laws`"},
+    {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
     {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
     {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
-    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "of curvature; the tester's is 0.5 per cm and second"},
-    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "B is the slope from here"},
-    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "to here"},
+    {"rate", at<&K::protocol, &P::rate>, "1/(m s)", positive(), "", "rate of the curvature; the tester's is 0.5 per cm and second"},
+    {"slope-from", at<&K::protocol, &P::slope_from>, "1/m", at_least(0), "", "curvature from which the slope B is taken"},
+    {"slope-to", at<&K::protocol, &P::slope_to>, "1/m", positive(), "", "curvature up to which the slope B is taken"},
     {"width-at", at<&K::protocol, &P::width_at>, "1/m", positive(), "", "curvature at which 2HB is read"},
     {"steps", at<&K::protocol, &P::steps>, "", between(10, 1e6), "", "accepted steps from zero to the amplitude"},
-    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "the tester reads the first; the area is that of the last"},
+    {"cycles", at<&K::protocol, &P::cycles>, "", between(1, 1000), "", "number of cycles; the tester reads the first, the area is that of the last"},
     {"on", at<&K::on>, "", any(), "law | strip", "the law alone, or beside it a strip of cloth between rotating clamps"},
     {"renderer", at<&K::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how pictures of strips are drawn"},
 };
 const KeyRow<KesFlags> kStripRows[] = {
-    {"mesh", at<&K::mesh>, "", any(), "", "of strips, several apart by commas: aligned, aligned-45, flipped, unionjack, equilateral, random; or all"},
+    {"mesh", at<&K::mesh>, "", any(), "", "of strips, several separated by commas: aligned, aligned-45, flipped, unionjack, equilateral, random; or all"},
     {"element", at<&K::strip, &S::element>, "", any(), "", "bending element of strips"},
-    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "of a strip, about; their size times the amplitude must stay small"},
+    {"triangles", at<&K::strip, &S::triangles>, "", between(20, 1e6), "", "about how many a strip has; their size times the amplitude must stay small"},
     {"cloth.width", at<&K::strip, &S::width>, "m", positive(), "", "of strips; 1 cm is between the clamps"},
     {"strip-steps", at<&K::strip, &S::steps>, "", between(4, 1e5), "", "equilibria of a strip from zero to the amplitude"},
 };
@@ -63,23 +62,17 @@ Keys keys_of(KesFlags& flags) {
 
 // All that can be tested: a strip gets no orders on its way.
 std::vector<std::string> chosen_laws(const std::string& list, bool on_strip) {
-  if (list != "all") return split(list);
-  std::vector<std::string> names;
-  for (const LawEntry& law : law_catalogue())
-    if (!on_strip || law.name != "grinspun-edit") names.push_back(law.name);
-  return names;
-}
-
-std::vector<std::string> chosen_meshes(const std::string& list) {
-  return list == "all" ? strip_meshes() : split(list);
+  std::vector<std::string> every = law_names();
+  if (on_strip) std::erase(every, "grinspun-edit");
+  return listed(list, every);
 }
 
 std::vector<Fabric> chosen_fabrics(const std::vector<Flag>& flags) {
   const std::string list = last_text(flags, "fabric", Fabric{}.name);
   std::vector<Fabric> fabrics;
-  for (const std::string& name : list == "all" ? list_assets("fabrics") : split(list))
+  for (const std::string& name : listed(list, list_assets("fabrics")))
     fabrics.push_back(fabric_of(name, flags));
-  if (fabrics.empty()) throw Error::request("--fabric names none");
+  if (fabrics.empty()) throw Error::request("--fabric names none").of("fabric", list);
   return fabrics;
 }
 
@@ -95,7 +88,8 @@ LawParameters parameters_of(const std::string& law, const std::vector<std::strin
   for (const auto& [name, value] : given) {
     if (has(law, name)) own[name] = value;
     if (std::none_of(laws.begin(), laws.end(), [&](const std::string& other) { return has(other, name); }))
-      throw Error::request("none of the laws has a parameter " + name + " (--param)");
+      throw Error::request("none of the laws has a parameter " + name + " (--param)")
+          .of("param", name + "=" + value);
   }
   return own;
 }
@@ -104,7 +98,8 @@ void refuse_strip_keys(const CommandLine& line) {
   for (const Flag& flag : line.flags)
     for (const KeyRow<KesFlags>& row : kStripRows)
       if (flag.path == row.path)
-        throw Error::request("--" + flag.path + " is of strips: it needs --on strip");
+        throw Error::request("--" + flag.path + " is of strips: it needs --on strip")
+            .of(flag.path, flag.text);
 }
 
 // Where no equilibrium is found, the test of other strips goes on.
@@ -157,7 +152,7 @@ KesFabric tested(const Fabric& fabric, const KesFlags& flags, const std::vector<
     const LawRequest request{law, curve, parameters_of(law, laws, flags.param)};
     result.results.push_back({law, name, test_in_kes(request, flags.protocol)});
     if (flags.on == "law") continue;
-    const std::vector<std::string> meshes = chosen_meshes(flags.mesh);
+    const std::vector<std::string> meshes = listed(flags.mesh, strip_meshes());
     for (const std::string& mesh : meshes)
       result.results.back().strips.push_back(strip_tested(fabric, flags, request, mesh, meshes.size() > 1));
   }
@@ -191,13 +186,12 @@ int run_kes(const CommandLine& line) {
   if (flags.on == "law") refuse_strip_keys(line);
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
-  if (laws.empty()) throw Error::request("--law names none");
+  if (laws.empty()) throw Error::request("--law names none").of("law", flags.law);
   const std::vector<Fabric> fabrics = chosen_fabrics(line.flags);
   std::vector<KesFabric> results;
   for (const Fabric& fabric : fabrics) results.push_back(tested(fabric, flags, laws, fabrics.size() > 1));
   refuse_failures(results);
 
-  if (flags.options.out.empty()) flags.options.out = "out/kes";
   Run run(line, flags.options, resolved(flags, laws, fabrics));
   write_metrics(run, results);
   write_tables(run, results, flags.protocol);

@@ -54,7 +54,7 @@ int run_law(const CommandLine& line) {
 
   std::error_code missing;
   if (std::filesystem::equivalent(flags.in, flags.out, missing))
-    throw Error::request("--out " + flags.out + " is the input: give another file");
+    throw Error::request("--out " + flags.out + " is the input: give another file").of("out", flags.out);
   return run_law_command({flags.law, {flags.b1, flags.b2, flags.k0}, flags.param, flags.in, flags.out});
 }
 

@@ -24,7 +24,7 @@ namespace hysteron::experiments {
 namespace {
 
 struct RenderFlags {
-  std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, apart by commas
+  std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
   std::string title, ground = "none", body, curvature = "geometry";
   double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};
@@ -34,10 +34,10 @@ struct RenderFlags {
 using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"fps", at<&F::fps>, "", any(), "", "frames a second of the files, for all sequences or apart by commas for each; without it pictures carry the frame's number"},
-    {"render.unit", at<&F::unit>, "", any(), "", "of the files: metre | centimetre | millimetre, for all or for each"},
-    {"render.up", at<&F::up>, "", any(), "", "the files' axis against gravity: z | y, for all or for each"},
-    {"render.range", at<&F::range>, "1/m", positive(), "", "of curvature, at the ends of the colour bar; 100 as in runs of the shipped fabrics"},
+    {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; without it pictures carry the frame's number"},
+    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre, for all or for each"},
+    {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
+    {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics"},
     {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
     {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names"},
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
@@ -47,7 +47,7 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-constexpr int kCells = 12, kMoments = 5;      // pictures on the sheet of one sequence; of each of several
+constexpr int kCells = 12, kInstants = 5;     // pictures on the sheet of one sequence; of each of several
 constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width, the whole at most [pixels]
 
 Keys keys_of(F& flags) {
@@ -64,7 +64,7 @@ Keys keys_of(F& flags) {
 }
 
 Error refusal(const std::string& key, const std::string& value, const std::string& must) {
-  return Error::request(key + " = " + value + " must be " + must + " (--" + key + ")");
+  return Error::request(key + " = " + value + " must be " + must + " (--" + key + ")").of(key, value);
 }
 
 std::optional<float> ground_of(const F& flags) {
@@ -87,7 +87,7 @@ struct Column {
   const std::string& name() const { return sequence.name; }
   const std::vector<std::filesystem::path>& files() const { return sequence.files; }
   // "t = 0.50 s", or "frame 12" where the rate is unknown; nothing for a picture alone.
-  std::string moment(std::size_t frame) const {
+  std::string instant(std::size_t frame) const {
     if (fps > 0) return fmt::format("t = {:.2f} s", static_cast<double>(frame) / fps);
     return files().size() > 1 ? fmt::format("frame {}", frame) : "";
   }
@@ -128,9 +128,9 @@ double rate_of(const std::string& fps) {
   return rate;
 }
 
-// Sequences beside each other show the same moments as long as all of them last: the same times, or the same
+// Sequences beside each other show the same instants as long as all of them last: the same times, or the same
 // numbers where a rate is unknown.
-void choose_moments(std::vector<Column>& columns) {
+void choose_instants(std::vector<Column>& columns) {
   const bool timed = std::all_of(columns.begin(), columns.end(), [](const Column& c) { return c.fps > 0; });
   const Column* shortest = &columns.front();
   const auto length = [&](const Column& c) {
@@ -140,7 +140,7 @@ void choose_moments(std::vector<Column>& columns) {
     if (length(column) < length(*shortest)) shortest = &column;
   const double rate = timed ? shortest->fps : 1;
   const std::vector<int> frames =
-      render::spread(static_cast<int>(shortest->files().size()), columns.size() > 1 ? kMoments : kCells);
+      render::spread(static_cast<int>(shortest->files().size()), columns.size() > 1 ? kInstants : kCells);
   for (Column& column : columns)
     for (const int k : frames)
       column.shown.push_back(static_cast<int>(std::lround(k * (timed ? column.fps : 1) / rate)));
@@ -158,12 +158,13 @@ std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& w
                        rate_of(value("fps", flags.fps)),
                        {}});
   }
-  choose_moments(columns);
+  choose_instants(columns);
   return columns;
 }
 
 Surface body_of(const F& flags, const FileAxes& axes) {
-  if (!std::filesystem::exists(flags.body)) throw Error::request("no such file or folder: " + flags.body);
+  if (!std::filesystem::exists(flags.body))
+    throw Error::request("no such file or folder: " + flags.body).of("render.body", flags.body);
   return read_frame(flags.body, axes);
 }
 
@@ -171,7 +172,8 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
   if (flags.options.look != "curvature") return;
   if (flags.curvature == "file") {
     if (!frame.curvature.empty()) return;
-    throw Error::request(what + ": no property curvature of its vertices (--render.curvature file)");
+    throw Error::request(what + ": no property curvature of its vertices (--render.curvature file)")
+        .of("render.curvature", flags.curvature);
   }
   ClothMesh mesh;
   mesh.rest = frame.vertex;
@@ -200,8 +202,8 @@ render::Box framed(const F& flags, const render::Box& whole) {
   if (flags.low == flags.high) return whole;
   if ((flags.low.array() < flags.high.array()).all())
     return {flags.low.cast<float>(), flags.high.cast<float>()};
-  throw Error::request(
-      "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
+  throw Error::request("render.low must be less than render.high in x, y and z (--render.low, --render.high)")
+      .of("render.low", "");
 }
 
 std::string joined_names(const std::vector<Column>& columns) {
@@ -263,7 +265,7 @@ class FramesAndSheet {
   }
 
   void draw_frame(const Column& column, const Surface& frame, std::size_t k) {
-    const std::string when = column.moment(k), file = column.files()[k].string();
+    const std::string when = column.instant(k), file = column.files()[k].string();
     run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
     render::Image image = picture(frame, label(column) + after("\n", when), "mesh " + file);
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)

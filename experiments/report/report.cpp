@@ -105,7 +105,8 @@ int run_report(const CommandLine& line) {
   set_keys(line, bind(kRows, flags));
   if (line.names.empty()) throw Error::request("needs the folder of a run or of runs: hysteron report DIR");
   if (flags.check && flags.self_contained)
-    throw Error::request("--check is of pages that link their pictures: leave out --self-contained");
+    throw Error::request("--check is of pages that link their pictures: leave out --self-contained")
+        .of("self-contained", "true");
   const PageForm form = flags.self_contained ? PageForm::self_contained : PageForm::linked;
   int exit_code = 0;
   for (const std::string& name : line.names) {

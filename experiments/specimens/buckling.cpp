@@ -38,10 +38,12 @@ double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabr
 void check_axis(const Scene& scene) {
   const double angle = scene.cloth.warp_angle;
   if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
-  throw Error::request(fmt::format(
-      "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
-      "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
-      angle));
+  throw Error::request(
+      fmt::format(
+          "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
+          "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
+          angle))
+      .of("cloth.warp-angle", fmt::format("{:g}", angle));
 }
 
 double gamma_of(const Scene& scene, double length) {
@@ -72,7 +74,8 @@ double threshold_of(const Southwell& plot, int power) {
 Buckling buckling_of(const std::string& name) {
   if (name == "upright") return Buckling::upright;
   if (name == "edge") return Buckling::edge;
-  throw Error::request("buckle.kind = " + name + " is unknown; choose upright or edge");
+  throw Error::request("buckle.kind = " + name + " is unknown; choose upright or edge")
+      .of("buckle.kind", name);
 }
 
 int power_of_load(Buckling kind) { return kind == Buckling::upright ? 1 : 2; }
@@ -121,11 +124,9 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
                          " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
                          " N m has no threshold: its weight there would be " +
                          std::to_string(scene.fabric.density) + " kg/m^2")
+        .of("law", scene.law)
         .in("buckle");
-  Pin clamp;
-  clamp.low = {-1, -1, -1};
-  clamp.high = {clamped.near(), 1, 1};
-  scene.pin = {clamp};
+  scene.pin = {held_between(-1, clamped.near())};
   Cloth cloth = place_cloth(scene, std::move(clamped.mesh));
   return {kind, std::move(scene), std::move(cloth), length, side};
 }

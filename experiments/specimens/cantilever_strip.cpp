@@ -58,10 +58,7 @@ CantileverStrip overhang(Scene scene, double length) {
   scene.cloth.shape = "strip";
   scene.cloth.length = clamped.length;
   scene.triangles = clamped.mesh.faces();
-  Pin clamp;
-  clamp.low = {-1, -1, -1};
-  clamp.high = {clamped.near(), 1, 1};
-  scene.pin = {clamp};
+  scene.pin = {held_between(-1, clamped.near())};
   Cloth cloth = place_cloth(scene, std::move(clamped.mesh));
   return {std::move(scene), std::move(cloth), length};
 }

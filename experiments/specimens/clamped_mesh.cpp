@@ -58,18 +58,23 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   return {flat_mesh(growth.points, std::move(growth.triangles), "strip"), d, between + clamps * d};
 }
 
+Pin held_between(double from, double to) {
+  Pin pin;
+  pin.low = {from, -1, -1};
+  pin.high = {to, 1, 1};
+  return pin;
+}
+
 Cloth clamp_at(Scene& scene, double line) {
   const ClothShape& shape = scene.cloth;
   if (!(shape.length > line))
     throw Error::request("cloth.length = " + std::to_string(shape.length) + " m must be more than the " +
-                         std::to_string(line) + " m that are clamped");
+                         std::to_string(line) + " m that are clamped")
+        .of("cloth.length", std::to_string(shape.length));
   const double width = shape.shape == "square" ? shape.length : shape.width;
   ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);
   for (Eigen::Vector3d& x : clamped.mesh.rest) x.x() += line - clamped.spacing / 2;
-  Pin clamp;
-  clamp.low = {-1, -1, -1};
-  clamp.high = {line + clamped.spacing / 2, 1, 1};
-  scene.pin = {clamp};
+  scene.pin = {held_between(-1, line + clamped.spacing / 2)};
   return place_cloth(scene, std::move(clamped.mesh));
 }
 

@@ -23,6 +23,9 @@ struct ClampedMesh {
 ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
                          int clamps, unsigned seed);
 
+// Holds what lies in between along x at rest, over the whole width [m].
+Pin held_between(double from, double to);
+
 // A rectangle of the scene's family, scene.cloth.length long, whose clamp ends at the line x = `line` [m]:
 // the clamp becomes the scene's only pin.  The mesh keeps one column of cells of what is clamped.
 // Error::request for impossible meshes.

@@ -26,13 +26,13 @@ using F = StabilityFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
     {"device", at<&F::device>, "", any(), "cpu | cuda", "where cells are simulated"},
-    {"integrator", at<&F::integrator>, "", any(), "", "NAME, several apart by commas, or all"},
+    {"integrator", at<&F::integrator>, "", any(), "", "NAME, several separated by commas, or all"},
     {"law", at<&F::law>, "", any(), "", "of all sweeps; default: linear, prandtl and wong in maps, all in scenes"},
-    {"sweep", at<&F::sweep>, "", any(), "", "NAME, several apart by commas, or all"},
+    {"sweep", at<&F::sweep>, "", any(), "", "NAME, several separated by commas, or all"},
     {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
     {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
     {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
-    {"threads", at<&F::threads>, "", between(0, 1024), "", "cells at a time; 0: all cores, or 1 on cuda"},
+    {"threads", at<&F::threads>, "", between(0, 1024), "", "how many cells run at a time; 0: all cores, or 1 on cuda"},
 };
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
@@ -74,7 +74,6 @@ int run_stability(const CommandLine& line) {
   if (flags.sweep == "all") names.push_back(kLimitSweep);
   const bool with_limit = std::erase(names, kLimitSweep) > 0;
   const std::vector<Sweep> sweeps = make_sweeps(names, choice_of(flags));
-  if (flags.options.out.empty()) flags.options.out = "out/stability";
 
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   if (!sweeps.empty()) {

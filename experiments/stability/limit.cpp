@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/scene/scene_reader.h"
@@ -48,12 +49,7 @@ Scene scene_of(const LimitCase& of) {
   scene.gravity.setZero();
   scene.device = DeviceChoice::cpu;
   scene.threads = 1;
-  if (of.held) {
-    Pin edge;
-    edge.low = {0, -1, -1};
-    edge.high = {1e-6, 1, 1};
-    scene.pin = {edge};
-  }
+  if (of.held) scene.pin = {held_between(0, 1e-6)};
   return scene;
 }
 

@@ -27,12 +27,6 @@ SweepAxis steps(bool quick) {
           {1e-5, 1e-4, 1e-3, 1.0 / 240, 1.0 / 60, 1.0 / 24}};
 }
 
-std::vector<std::string> laws_of(const SweepChoice& choice) {
-  if (!choice.laws.empty()) return choice.laws;
-  if (choice.quick) return {"prandtl"};
-  return {"linear", "prandtl", "wong"};
-}
-
 Pin pin_at(double x, double y) {
   Pin pin;
   pin.select = "nearest";
@@ -51,7 +45,7 @@ Scene falling_square() {
 
 Sweep against_step(const std::string& name, const std::string& title, const SweepAxis& x,
                    const SweepChoice& choice, void (*set)(Scene&, double)) {
-  Sweep sweep{name, title, x, steps(choice.quick), laws_of(choice), {}};
+  Sweep sweep{name, title, x, steps(choice.quick), choice.few_laws(), {}};
   sweep.step_limits = true;
   sweep.at = [set, x = sweep.x, y = sweep.y, laws = sweep.variants](int variant, int column, int row) {
     Scene scene = falling_square();

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/specimens/clamped_mesh.h"
 #include "experiments/stability/stability.h"
+#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
-#include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -14,13 +15,6 @@ struct Named {
   const char* name;
   Attempt (*make)();
 };
-
-Pin clamp(double from, double to) {
-  Pin pin;
-  pin.low = {from, -1, -1};
-  pin.high = {to, 1, 1};
-  return pin;
-}
 
 Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
   Obstacle obstacle;
@@ -79,7 +73,7 @@ ClothMesh one_triangle() {
 // The cloth's left end is held, the rest swings down.
 Attempt cantilever(std::function<ClothMesh()> mesh) {
   Attempt attempt{default_scene(), std::move(mesh), 0.3};
-  attempt.scene.pin = {clamp(0, 1e-6)};
+  attempt.scene.pin = {held_between(0, 1e-6)};
   return attempt;
 }
 
@@ -112,7 +106,7 @@ Attempt folded(double degrees) {
   scene.cloth.length = 0.1;
   scene.cloth.width = 0.03;
   scene.triangles = 160;
-  scene.pin = {clamp(0, 0.04), clamp(0.06, 0.1)};
+  scene.pin = {held_between(0, 0.04), held_between(0.06, 0.1)};
   Motion& motion = scene.pin[1].motion;
   motion.axis = {0, -1, 0};
   motion.center = {0.05, 0, 0};
@@ -152,7 +146,7 @@ Attempt pulled(double metres) {
 // A ball of 3 cm comes up through a square held at its corners, at 100 m/s where it meets the cloth.
 Attempt hit() {
   Attempt attempt = square(0);
-  attempt.scene.pin = {clamp(0, 1e-6), clamp(0.2 - 1e-6, 0.2)};
+  attempt.scene.pin = {held_between(0, 1e-6), held_between(0.2 - 1e-6, 0.2)};
   Obstacle ball = solid(ObstacleKind::sphere, {0.1, 0.1, -0.531});
   ball.radius = 0.03;
   // The middle of a smooth motion from rest to rest is 3/2 as fast as the mean.
@@ -180,7 +174,7 @@ Attempt dropped_on_edge() {
 
 Attempt hanging() {
   Attempt attempt = square(0);
-  attempt.scene.pin = {clamp(0, 1e-6)};
+  attempt.scene.pin = {held_between(0, 1e-6)};
   return attempt;
 }
 
@@ -195,7 +189,7 @@ const Named kScenes[] = {
     {"one triangle",
      [] {
        Attempt attempt{default_scene(), one_triangle, kHappens};
-       attempt.scene.pin = {clamp(0, 1e-6)};
+       attempt.scene.pin = {held_between(0, 1e-6)};
        attempt.scene.pin[0].high.y() = 0;
        return attempt;
      }},
@@ -233,18 +227,6 @@ SweepAxis axis_of(const std::string& label, const Named* first, const Named* las
   return axis;
 }
 
-std::vector<std::string> all_laws() {
-  std::vector<std::string> names;
-  for (const LawEntry& law : law_catalogue()) names.push_back(law.name);
-  return names;
-}
-
-std::vector<std::string> few_laws(const SweepChoice& choice) {
-  if (!choice.laws.empty()) return choice.laws;
-  return choice.quick ? std::vector<std::string>{"prandtl"}
-                      : std::vector<std::string>{"linear", "prandtl", "wong"};
-}
-
 constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
 
 }  // namespace
@@ -252,7 +234,7 @@ constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
 Sweep mesh_sweep(const SweepChoice& choice) {
   Sweep sweep{"mesh",
               "Mesh quality: a strip or square held at one end; steps of 1 ms",
-              {"law", few_laws(choice)},
+              {"law", choice.few_laws()},
               axis_of("mesh", std::begin(kMeshes), std::end(kMeshes)),
               {"shape", "hinge"},
               {}};
@@ -270,7 +252,7 @@ Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
   const bool all = precision == Precision::fp64 && choice.laws.empty() && !choice.quick;
   Sweep sweep{precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
               "Scenes that ask too much, in " + name_of(precision) + " precision",
-              {"law", all ? all_laws() : few_laws(choice)},
+              {"law", all ? law_names() : choice.few_laws()},
               axis_of("scene", std::begin(kScenes), std::end(kScenes)),
               {"step 1 ms", "step 1/60 s"},
               {}};
@@ -315,7 +297,7 @@ std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const Swee
     const auto found = std::find_if(std::begin(kSweeps), std::end(kSweeps),
                                     [&](const NamedSweep& sweep) { return name == sweep.name; });
     if (found == std::end(kSweeps))
-      throw Error::request("--sweep " + name + " must be of " + join(sweep_names(), ", "));
+      throw Error::request("--sweep " + name + " must be of " + join(sweep_names(), ", ")).of("sweep", name);
     sweeps.push_back(found->make(choice));
   }
   return sweeps;

@@ -102,6 +102,12 @@ const char* name_of(Outcome outcome) {
   }
 }
 
+std::vector<std::string> SweepChoice::few_laws() const {
+  if (!laws.empty()) return laws;
+  if (quick) return {"prandtl"};
+  return {"linear", "prandtl", "wong"};
+}
+
 Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   Finding finding;
   const auto start = std::chrono::steady_clock::now();

@@ -82,6 +82,8 @@ struct SweepChoice {
   std::vector<std::string> laws = {};  // empty: linear, prandtl and wong in maps, all in extreme scenes
   DeviceChoice device = DeviceChoice::cpu;
   bool quick = false;
+
+  std::vector<std::string> few_laws() const;  // those named, or those of maps
 };
 std::vector<std::string> sweep_names();
 // Those named, in this order; Error::request for an unknown name.

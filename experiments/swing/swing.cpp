@@ -9,7 +9,6 @@
 #include "experiments/swing/decay_shape.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/session.h"
-#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -55,13 +54,9 @@ std::string words_of(const Decay& decay) {
 
 // turns.csv: a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
-  Table table{{{"turn", {}}, {"time [s]", {}}, {"amplitude [mm]", {}}}, {}};
-  for (const Amplitude& a : amplitudes) {
-    table.columns[0].values.push_back(a.turn);
-    table.columns[1].values.push_back(a.time);
-    table.columns[2].values.push_back(1e3 * a.value);
-  }
-  write_csv(run.path("turns.csv"), table);
+  Record file(run.path("turns.csv"), {"turn", "time [s]", "amplitude [mm]"});
+  for (const Amplitude& a : amplitudes) file.row({1.0 * a.turn, a.time, 1e3 * a.value});
+  file.finish();
 }
 
 void note_decay(Run& run, const Decay& decay) {
@@ -129,10 +124,7 @@ std::optional<Cloth> clamp(Scene& scene) {
   if (!scene.pin.empty()) return {};
   const bool rectangle = scene.cloth.shape == "strip" || scene.cloth.shape == "square";
   if (rectangle && !scene.mesh.ends_with(".obj")) return clamp_at(scene, kClamp);
-  Pin held;
-  held.low = {-1, -1, -1};
-  held.high = {kClamp, 1, 1};
-  scene.pin.push_back(held);
+  scene.pin.push_back(held_between(-1, kClamp));
   return {};
 }
 

@@ -28,12 +28,12 @@ struct ValidateFlags {
 using F = ValidateFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"fabrics", at<&F::fabrics>, "", any(), "", "that publish a drape coefficient, apart by commas"},
-    {"laws", at<&F::laws>, "", any(), "", "apart by commas"},
+    {"fabrics", at<&F::fabrics>, "", any(), "", "those that publish a drape coefficient, separated by commas"},
+    {"laws", at<&F::laws>, "", any(), "", "separated by commas"},
     {"device", at<&F::device>, "", any(), "cpu | cuda", "of the drapes"},
-    {"triangles", at<&F::triangles>, "", between(100, 1e6), "", "of the disc; four times as many where the mesh's share is measured"},
-    {"step", at<&F::step>, "s", positive(), "", "halved where the step's share is measured"},
-    {"seconds", at<&F::seconds>, "s", positive(), "", "at most, of a drape"},
+    {"triangles", at<&F::triangles>, "", between(100, 1e6), "", "of the disc; four times as many to measure the mesh's share of the error"},
+    {"step", at<&F::step>, "s", positive(), "", "halved to measure the step's share of the error"},
+    {"seconds", at<&F::seconds>, "s", positive(), "", "longest simulated time of a drape"},
 };
 // clang-format on
 
@@ -50,9 +50,7 @@ struct Drape {
   std::string name() const {
     return fabric + "-" + law + "-" + release + (varied.empty() ? "" : "-" + varied);
   }
-  double number(const std::string& key) const {
-    return metrics[key].is_number() ? metrics[key].number() : NAN;
-  }
+  double number(const std::string& key) const { return metrics.number(key); }
 };
 
 // Runs another subcommand into a folder of this one; its manifest.
@@ -137,7 +135,7 @@ void draw_drapes(Run& run, const std::vector<Drape>& drapes) {
     if (at == plot.series.begin() + 1)
       plot.marks.push_back({d.fabric, at->x.back(), 25, 0, 0, "#555555", false});
   }
-  run.plot("plot_drape", [&](const auto& base) { render::write_plot(base, plot); });
+  run.plot("plot_drape", plot);
 }
 
 // Bending length of ASTM D1388, cloth and curve.
@@ -166,7 +164,6 @@ int run_validate(const CommandLine& line) {
     flags.triangles = std::min(flags.triangles, 400.0);
     flags.seconds = std::min(flags.seconds, 1.0);
   });
-  if (flags.options.out.empty()) flags.options.out = "out/validate";
   Run run(line, flags.options, to_json(bind(kRows, flags)));
   std::vector<Drape> drapes = planned(flags);
   for (Drape& drape : drapes) {

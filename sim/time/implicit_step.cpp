@@ -266,11 +266,11 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   const Vec3<Real>*predicted = predicted_.data(), *drift = drift_.data(), *gradient = potential_.gradient();
   const char* held = state.held;
   const Real* mass = state.mass;
-  const Vec3<Real>* handle_way = state.handle_way;
+  const Vec3<Real>* handle_displacement = state.handle_displacement;
   for_each(
       device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
-        const Vec3<Real> way = held[i] && handle_way ? handle_way[i] : d;
+        const Vec3<Real> way = held[i] && handle_displacement ? handle_displacement[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
         const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down

@@ -16,9 +16,9 @@ struct VertexState {
   Vec3<Real>*x, *v;  // v of held vertices: that of the coming step
   const char* held;
   const Real* mass;
-  // Of moving handles: the way along their arcs as the end of the step sees it, duration times velocity;
-  // null if none moves [m].
-  const Vec3<Real>* handle_way;
+  // Of moving handles: the displacement along their arcs as the end of the step sees it, duration times
+  // velocity; null if none moves [m].
+  const Vec3<Real>* handle_displacement;
 };
 
 // The vertex that is farthest from equilibrium.

@@ -1,11 +1,9 @@
 // A folder of its own for each test, and what a run in it needs.
 #pragma once
 
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +11,7 @@
 
 #include "experiments/workbench/app/run.h"
 #include "gtest/gtest.h"
+#include "tests/sim/base/small_disk.h"
 
 namespace hysteron::experiments {
 
@@ -57,9 +56,7 @@ template <class Body>
 int on_a_disk_with(rlim_t bytes, Body body) {
   const pid_t child = fork();
   if (child == 0) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, bytes};
-    setrlimit(RLIMIT_FSIZE, &limit);
+    const test::SmallDisk disk(bytes);
     _exit(body());
   }
   int status = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "experiments/workbench/app/headlines.h"
+#include "sim/base/comma_list.h"
+#include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
 
@@ -40,6 +42,16 @@ std::vector<KeyDescription> descriptions(const Keys& keys) {
   std::vector<KeyDescription> result;
   for (const BoundKey& key : keys) result.push_back(key.description);
   return result;
+}
+
+std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every) {
+  return text == "all" ? every : split(text);
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const LawEntry& law : law_catalogue()) names.push_back(law.name);
+  return names;
 }
 
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick) {

@@ -51,6 +51,11 @@ Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
 
 std::vector<KeyDescription> descriptions(const Keys& keys);
 
+// "all" is every one; else names separated by commas.
+std::vector<std::string> listed(const std::string& text, const std::vector<std::string>& every);
+// Of all laws, in the order of `hysteron list laws`.
+std::vector<std::string> law_names();
+
 // For Experiment::own_keys: the keys of a table of rows, or of a function that binds a struct, each with the
 // struct's own default; then those that the functions `more` describe.
 template <class Owner, std::size_t n>

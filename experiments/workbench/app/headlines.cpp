@@ -77,7 +77,8 @@ void check_errors(const std::string& experiment) {
   for (const Headlines& headlines : kAll)
     if (!headlines.with_errors().empty()) known += (known.empty() ? "" : ", ") + headlines.experiment;
   throw Error::request("--errors: " + experiment +
-                       " has no headline whose errors can be measured; these have: " + known);
+                       " has no headline whose errors can be measured; these have: " + known)
+      .of("errors", "true");
 }
 
 }  // namespace hysteron::experiments

@@ -28,6 +28,11 @@ const MetricValue& Metrics::operator[](const std::string& name) const {
   return found == entries_.end() ? kUnknown : found->second;
 }
 
+double Metrics::number(const std::string& name) const {
+  const MetricValue& value = (*this)[name];
+  return value.is_number() ? value.number() : NAN;
+}
+
 double Manifest::total_seconds() const {
   const auto found = find(wall_seconds, "total");
   return found == wall_seconds.end() ? 0 : found->second;

@@ -73,6 +73,8 @@ class Metrics {
   bool contains(const std::string& name) const;
   // What is not there is not known.
   const MetricValue& operator[](const std::string& name) const;
+  // NaN where it is no number.
+  double number(const std::string& name) const;
   bool empty() const { return entries_.empty(); }
   auto begin() const { return entries_.begin(); }
   auto end() const { return entries_.end(); }
@@ -138,6 +140,12 @@ struct Curve {
   std::string caption;
 };
 
+// What a fit says of the data under a law.
+struct Statements {
+  std::string law;
+  std::vector<std::string> sentences;
+};
+
 struct Manifest {
   std::string version, commit;
   bool dirty = false;
@@ -153,7 +161,8 @@ struct Manifest {
   std::optional<std::string> state_hash;
   std::optional<int> substeps;
   std::vector<std::pair<std::string, std::shared_ptr<const Json>>> own;  // what only its experiment notes
-  std::optional<std::vector<std::string>> series;                        // own columns of metrics.csv
+  std::vector<Statements> statements;
+  std::optional<std::vector<std::string>> series;  // own columns of metrics.csv
   std::optional<Frames> frames;
   std::vector<Curve> curves;
   std::string film_missing;  // why; "" if it is not

@@ -33,9 +33,11 @@ Json to_json(const std::vector<std::pair<std::string, T>>& entries) {
   return object;
 }
 
-Json to_json(const Metrics& metrics) {
-  Json object = Json::object();
-  for (const auto& [name, value] : metrics) object[name] = to_json(value);
+// A list of one law's, else lists by law.
+Json to_json(const std::vector<Statements>& all) {
+  if (all.size() == 1) return all[0].sentences;
+  Json object;
+  for (const auto& [law, sentences] : all) object[law] = sentences;
   return object;
 }
 
@@ -62,10 +64,30 @@ Json to_json(const Curve& curve) {
           {"caption", curve.caption}};
 }
 
+// What every manifest has behind its scene, in this order.
+template <class M, class Visit>
+void visit_results(M& m, const Visit& visit) {
+  visit("device", m.device);
+  visit("renderer", m.renderer);
+  visit("positions", m.positions);
+  visit("precision", m.precision);
+  visit("element", m.element);
+  visit("law", m.law);
+  visit("triangles", m.triangles);
+  visit("hinges", m.hinges);
+  visit("steps", m.steps);
+  visit("seconds_simulated", m.seconds_simulated);
+  visit("wall_seconds", m.wall_seconds);
+  visit("bytes_device", m.bytes_device);
+  visit("energy", m.energy);
+  visit("state_hash", m.state_hash);
+}
+
 // Entries that only some runs have.
 void add_what_some_have(const Manifest& m, Json& json) {
   if (m.substeps) json["substeps"] = *m.substeps;
   for (const auto& [key, value] : m.own) json[key] = *value;
+  if (!m.statements.empty()) json["statements"] = to_json(m.statements);
   if (m.series) json["series"] = *m.series;
   if (m.frames) json["frames"] = to_json(*m.frames);
   for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
@@ -121,6 +143,14 @@ std::vector<std::pair<std::string, double>> numbers_at(const Json& json, const c
   for (const auto& [name, number] : at(json, key).items())
     if (number.is_number()) numbers.emplace_back(name, number.get<double>());
   return numbers;
+}
+
+template <class T>
+void take(const Json& json, const char* key, std::optional<T>& value) {
+  value = known_at<T>(json, key);
+}
+void take(const Json& json, const char* key, std::vector<std::pair<std::string, double>>& numbers) {
+  numbers = numbers_at(json, key);
 }
 
 Metrics metrics_of(const Json& json) {
@@ -204,6 +234,11 @@ std::optional<Frames> frames_of(const Json& json) {
 void take_what_some_have(const Json& json, Manifest& m) {
   m.substeps = known_at<int>(json, "substeps");
   if (at(json, "series").is_array()) m.series = texts_at(json, "series");
+  const Json& statements = at(json, "statements");
+  if (statements.is_array()) m.statements = {{"", texts_at(json, "statements")}};
+  if (statements.is_object())
+    for (const auto& [law, sentences] : statements.items())
+      m.statements.push_back({law, texts_at(statements, law.c_str())});
   m.frames = frames_of(at(json, "frames"));
   for (const Json& curve : at(json, "curves"))
     m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
@@ -224,6 +259,12 @@ std::string missing_in(const Json& json) {
 
 }  // namespace
 
+Json to_json(const Metrics& metrics) {
+  Json object = Json::object();
+  for (const auto& [name, value] : metrics) object[name] = to_json(value);
+  return object;
+}
+
 Json to_json(const Manifest& m) {
   Json json;
   json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
@@ -231,20 +272,7 @@ Json to_json(const Manifest& m) {
   json["command"] = m.command;
   json["started"] = m.started;
   json["scene"] = *m.keys;
-  json["device"] = to_json(m.device);
-  json["renderer"] = to_json(m.renderer);
-  json["positions"] = to_json(m.positions);
-  json["precision"] = to_json(m.precision);
-  json["element"] = to_json(m.element);
-  json["law"] = to_json(m.law);
-  json["triangles"] = to_json(m.triangles);
-  json["hinges"] = to_json(m.hinges);
-  json["steps"] = to_json(m.steps);
-  json["seconds_simulated"] = to_json(m.seconds_simulated);
-  json["wall_seconds"] = to_json(m.wall_seconds);
-  json["bytes_device"] = to_json(m.bytes_device);
-  json["energy"] = to_json(m.energy);
-  json["state_hash"] = to_json(m.state_hash);
+  visit_results(m, [&](const char* key, const auto& value) { json[key] = to_json(value); });
   add_what_some_have(m, json);
   json["metrics"] = to_json(m.metrics);
   json["files"] = m.files;
@@ -263,20 +291,7 @@ Manifest manifest_of(const Json& json) {
   m.started = text_at(json, "started");
   m.scene = scene_of(at(json, "scene"));
   m.keys = std::make_shared<const Json>(at(json, "scene"));
-  m.device = known_at<std::string>(json, "device");
-  m.renderer = known_at<std::string>(json, "renderer");
-  m.positions = known_at<std::string>(json, "positions");
-  m.precision = known_at<std::string>(json, "precision");
-  m.element = known_at<std::string>(json, "element");
-  m.law = known_at<std::string>(json, "law");
-  m.triangles = known_at<std::int64_t>(json, "triangles");
-  m.hinges = known_at<std::int64_t>(json, "hinges");
-  m.steps = known_at<std::int64_t>(json, "steps");
-  m.seconds_simulated = known_at<double>(json, "seconds_simulated");
-  m.wall_seconds = numbers_at(json, "wall_seconds");
-  m.bytes_device = known_at<std::int64_t>(json, "bytes_device");
-  m.energy = numbers_at(json, "energy");
-  m.state_hash = known_at<std::string>(json, "state_hash");
+  visit_results(m, [&](const char* key, auto& value) { take(json, key, value); });
   take_what_some_have(json, m);
   m.metrics = metrics_of(at(json, "metrics"));
   m.files = texts_at(json, "files");

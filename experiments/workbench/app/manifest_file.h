@@ -10,6 +10,7 @@ namespace hysteron::experiments {
 
 // In the order in which they stand in the file.
 Json to_json(const Manifest& manifest);
+Json to_json(const Metrics& metrics);
 // What is missing, or of another type, is not known.
 Manifest manifest_of(const Json& json);
 

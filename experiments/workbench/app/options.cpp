@@ -16,27 +16,27 @@ using O = Options;
 const KeyRow<Options> kRows[] = {
     {"scene", at<&O::scene>, "", any(), "", "a scene of assets/scenes or a TOML file"},
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
-    {"size", at<&O::size>, "", any(), "", "of pictures, WIDTHxHEIGHT pixels"},
+    {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
-    {"no-images", at<&O::no_images>, "", any(), "", "no pictures"},
-    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | difference | friction | wireframe | silhouette; of several apart by commas, each but the first makes a sequence frames-LOOK/"},
-    {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "at the ends of its colours, half of it for residual and difference; 0: 2 k0"},
-    {"reference", at<&O::reference>, "", any(), "", "folder of a run with the same mesh and --export ply, whose curvature look difference subtracts"},
-    {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without letters and bars"},
-    {"light", at<&O::light>, "", any(), "studio | raking", "raking: almost along the picture, as wrinkles are photographed"},
+    {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
+    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | difference | friction | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
+    {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
+    {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},
+    {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars"},
+    {"light", at<&O::light>, "", any(), "studio | raking", "raking: light from the side, almost in the plane of the picture, as wrinkles are photographed"},
     {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},
-    {"check-intersections", at<&O::check_intersections>, "", any(), "", "count triangles that pass through each other in every recorded moment, by exact predicates; on where cloth touches itself"},
+    {"check-intersections", at<&O::check_intersections>, "", any(), "", "count the triangles that pass through each other at every recorded instant, by exact predicates; always on with self-contact"},
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number"},
-    {"errors.draws", at<&O::errors_draws>, "", between(1, 64), "", "other meshes that errors are drawn from; from 3 on with mean and standard error"},
-    {"errors.jobs", at<&O::errors_jobs>, "", between(0, 64), "", "repeats that run at a time; 0: one for each GPU, or for each core"},
-    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given win"},
+    {"errors.draws", at<&O::errors_draws>, "", between(1, 64), "", "how many other meshes the run is repeated on; from 3 on with mean and standard error"},
+    {"errors.jobs", at<&O::errors_jobs>, "", between(0, 64), "", "how many repeats run at a time; 0: one for each GPU, or for each core"},
+    {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given take precedence"},
     {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
     {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
-    {"json", at<&O::json>, "", any(), "", "the manifest on stdout"},
+    {"json", at<&O::json>, "", any(), "", "print the manifest on stdout"},
 };
 // clang-format on
 
@@ -61,7 +61,8 @@ void check_look(const std::string& look) {
   if (std::find(kLooks.begin(), kLooks.end(), look) != kLooks.end()) return;
   const std::string nearest = nearest_name(look, kLooks);
   throw Error::request("look = " + look + " must be " + join(kLooks, " | ") +
-                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)");
+                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
+      .of("look", look);
 }
 
 bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; }
@@ -93,16 +94,19 @@ void check_options(const Options& options) {
   if (!drawable(options.width()) || !drawable(options.height())) {
     throw Error::request("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +
                          std::to_string(kSmallestSide) + ", " + std::to_string(kLargestSide) +
-                         "] pixels (--size)");
+                         "] pixels (--size)")
+        .of("size", options.size);
   }
   if (options.camera_direction.isZero(0)) {
-    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)");
+    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
+        .of("camera.direction", "0, 0, 0");
   }
   if (options.looks().empty()) check_look("");
   for (const std::string& look : options.looks()) {
     check_look(look);
     if (look == "difference" && options.reference.empty())
-      throw Error::request("look = difference needs the run that it is taken from (--reference DIR)");
+      throw Error::request("look = difference needs the run that it is taken from (--reference DIR)")
+          .of("look", look);
   }
 }
 

@@ -16,7 +16,7 @@ struct Options {
   double fps = 30;                    // fps        pictures per simulated second
   std::string renderer = "auto";      // renderer   auto | egl | osmesa
   bool no_images = false;             // no-images
-  std::string look = "cloth";         // look       what the pictures show; several apart by commas
+  std::string look = "cloth";         // look       what the pictures show; several separated by commas
   double curvature_range = 0;         // curvature-range  [1/m] at the ends of its colours; 0: 2 k0
   std::string reference;              // reference  folder of the run that look `difference` subtracts
   bool plain = false;                 // plain      pictures of the sequence without letters
@@ -25,7 +25,7 @@ struct Options {
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
-  bool check_intersections = false;                  // check-intersections  of every moment that is recorded
+  bool check_intersections = false;                  // check-intersections  at every instant that is recorded
   bool errors = false;                               // errors       of headlines, by repeating the run
   int errors_draws = 2;                              // errors.draws other meshes
   int errors_jobs = 0;                               // errors.jobs  repeats at a time, 0: as many as fit

@@ -7,6 +7,7 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
+#include "render/plot.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -70,7 +71,7 @@ std::string program_version() {
 Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options, to_json(setup.scene)) {}
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys)
-    : folder_(options.out, line),
+    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(first_entries(line, keys)) {
@@ -126,6 +127,10 @@ void Run::plot(const std::string& name, const std::function<void(const fs::path&
     manifest_.plots_missing.push_back(name + ": " + error.what());
     progress(name + ": " + error.what());
   }
+}
+
+void Run::plot(const std::string& name, const render::Plot& plot) {
+  this->plot(name, [&](const fs::path& base) { render::write_plot(base, plot); });
 }
 
 void Run::progress(const std::string& line) const {

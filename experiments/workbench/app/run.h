@@ -12,6 +12,10 @@
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/app/run_folder.h"
 
+namespace hysteron::render {
+struct Plot;
+}
+
 namespace hysteron::experiments {
 
 // "0.1.0 (commit 1f3a..., modified)"
@@ -22,7 +26,8 @@ std::string program_version();
 // of an exception, keeps its files and a manifest with "complete": false.
 class Run {
  public:
-  // Takes the folder as RunFolder does.  Throws Error::request, Error::machine.
+  // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::request,
+  // Error::machine.
   Run(const CommandLine& line, const Setup& setup);
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
   Run(const CommandLine& line, const Options& options, const Json& keys);
@@ -74,6 +79,7 @@ class Run {
   // Has `draw` write NAME.png and NAME.svg from the path without ending that it is given.  Where that fails,
   // as without gnuplot, the run goes on, and the manifest's `plots_missing` says why.
   void plot(const std::string& name, const std::function<void(const std::filesystem::path& base)>& draw);
+  void plot(const std::string& name, const render::Plot& plot);
 
   // A line of progress on stderr, unless --quiet.
   void progress(const std::string& line) const;

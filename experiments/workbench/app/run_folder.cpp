@@ -150,7 +150,8 @@ FolderLock::FolderLock(const fs::path& folder)
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(handle_);
   throw Error::request(folder.string() +
-                       " is in use by another run: wait for its end, or give another folder" + " (--out)");
+                       " is in use by another run: wait for its end, or give another folder" + " (--out)")
+      .of("out", folder.string());
 }
 
 FolderLock::~FolderLock() { ::close(handle_); }

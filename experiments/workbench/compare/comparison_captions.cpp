@@ -39,11 +39,11 @@ std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>
   if (page.to >= 0) {
     const std::string& to = columns[static_cast<std::size_t>(page.to)].name;
     text += page.curvature ? " Below each, its curvature less that of " + to +
-                                 " at the same vertex and moment, on its own shape; its root mean square."
+                                 " at the same vertex and instant, on its own shape; its root mean square."
                            : " Below each, its difference to " + to + ", in colours.";
   }
   if (page.outlines)
-    text += " Last row: the outlines of all columns over each other, in the columns' colours.";
+    text += " Last row: the outlines of all columns, laid over each other, in the columns' colours.";
   return text;
 }
 

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
+#include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "render/color_map.h"
 #include "render/compare.h"
 #include "render/comparison_sheet.h"
-#include "render/plot.h"
 #include "sim/base/error.h"
 #include "sim/base/process.h"
 
@@ -199,29 +198,6 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
   run.manifest().film_missing = result.started ? result.first_error_line : "ffmpeg is not installed";
 }
 
-// The plot with a line for each column, from a file of its folder; none where the file has no rows.
-void plot_columns(Run& run, const std::string& name, render::Plot plot,
-                  const std::vector<SweepColumn>& columns,
-                  const std::function<render::Series(const SweepColumn&)>& read) {
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    render::Series series = read(columns[c]);
-    if (series.x.empty()) continue;
-    series.label = columns[c].name;
-    const render::Rgb8 color = render::method_color(c);
-    series.color = fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
-    if (c >= render::kMethodColors && series.style == render::Series::Style::line)
-      series.style = render::Series::Style::dashed;
-    plot.series.push_back(std::move(series));
-  }
-  if (!plot.series.empty()) run.plot(name, [&](const auto& base) { render::write_plot(base, plot); });
-}
-
-render::Series read_series(const SweepColumn& column, const std::string& file, const std::string& x,
-                           const std::string& y) {
-  if (!column.manifest || !fs::exists(column.folder / file)) return {};
-  return render::series_from_csv(column.folder / file, x, y, "");
-}
-
 // What the first column notes that notes anything: lists of series, of curves.
 template <class List>
 List first_list(const std::vector<SweepColumn>& columns, List (*noted)(const Manifest&)) {
@@ -236,24 +212,24 @@ void plot_series(Run& run, const std::string& title, const std::vector<SweepColu
   for (const std::string& name :
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
     const std::string word = name.substr(0, name.find(" ["));
-    render::Plot plot{title, {"time [s]"}, {name}};
-    std::replace(plot.y.label.begin(), plot.y.label.end(), '_', ' ');
-    plot_columns(run, "plot_" + word, plot, columns,
-                 [&](const SweepColumn& c) { return read_series(c, "metrics.csv", "time", word); });
+    TablePlot plot{"plot_" + word, {title, {"time [s]"}, {name}}, "metrics.csv", "time", word};
+    std::replace(plot.plot.y.label.begin(), plot.plot.y.label.end(), '_', ' ');
+    draw(run, plot, columns);
   }
 }
 
 // Tables of its own that the experiment names in its manifest.
 void plot_curves(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   for (const Curve& curve :
-       first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
-    const render::Plot plot{title, {curve.x}, {curve.y, curve.logarithmic}};
-    plot_columns(run, curve.plot, plot, columns, [&](const SweepColumn& c) {
-      render::Series series = read_series(c, curve.file, curve.x, curve.y);
-      series.style = render::Series::Style::line_and_points;
-      return series;
-    });
-  }
+       first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; }))
+    draw(run,
+         TablePlot{curve.plot,
+                   {title, {curve.x}, {curve.y, curve.logarithmic}},
+                   curve.file,
+                   curve.x,
+                   curve.y,
+                   render::Series::Style::line_and_points},
+         columns);
 }
 
 // Those of shown_numbers() that stand below a column.
@@ -280,7 +256,7 @@ void plot_answers(Run& run, const std::string& title, const std::vector<SweepCol
     if (values.size() < 2) continue;
     plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
     plot.y.high = std::max(1.0, 1.05 * *std::max_element(values.begin(), values.end()));
-    run.plot(std::string("plot_") + key, [&](const auto& base) { render::write_plot(base, plot); });
+    run.plot(std::string("plot_") + key, plot);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/compare/law_page.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/csv.h"
@@ -41,26 +40,13 @@ std::vector<Flag> drawn_number(const Scene& scene, int draw) {
 
 bool from_a_file(const Scene& scene) { return scene.cloth.shape == "file" || scene.mesh.ends_with(".obj"); }
 
-// What is the run's own, or of its pictures.
-bool is_passed_on(const Flag& flag) {
-  static const std::vector<std::string> kNames = {"out",    "json",    "quiet", "resume",    "threads",
-                                                  "errors", "explain", "look",  "reference", "export"};
-  return !flag.path.starts_with("errors.") && !std::count(kNames.begin(), kNames.end(), flag.path);
-}
-
 SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
-  std::vector<Flag> flags;
-  std::copy_if(line.flags.begin(), line.flags.end(), std::back_inserter(flags), is_passed_on);
-  flags = with_later(flags, repeat.changes);
+  std::vector<Flag> own = repeat.changes;
   // A scene's file may say otherwise.
-  flags = with_later(flags, {{"errors", "false"}, {"json", "false"}, {"no-images", "true"}});
-  flags = with_later(flags, {{"look", "cloth"}, {"export", "none"}});
-  SweepColumn column;
-  column.name = repeat.name;
-  column.words = {line.experiment};
-  for (const Flag& flag : flags) column.words.push_back("--" + flag.path + "=" + flag.text);
-  column.folder = run.folder() / "errors" / repeat.name;
-  return column;
+  own.insert(
+      own.end(),
+      {{"errors", "false"}, {"json", "false"}, {"no-images", "true"}, {"look", "cloth"}, {"export", "none"}});
+  return column_of(repeat.name, line, own, run.folder() / "errors");
 }
 
 // How the run's cloth was let go, from what it noted: "drape.release" is `release` of "drape".
@@ -78,14 +64,10 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
-Metrics metrics_of(const SweepColumn& column) {
-  return column.manifest ? column.manifest->metrics : Metrics();
-}
-
 Repeated what_came_of(const Repeat& repeat, const SweepColumn& column, const Run& run) {
   const bool unchanged = column.manifest && column.manifest->state_hash &&
                          column.manifest->state_hash == run.manifest().state_hash;
-  return {repeat, metrics_of(column), column.stopped, unchanged};
+  return {repeat, column.metrics(), column.stopped, unchanged};
 }
 
 // errors.csv: a row for each repeat.
@@ -96,7 +78,7 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
   CsvFile file(run.path("errors.csv"), head);
   for (std::size_t i = 0; i < repeats.size(); ++i) {
-    const Metrics found = metrics_of(columns[i]);
+    const Metrics found = columns[i].metrics();
     std::vector<CsvField> fields = {repeats[i].name, changes_text(repeats[i].changes)};
     for (const std::string& name : metrics) {
       const MetricValue& value = found[name];

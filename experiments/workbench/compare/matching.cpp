@@ -24,7 +24,8 @@ Match match_named(const std::string& name) {
   if (name == "fabric") return Match::fabric;
   if (name == "small-strain") return Match::small_strain;
   if (name == "energy") return Match::energy;
-  throw Error::request("match = " + name + " must be fabric | small-strain | energy");
+  throw Error::request("compare.match = " + name + " must be fabric | small-strain | energy")
+      .of("compare.match", name);
 }
 
 double bending_work(const LawRequest& law, double curvature) {
@@ -53,7 +54,8 @@ double matching_scale(const LawRequest& law, const LawRequest& reference, Match 
     if (!(scale > 0) || !std::isfinite(scale)) break;
   }
   throw Error::request("law " + law.name + " cannot be made as stiff as " + reference.name +
-                       " by scaling b1 and b2");
+                       " by scaling b1 and b2")
+      .of("law", law.name);
 }
 
 }  // namespace hysteron::experiments

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
+#include "experiments/workbench/compare/variants.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
@@ -30,8 +32,15 @@ namespace fs = std::filesystem;
 // What was asked of a finished column, and of which program: it stands in its folder.
 constexpr const char* kAsked = "asked.json";
 
+// Words after `hysteron`.
+std::vector<std::string> words_of(const CommandLine& line) {
+  std::vector<std::string> words = {line.experiment};
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return words;
+}
+
 Json asked(const SweepColumn& column) {
-  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", column.words}};
+  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
 }
 
 bool is_finished(const SweepColumn& column) {
@@ -51,7 +60,7 @@ std::vector<std::string> command_of(const SweepColumn& column, int threads, int 
   if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
   words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
   words.push_back(fs::read_symlink("/proc/self/exe").string());
-  words.insert(words.end(), column.words.begin(), column.words.end());
+  for (const std::string& word : words_of(column.line)) words.push_back(word);
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
   words.push_back("--threads=" + std::to_string(threads));
@@ -70,6 +79,7 @@ void run_column(SweepColumn& column, int threads, int gpu, bool go_on) {
   fs::remove(column.folder / kAsked, ignored);
   const ProcessResult result = run_process(command_of(column, threads, gpu), "");
   column.manifest = manifest_or_none(column.folder / "manifest.json");
+  column.exit_code = result.exit_code;
   if (!result.started) throw Error::machine("cannot start the run " + column.name);
   if (go_on && result.exit_code != 0 && result.exit_code != 3) {
     column.manifest.reset();  // of an earlier run
@@ -143,6 +153,22 @@ class Watch {
 };
 
 }  // namespace
+
+SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+                      const fs::path& out) {
+  static const std::set<std::string> kOfThePage = {"out", "json", "quiet", "resume", "threads"};
+  SweepColumn column{name, line, out / name};
+  std::erase_if(column.line.flags, [](const Flag& flag) { return kOfThePage.contains(flag.path); });
+  column.line.flags = with_later(column.line.flags, own);
+  return column;
+}
+
+void explain_columns(const std::vector<SweepColumn>& columns) {
+  for (const SweepColumn& column : columns) {
+    std::cout << column.name << ":" << std::endl;
+    experiment_named(column.line.experiment).run(column.line);
+  }
+}
 
 std::string outcome_of(const SweepColumn& column) {
   return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;

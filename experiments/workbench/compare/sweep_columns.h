@@ -13,14 +13,23 @@
 namespace hysteron::experiments {
 
 struct SweepColumn {
-  std::string name;                // its folder's
-  std::vector<std::string> words;  // after `hysteron`, without --out, --threads and what else does not matter
+  std::string name;  // its folder's
+  CommandLine line;  // without --out, --threads and what else does not matter
   std::filesystem::path folder;
   // After run_columns():
-  bool kept = false;    // from an earlier comparison
-  std::string stopped;  // why it could not go on; empty: complete
-  std::optional<Manifest> manifest;
+  bool kept = false;      // from an earlier comparison
+  std::string stopped{};  // why it could not go on; empty: complete
+  int exit_code = 0;
+  std::optional<Manifest> manifest{};
+
+  Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
 };
+
+// The line with the column's own flags, in OUT/<name>/, without what the page keeps for itself.
+SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+                      const std::filesystem::path& out);
+// Prints what each of them includes and leaves out (--explain).
+void explain_columns(const std::vector<SweepColumn>& columns);
 
 // What is not asked of the runs but of how they are run.
 struct SweepJobs {
@@ -36,7 +45,7 @@ struct SweepJobs {
 // "kept", "done", or why it stopped.
 std::string outcome_of(const SweepColumn& column);
 
-// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first moment.
+// "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first instant.
 std::string progress_in(const std::filesystem::path& folder);
 
 // `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,

@@ -23,7 +23,8 @@ ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
   std::error_code ignored;
   if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
     throw Error::request("reference = " + folder_.string() +
-                         " must be the folder of a run with pictures and --export ply (--reference)");
+                         " must be the folder of a run with pictures and --export ply (--reference)")
+        .of("reference", folder_.string());
 }
 
 std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) const {
@@ -35,7 +36,8 @@ std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) c
   if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
     throw Error::request("reference = " + folder_.string() + " has other triangles than this cloth (" +
                          std::to_string(surface.face.size()) + " and " + std::to_string(mesh.face.size()) +
-                         "): run it with the same mesh (--reference)");
+                         "): run it with the same mesh (--reference)")
+        .of("reference", folder_.string());
   return {surface.curvature.begin(), surface.curvature.end()};
 }
 

@@ -1,4 +1,4 @@
-// The room in which a scene is pictured: the cloth at one moment, its obstacles, ground, light and camera.
+// The room in which a scene is pictured: the cloth at one instant, its obstacles, ground, light and camera.
 #pragma once
 
 #include <memory>

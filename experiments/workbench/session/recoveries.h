@@ -10,9 +10,9 @@
 
 namespace hysteron::experiments {
 
-// Sees the cloth at recorded moments only: a peak between two of them is missed, and nothing is kept on the
-// device.  The reversal that counts is the last one from a moment past Ma, taken as the largest of the time
-// spent there; the tremor of a crease at rest has smaller ones, which lie on its recovery branch.
+// Sees the cloth at recorded instants only: a peak between two of them is missed, and nothing is kept on the
+// device.  The reversal that counts is the last one from past Ma; its moment is the largest of the time spent
+// there; the tremor of a crease at rest has smaller ones, which lie on its recovery branch.
 class Recoveries {
  public:
   explicit Recoveries(const Scene& scene);

@@ -19,7 +19,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// Steps between two recorded moments; at least one.
+// Steps between two recorded instants; at least one.
 int steps_per_frame(const Setup& setup) {
   return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
 }
@@ -173,20 +173,20 @@ void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
 
 Snapshot Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                          double fastest, const std::string& left) {
-  const Snapshot moment{simulation_->time(), x, fastest};
-  std::vector<double> row = {moment.time, moment.fastest};
-  for (double value : question.measure(moment)) row.push_back(value);
+  const Snapshot instant{simulation_->time(), x, fastest};
+  std::vector<double> row = {instant.time, instant.fastest};
+  for (double value : question.measure(instant)) row.push_back(value);
   for (const auto& [name, joules] : simulation_->ledger().rows()) row.push_back(joules);
   series.row(row);
-  const bool pictured = !question.pictured || question.pictured(moment);
+  const bool pictured = !question.pictured || question.pictured(instant);
   if (pictures_ && pictured) pictures_->frame(*run_);
   watch_folds(x);
   recoveries_.see(*simulation_);
   watch_intersections(x);
   if (pictured) export_mesh(meshes_++, x);
-  run_->progress(question.progress(moment) + left);
-  if (question.settled) run_->metric("fastest_m_per_s", moment.fastest);
-  return moment;
+  run_->progress(question.progress(instant) + left);
+  if (question.settled) run_->metric("fastest_m_per_s", instant.fastest);
+  return instant;
 }
 
 // Steps without inertia until one of them moves no vertex farther than kStill thicknesses.
@@ -236,10 +236,10 @@ bool Session::simulate(const Question& question) {
   for (int frame = 0;; ++frame) {
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Snapshot moment =
+    const Snapshot instant =
         record(question, series, x, fastest(x, before, stride * setup_.scene.step),
                time_left(simulation_->steps() - first_step, steps - first_step, spent, !!question.settled));
-    settled = frame > 0 && question.settled && question.settled(moment);
+    settled = frame > 0 && question.settled && question.settled(instant);
     if (settled || simulation_->steps() >= steps) break;
     simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
     before = x;
@@ -247,10 +247,6 @@ bool Session::simulate(const Question& question) {
   if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
   series.finish();
   return settled;
-}
-
-void Session::plot(const std::string& name, const render::Plot& plot) {
-  run_->plot(name, [&](const std::filesystem::path& base) { render::write_plot(base, plot); });
 }
 
 void Session::finish(const std::string& title) {

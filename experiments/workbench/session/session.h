@@ -17,11 +17,11 @@
 
 namespace hysteron::experiments {
 
-// What is known of a moment that is recorded.
+// What is known of an instant that is recorded.
 struct Snapshot {
   double time;                            // [s]
   const std::vector<Eigen::Vector3d>& x;  // positions [m]
-  double fastest;  // largest displacement since the last moment over the time between [m/s]
+  double fastest;  // largest displacement since the last instant over the time between [m/s]
 };
 
 // The experiment's own part of a run.
@@ -32,7 +32,7 @@ struct Question {
   std::function<std::vector<double>(const Snapshot&)> measure;
   std::function<bool(const Snapshot&)> settled;  // ends the run early
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
-  std::function<bool(const Snapshot&)> pictured;  // which moments are drawn and exported; empty: all of them
+  std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
 };
 
@@ -49,19 +49,18 @@ class Session {
   const Cloth& cloth() const { return cloth_; }
   const Scene& scene() const { return setup_.scene; }
   Simulation& simulation() { return *simulation_; }
-  long intersections() const { return intersections_; }  // of all recorded moments, where they are counted
+  long intersections() const { return intersections_; }  // of all recorded instants, where they are counted
   Pictures* pictures() { return pictures_.get(); }       // null with --no-images
 
-  // Simulates, records and draws, a moment per 1/fps, until the time is over or the question is settled, and
-  // then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
+  // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
+  // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const Question& question);
-  // Draws a plot as Run::plot does.
-  void plot(const std::string& name, const render::Plot& plot);
+  void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
 
  private:
-  // A moment of the series: its row, pictures and checks.
+  // An instant of the series: its row, pictures and checks.
   Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                   double fastest, const std::string& left);
   bool find_rest(const Question& question, Record& series);
@@ -83,7 +82,7 @@ class Session {
   std::vector<double> rest_angle_;
   int meshes_ = 0;  // exported so far
   Recoveries recoveries_;
-  long intersections_ = 0;  // pairs of triangles, of all recorded moments
+  long intersections_ = 0;  // pairs of triangles, of all recorded instants
   double folded_ = 0;       // largest share of sharply folded edges
 };
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/compare/comparison_table.h"
-#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/matching.h"
+#include "experiments/workbench/compare/variants.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "render/color_map.h"
 #include "render/comparison_sheet.h"
@@ -169,7 +169,7 @@ TEST(ColumnName, OfAFileIsItsStemAndStaysInItsFolder) {
   }
 }
 
-LawVariant variant(const std::string& fabric, const std::string& law) {
+Variant variant(const std::string& fabric, const std::string& law) {
   return {fabric + law, {{"fabric", fabric}, {"law", law}}};
 }
 
@@ -178,7 +178,7 @@ TEST(Variants, AreNamedAfterTheOneKeyInWhichTheyDiffer) {
   EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "linear")}), "fabric");
   EXPECT_EQ(varied_of({variant("a", "linear"), variant("b", "prandtl")}), "column");
   EXPECT_EQ(varied_of({{"", {{"integrator", "bdf2"}}}, {"", {{"integrator", "implicit"}}}}), "integrator");
-  LawVariant damped = variant("a", "linear");
+  Variant damped = variant("a", "linear");
   damped.flags.push_back({"fabric.damping", "1e-3"});
   EXPECT_EQ(varied_of({variant("a", "linear"), damped}), "fabric.damping");
   EXPECT_EQ(varied_of({variant("a", "linear"), damped, variant("a", "prandtl")}), "column");
@@ -190,9 +190,13 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   options.out = folder.path().string();
   options.quiet = true;
   ExperimentRun run({"compare", "hysteron compare", {}, {}}, options, Json::object());
-  write_comparison_table(run, "law",
-                         {{"linear", {{"turns", 3}, {"decay_shape", "plateau"}}, ""},
-                          {"prandtl", {{"turns", 2}, {"loss_J", 0.5}, {"set_m", NAN}}, "at 1 s, crushed"}});
+  std::vector<SweepColumn> columns(2);
+  columns[0].name = "linear";
+  columns[1].name = "prandtl";
+  columns[1].stopped = "at 1 s, crushed";
+  columns[0].manifest.emplace().metrics = {{"turns", 3}, {"decay_shape", "plateau"}};
+  columns[1].manifest.emplace().metrics = {{"turns", 2}, {"loss_J", 0.5}, {"set_m", NAN}};
+  write_comparison_table(run, "law", columns);
   run.finish();
   EXPECT_EQ(text_of(folder.path() / "table.csv"),
             "law,turns,loss_J,set_m,stopped\nlinear,3,,,\nprandtl,2,0.5,,\"at 1 s, crushed\"\n");

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/compare/law_page.h"
+#include "experiments/workbench/compare/variants.h"
 #include "sim/contact/penalty.h"
 #include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -64,17 +65,11 @@ nlohmann::json metrics_in(const std::filesystem::path& out) {
 TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  CommandLine line{"crease",
-                   "hysteron crease",
-                   {{"law", "linear,prandtl"},
-                    {"triangles", "200"},
-                    {"crease.hold", "0.05"},
-                    {"crease.recovery", "0.3"},
-                    {"crease.force", "5"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  EXPECT_EQ(experiment_named("crease").run(line), 0);
+  const Outcome outcome = program(
+      "crease --law linear,prandtl --triangles 200 --crease.hold 0.05 --crease.recovery 0.3 "
+      "--crease.force 5 --no-images --quiet --out " +
+      out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = text_of(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   const auto elastic = metrics_in(out / "linear"), hysteretic = metrics_in(out / "prandtl");
@@ -166,10 +161,10 @@ TEST(SoftFold, OfAPleatBeginsAtItsAngle) {
 
 CommandLine naming(std::vector<Flag> flags) { return {"crease", "hysteron crease", std::move(flags), {}}; }
 
-TEST(LawPage, HasAVariantForEveryPairOfFabricAndLaw) {
+TEST(Variants, AreThePairsOfFabricAndLaw) {
   const auto names = [](const CommandLine& line) {
     std::vector<std::string> result;
-    for (const LawVariant& variant : variants_of(line)) result.push_back(variant.name);
+    for (const Variant& variant : variants_of(line)) result.push_back(variant.name);
     return result;
   };
   using Names = std::vector<std::string>;

@@ -3,8 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/experiment.h"
-#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -12,13 +11,10 @@ namespace {
 TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  CommandLine line{
-      "crumple",
-      "hysteron crumple",
-      {{"scene", "crumple-tube"}, {"law", "linear,prandtl"}, {"triangles", "300"}, {"out", out.string()}},
-      {}};
-  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
-  EXPECT_EQ(experiment_named("crumple").run(line), 0);
+  const Outcome outcome =
+      program("crumple --scene crumple-tube --law linear,prandtl --triangles 300 --no-images --quiet --out " +
+              out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto manifest_of = [&](const char* law) {
     return nlohmann::json::parse(text_of(out / law / "manifest.json"));
   };

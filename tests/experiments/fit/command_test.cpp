@@ -11,6 +11,7 @@
 #include "sim/scene/fabric_reader.h"
 #include "tests/experiments/fit/synthetic.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -30,14 +31,9 @@ class Fit : public testing::Test {
     return experiment_named("fit").run({"fit", "hysteron fit", flags, {}});
   }
   std::string refusal(const std::vector<Flag>& flags) {
-    try {
-      fit(flags);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      EXPECT_FALSE(fs::exists(out())) << "a folder for a refused request";
-      return error.what();
-    }
-    return "accepted";
+    const std::string message = test::refusal([&] { fit(flags); });
+    EXPECT_FALSE(fs::exists(out())) << "a folder for a refused request";
+    return message;
   }
   std::string loop(const char* law, const std::vector<double>& turns) {
     const fs::path file = folder_.path() / "loop.csv";

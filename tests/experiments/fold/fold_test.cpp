@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "experiments/fold/material.h"
-#include "experiments/workbench/compare/law_page.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -156,12 +156,11 @@ nlohmann::json metrics_of(const std::filesystem::path& run) {
 TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   const Folder folder;
   const auto out = folder.path() / "run";
-  EXPECT_EQ(experiment_named("fold").run(fold_line(out, {{"law", "linear,prandtl"},
-                                                         {"triangles", "150"},
-                                                         {"fold.cycles", "3"},
-                                                         {"fold.fatigue", "1"},
-                                                         {"threads", "1"}})),
-            0);
+  const Outcome outcome = program(
+      "fold --law linear,prandtl --triangles 150 --fold.cycles 3 --fold.fatigue 1 --threads 1 --no-images "
+      "--quiet --out " +
+      out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string table = text_of(out / "table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   const auto elastic = metrics_of(out / "linear"), sound = metrics_of(out / "prandtl"),
@@ -191,6 +190,22 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
       read_csv(out / "prandtl-fatigue" / "material.csv", {"M0 [N]", "permanent_set [1/m]"}, {}, "test");
   EXPECT_TRUE(std::is_sorted(wears.columns[0].values.rbegin(), wears.columns[0].values.rend()));
   EXPECT_TRUE(std::is_sorted(wears.columns[1].values.begin(), wears.columns[1].values.end()));
+}
+
+TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
+  const Folder folder;
+  const Outcome outcome = program(
+      "fold --quick --fold.law-alone --law linear,nonsense,prandtl --fold.fatigue 0 --no-images "
+      "--quiet --out " +
+      folder.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const TextTable table = read_words(folder.path() / "table.csv");
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_NE(table.rows[1].back().find("law = nonsense must be"), std::string::npos);
+  for (const std::size_t row : {0, 2}) {
+    EXPECT_EQ(table.rows[row].back(), "");
+    EXPECT_NE(table.rows[row][1], "");
+  }
 }
 
 TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {

@@ -8,6 +8,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -24,14 +25,9 @@ class LawCommand : public ::testing::Test {
 
   void write(const std::string& text) { std::ofstream(options_.in) << text; }
   std::string refusal() {
-    try {
-      run_law_command(options_);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      EXPECT_FALSE(std::filesystem::exists(options_.out));
-      return error.what();
-    }
-    return "";
+    const std::string message = test::refusal([&] { run_law_command(options_); });
+    EXPECT_FALSE(std::filesystem::exists(options_.out));
+    return message;
   }
   std::filesystem::path folder_;
   LawOptions options_;

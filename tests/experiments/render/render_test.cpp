@@ -12,6 +12,7 @@
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -29,19 +30,12 @@ int rendered(const fs::path& out, const std::vector<std::string>& names, FlagLis
   return experiment_named("render").run({"render", "hysteron render", flags, names});
 }
 
-// The message of a refusal; fails the test if there is none or it is no request's.
+// The message of a refusal, before anything is written.
 std::string refusal(const std::vector<std::string>& names, const FlagList& flags = {}) {
   const Folder folder;
-  try {
-    rendered(folder.path() / "out", names, flags);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    EXPECT_FALSE(fs::exists(folder.path() / "out")) << "refused before anything is written";
-    return error.what();
-  }
-  ADD_FAILURE() << "not refused";
-  return "";
+  const std::string message = test::refusal([&] { rendered(folder.path() / "out", names, flags); });
+  EXPECT_FALSE(fs::exists(folder.path() / "out"));
+  return message;
 }
 
 std::string write(const fs::path& file, const std::string& text) {

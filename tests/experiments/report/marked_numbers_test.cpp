@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -38,12 +39,7 @@ class MarkedNumbers : public testing::Test {
   std::string number(const std::string& source) const { return number_from(source, root_.path()); }
   // The message of the error that the source ends in.
   std::string refusal(const std::string& source) const {
-    try {
-      return "no error, but " + number(source);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      return error.what();
-    }
+    return test::refusal([&] { number(source); });
   }
   fs::path page() const { return root_.path() / "docs/angles.md"; }
   void write_page(const std::string& source, const std::string& value) const {

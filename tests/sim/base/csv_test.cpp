@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "sim/base/error.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -24,15 +25,8 @@ class Csv : public ::testing::Test {
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
-  std::string refusal(const std::string& text, int exit_code = 2) {
-    try {
-      read_csv(file(text), {"curvature [1/m]"}, {"time [s]"}, "law");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), exit_code);
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "";
+  std::string refusal(const std::string& text) {
+    return test::refusal([&] { read_csv(file(text), {"curvature [1/m]"}, {"time [s]"}, "law"); });
   }
   std::filesystem::path folder_;
 };

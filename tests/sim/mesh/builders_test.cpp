@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/mesh/mesh_measures.h"
 
 namespace hysteron {
@@ -137,10 +138,7 @@ TEST(MeshFamilyName, UnknownOneListsTheKnown) {
 
 TEST(RectangleRequest, ImpossibleOnesAreRefusedByName) {
   const auto refusal = [](double length, double width, int triangles) {
-    const Error error =
-        test::error_of([&] { make_rectangle(length, width, triangles, MeshFamily::aligned, 0); });
-    EXPECT_EQ(error.exit_code(), 2);
-    return std::string(error.what());
+    return test::refusal([&] { make_rectangle(length, width, triangles, MeshFamily::aligned, 0); });
   };
   EXPECT_EQ(refusal(-1, 1, 10), "rectangle mesh: length = -1 m must be > 0");
   EXPECT_EQ(refusal(1, NAN, 10), "rectangle mesh: width = nan m must be > 0");

@@ -12,6 +12,7 @@
 #include "render/image.h"
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -61,14 +62,7 @@ class Gallery : public testing::Test {
   std::string page() const { return gallery_page(results_); }
   // The message of the error that the page ends in.
   std::string refusal() const {
-    try {
-      page();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      return error.what();
-    }
-    return "";
+    return test::refusal([&] { page(); });
   }
 
   Folder folder_;

@@ -1,0 +1,22 @@
+// A comparison from its columns to its table, as every page of several variants has it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/sweep_columns.h"
+
+namespace hysteron::experiments {
+
+// Runs the columns and writes their table.  Throws what run_columns() throws.
+void run_comparison(Run& run, const std::string& varied, std::vector<SweepColumn>& columns,
+                    const SweepJobs& jobs, const std::vector<std::string>& metrics = {});
+
+// table.csv: `varied` heads the first column, "law", "fabric".  Then one for each of the metrics, or of all
+// numbers that any column of the comparison has, in the order in which they come, and `stopped`.  Each number
+// becomes the run's metric NAME.metric.  Throws Error::machine if the file cannot be written.
+void write_comparison_table(Run& run, const std::string& varied, const std::vector<SweepColumn>& columns,
+                            const std::vector<std::string>& metrics = {});
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,62 @@
+#include "experiments/workbench/compare/variant_page.h"
+
+#include "experiments/workbench/compare/comparison.h"
+#include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/report.h"
+#include "render/contact_sheet.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// "" where there is none.
+fs::path picture_of(const VariantPage& page, const SweepColumn& column) {
+  if (!page.picture.empty())
+    return is_there(column.folder / page.picture) ? column.folder / page.picture : fs::path();
+  const std::vector<fs::path> frames = files_ending(column.folder / "frames", ".png");
+  return frames.empty() ? fs::path() : frames.back();
+}
+
+void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
+  std::vector<render::SheetEntry> entries;
+  for (const SweepColumn& column : columns) {
+    const fs::path picture = column.stopped.empty() ? picture_of(page, column) : fs::path();
+    if (!picture.empty())
+      entries.push_back({render::read_png(picture), column.name + ": " + page.caption(column.metrics())});
+  }
+  if (!entries.empty())
+    render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {page.title}),
+                      render::PngEffort::best);
+  for (TablePlot plot : page.plots) {
+    plot.plot.title = page.title;
+    draw(run, plot, columns);
+  }
+}
+
+}  // namespace
+
+int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
+                 VariantPage (*page_of)(const CommandLine&, std::vector<Variant>&)) {
+  std::vector<Variant> variants = variants_of(line);
+  if (variants.size() == 1) return once(line), 0;
+  VariantPage page = page_of(without_lists(line), variants);
+  const Scene& scene = page.setup.scene;
+  if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
+  std::vector<SweepColumn> columns;
+  for (const Variant& variant : variants)
+    columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
+  if (page.setup.options.explain) return explain_columns(columns), 0;
+  page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
+  for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
+  Run run(line, page.setup.options, page.keys);
+  const SweepJobs jobs{.threads = scene.threads, .gpu = scene.device != DeviceChoice::cpu, .go_on = true};
+  run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
+  for (const SweepColumn& column : columns)
+    if (column.exit_code == 1) throw Error::machine(column.name + ": " + column.stopped);
+  if (!page.setup.options.no_images) draw_page(run, page, columns);
+  finish_with_report(run);
+  return 0;
+}
+
+}  // namespace hysteron::experiments

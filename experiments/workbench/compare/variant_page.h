@@ -1,0 +1,30 @@
+// The page of an experiment that is asked for several laws, fabrics or integrators: OUT/<name>/ as the
+// experiment alone would write it, and table.csv, sheet.png and plots for all.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/compare/table_plot.h"
+#include "experiments/workbench/compare/variants.h"
+
+namespace hysteron::experiments {
+
+struct VariantPage {
+  std::string title;                       // "Crease recovery"
+  Setup setup;                             // of the line without lists
+  Json keys;                               // what else the manifest keeps
+  std::vector<std::string> metrics;        // of the table
+  std::string (*caption)(const Metrics&);  // below a column's picture, after its name
+  std::vector<TablePlot> plots;            // titled by the page
+  std::string picture{};                   // in a column's folder; "": the last of its frames
+};
+
+// Runs the experiment `once`, or its page where the line names several variants.  `page_of` makes it from the
+// line without lists, and may change the variants.  A column that cannot go on has its message in the table.
+// Throws Error::request, and Error::machine where that happens to a column.  Returns the exit code.
+int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
+                 VariantPage (*page_of)(const CommandLine& first, std::vector<Variant>& variants));
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,145 @@
+#include "experiments/workbench/compare/variants.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "sim/base/error.h"
+#include "sim/scene/assets.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// What the flag sets.
+std::string key_of(const Flag& flag) { return flag.path == "fabric.name" ? "fabric" : flag.path; }
+
+bool is_list(const Flag& flag) {
+  const std::string key = key_of(flag);
+  return (key == "law" || key == "fabric" || key == "integrator") &&
+         (flag.text == "all" || flag.text.find_first_of(",+") != std::string::npos);
+}
+
+// What the last flag of that key names, `all` being `every`; one empty name without the flag.
+std::vector<std::string> names_in(const CommandLine& line, const std::string& key,
+                                  const std::vector<std::string>& every) {
+  std::string text;
+  for (const Flag& flag : line.flags)
+    if (key_of(flag) == key) text = flag.text;
+  if (text.empty()) return {""};
+  return listed(text, every);
+}
+
+// "linear" is --law linear; "linear+fabric.damping=1e-3" is --fabric.damping 1e-3 besides.
+void add_flags(std::vector<Flag>& flags, const std::string& path, const std::string& text) {
+  std::istringstream parts(text);
+  std::string part;
+  std::getline(parts, part, '+');
+  flags.push_back({path, part});
+  while (std::getline(parts, part, '+')) {
+    const std::size_t equals = part.find('=');
+    if (equals == part.npos)
+      throw Error::request(text + ": \"" + part + "\" must be key=value").of(path, text);
+    flags.push_back({part.substr(0, equals), part.substr(equals + 1)});
+  }
+}
+
+// Each variant with each of the names, which stand in its own name where there are several.
+std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std::string& path,
+                                const std::vector<std::string>& names) {
+  std::vector<Variant> result;
+  for (const Variant& variant : variants)
+    for (const std::string& name : names) {
+      Variant one = variant;
+      if (names.size() > 1 && name.empty())
+        throw Error::request(path + " has a comma without a name before it (--" + path + ")").of(path, "");
+      if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + column_name(name);
+      if (!name.empty()) add_flags(one.flags, path, name);
+      result.push_back(std::move(one));
+    }
+  return result;
+}
+
+bool are_same(const std::vector<Flag>& a, const std::vector<Flag>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Flag& x, const Flag& y) { return x.path == y.path && x.text == y.text; });
+}
+
+// Each has a folder: those of files with equal stems are numbered.
+void name_apart(std::vector<Variant>& variants) {
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    std::string& name = variants[i].name;
+    for (std::size_t j = 0; j < i; ++j)
+      if (are_same(variants[i].flags, variants[j].flags))
+        throw Error::request(name + " is named twice: columns must differ");
+    const std::string stem = name;
+    for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);
+  }
+}
+
+}  // namespace
+
+std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later) {
+  std::erase_if(flags, [&](const Flag& flag) {
+    return std::any_of(later.begin(), later.end(),
+                       [&](const Flag& own) { return key_of(own) == key_of(flag); });
+  });
+  flags.insert(flags.end(), later.begin(), later.end());
+  return flags;
+}
+
+std::vector<Variant> variants_of(const CommandLine& line) {
+  const std::vector<std::string> every_law = law_names();
+  std::vector<Variant> variants = {{"", {}}};
+  const std::pair<const char*, std::vector<std::string>> keys[] = {
+      {"fabric", list_assets("fabrics")},
+      {"law", every_law},
+      {"integrator", {"semi-implicit", "implicit", "bdf2"}}};
+  for (const auto& [key, every] : keys) variants = multiplied(variants, key, names_in(line, key, every));
+  if (variants.size() == 1 && last_text(line.flags, "law", "") != "")
+    variants[0].name = column_name(names_in(line, "law", every_law)[0]);
+  name_apart(variants);
+  return variants;
+}
+
+std::string column_name(const std::string& text) {
+  std::istringstream parts(text);
+  std::string name;
+  for (std::string part; std::getline(parts, part, '+');) {
+    const std::size_t value = part.find('=') + 1;  // 0 without one
+    const std::filesystem::path file = part.substr(value);
+    const bool is_file = file.has_parent_path() || file.extension() == ".toml";
+    name += (name.empty() ? "" : "+") + part.substr(0, value) + (is_file ? file.stem() : file).string();
+  }
+  return name.empty() || name.front() == '.' ? "column" + name : name;
+}
+
+std::string varied_of(const std::vector<Variant>& variants) {
+  std::map<std::string, std::set<std::string>> texts;
+  for (const Variant& variant : variants)
+    for (const Flag& flag : variant.flags) texts[key_of(flag)];
+  for (auto& [key, known] : texts)
+    for (const Variant& variant : variants) {
+      std::string own;
+      for (const Flag& flag : variant.flags)
+        if (key_of(flag) == key) own = flag.text;
+      known.insert(own);
+    }
+  std::erase_if(texts, [](const auto& text) { return text.second.size() < 2; });
+  return texts.size() == 1 ? texts.begin()->first : "column";
+}
+
+CommandLine without_lists(const CommandLine& line) {
+  CommandLine one = line;
+  std::erase_if(one.flags, is_list);
+  return one;
+}
+
+bool lists_fabrics(const CommandLine& line) {
+  return std::any_of(line.flags.begin(), line.flags.end(),
+                     [](const Flag& flag) { return key_of(flag) == "fabric" && is_list(flag); });
+}
+
+}  // namespace hysteron::experiments

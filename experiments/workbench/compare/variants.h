@@ -1,0 +1,33 @@
+// What a comparison compares: one experiment under each of several laws, with each of several fabrics or
+// integrators.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+// What differs from the line: a law, a fabric, further flags.
+struct Variant {
+  std::string name;
+  std::vector<Flag> flags;
+};
+
+// What --fabric, --law and --integrator name, each `all` or names separated by commas: every combination of
+// them. A name may carry further keys for itself: "linear+fabric.damping=1e-3".  One variant, without a name
+// where nothing is named, where none is a list.  Throws Error::request where two are the same.
+std::vector<Variant> variants_of(const CommandLine& line);
+// Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
+// "wool".
+std::string column_name(const std::string& text);
+// The one key in which they differ: "law", "fabric", "integrator"; "column" where it is several.
+std::string varied_of(const std::vector<Variant>& variants);
+// The flags and behind them the later ones, which take the place of those that set the same.
+std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
+// The line without lists: what the page itself is set up with.
+CommandLine without_lists(const CommandLine& line);
+bool lists_fabrics(const CommandLine& line);
+
+}  // namespace hysteron::experiments
