@@ -99,7 +99,7 @@ void name_apart(std::vector<LawVariant>& variants) {
   }
 }
 
-void write_table(Run& run, const std::string& varied, const std::vector<Finding>& all) {
+void write_findings(Run& run, const std::string& varied, const std::vector<Finding>& all) {
   std::vector<ComparisonRow> rows;
   for (const Finding& f : all) {
     rows.push_back({f.law, {}, f.failed});
@@ -220,7 +220,7 @@ int compare_laws(const CommandLine& line, const Setup& setup, const Json& keys, 
     }
     run.progress(law.name + ": " + (finding.failed.empty() ? finding.outcome.caption : finding.failed));
     all.push_back(std::move(finding));
-    write_table(run, varied_of(page.laws), all);
+    write_findings(run, varied_of(page.laws), all);
   }
   if (!options.no_images) draw(run, page, all);
   finish_with_report(run);
