@@ -4,10 +4,10 @@
 option(HYSTERON_UNITY "Compile sources of one folder together: OFF for work on one of them, and for clang-tidy" ON)
 
 # hysteron_parse_once(TARGET HEADER...): these headers are parsed once for the whole target, with its own flags.  g++
-# would search all of them for garbage every few seconds; with more memory it does so less often, for the same objects.
+# would search all of them for garbage every few seconds; with more memory it does so less often, with the same result.
 function(hysteron_parse_once target)
-  target_compile_options(${target} PRIVATE
-    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=400> $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1500000>)
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-expand=400>
+                                           $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1500000>)
   target_precompile_headers(${target} PRIVATE ${ARGN})
 endfunction()
 
