@@ -9,7 +9,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr Rgb8 kPaper{255, 255, 255};
+constexpr Rgb8 kSheetPaper{255, 255, 255};
 constexpr int kLeastCellWidth = 32;
 
 struct Page {
@@ -77,7 +77,7 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& l
     throw Error::request("contact sheet: " + std::to_string(page.columns) + " columns in " +
                          std::to_string(layout.width) + " pixels leave " + std::to_string(page.cell_width) +
                          " for a picture; at least " + std::to_string(kLeastCellWidth) + " are needed");
-  Image sheet(page.width(), page.height(), kPaper);
+  Image sheet(page.width(), page.height(), kSheetPaper);
   const auto letters = static_cast<float>(page.letters);
   if (!layout.title.empty())
     draw_text(sheet, layout.title, static_cast<float>(page.gap),

@@ -11,12 +11,12 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kTurn = 0.6, kSettle = 0.1;  // durations [s]
-constexpr int kKeys = 36;                     // of the hand's way around the rod
-constexpr double kGrip = 0.2;                 // of the specimen's length, at either end
-constexpr double kAbove = 2e-3;               // of the strip over z = 0 [m]
-constexpr double kSlack = 2e-4;               // of the way around the rod that is left loose
-constexpr double kPleatRadius = 1.5;          // of the pleat's line, in thicknesses
+constexpr double kTurn = 0.6, kRest = 0.1;  // durations [s]
+constexpr int kKeys = 36;                   // of the hand's way around the rod
+constexpr double kHeldShare = 0.2;          // of the specimen's length, at either end
+constexpr double kAbove = 2e-3;             // of the strip over z = 0 [m]
+constexpr double kSlack = 2e-4;             // of the way around the rod that is left loose
+constexpr double kPleatRadius = 1.5;        // of the pleat's line, in thicknesses
 
 // The hand turns about the rod's axis and comes nearer to it as the rod takes up cloth.
 Motion around_rod(double radius, const Eigen::Vector3d& axis_at) {
@@ -55,7 +55,7 @@ Motion unfolding(double begin, double radius, double turn) {
 CreaseTimes times_of(const CreaseChoice& choice) {
   CreaseTimes times{};
   times.folded = kTurn;
-  times.pressed = times.folded + kSettle;
+  times.pressed = times.folded + kRest;
   times.released = times.pressed + choice.hold;
   times.lifted = times.released;  // no plate
   times.end = times.lifted + choice.recovery;
@@ -83,7 +83,7 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   Scene& scene = crease.scene;
   const double limbs = scene.cloth.length, taken = std::numbers::pi * choice.radius;
   scene.cloth.length = limbs + taken;
-  crease.grip = kGrip * limbs / scene.cloth.length;
+  crease.grip = kHeldShare * limbs / scene.cloth.length;
   const double shell = choice.radius + scene.fabric.thickness;  // of the cloth's middle around the rod
   const Eigen::Vector3d axis_at{limbs / 2, scene.cloth.width / 2, kAbove + shell};
   Obstacle rod;
@@ -94,10 +94,10 @@ Crease wrapped(const Scene& given, const CreaseChoice& choice) {
   rod.height = 2 * scene.cloth.width;
   rod.until = crease.times.released;
   scene.obstacle = {rod};
-  Pin hand = held_between(scene.cloth.length - kGrip * limbs, 2 * scene.cloth.length);
+  Pin hand = held_between(scene.cloth.length - kHeldShare * limbs, 2 * scene.cloth.length);
   hand.until = crease.times.released;
   hand.motion = around_rod(shell, axis_at);
-  scene.pin = {held_between(-1, kGrip * limbs), hand};
+  scene.pin = {held_between(-1, kHeldShare * limbs), hand};
   return finished(std::move(crease), crease_specimen(scene, taken / 2));
 }
 
@@ -122,7 +122,7 @@ Crease pleated(const Scene& given, const CreaseChoice& choice) {
   Pin clamp = crease_clamp(scene), hand;
   hand.low = hand.high = mesh.rest.back();
   for (std::size_t i = 0; i < mesh.rest.size(); ++i)
-    if (mesh.pattern[i].x() >= (1 - kGrip) * length) {
+    if (mesh.pattern[i].x() >= (1 - kHeldShare) * length) {
       hand.low = hand.low.cwiseMin(mesh.rest[i]);
       hand.high = hand.high.cwiseMax(mesh.rest[i]);
     }

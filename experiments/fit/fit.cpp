@@ -32,7 +32,7 @@ struct FitFlags {
 };
 
 constexpr double kSameResidual = 1e-4;    // relative: what numerical differences leave
-constexpr double kRounding = 1e-9;        // residuals below this share of the largest moment are none
+constexpr double kNoResidual = 1e-9;      // residuals below this share of the largest moment are none
 constexpr double kLikelihoodFall = 3.84;  // twice the logarithm of the likelihood, 95 % (Wilks 1938)
 
 using F = FitFlags;
@@ -94,7 +94,7 @@ struct Answer {
 // The best first; laws that the data do not tell apart stay in the order in which they were asked for.
 void rank(std::vector<Identification>& fits) {
   const auto digits = [](const Identification& fit) {
-    return std::lround(std::log(fit.residual_rms() / fit.largest_moment() + kRounding) / kSameResidual);
+    return std::lround(std::log(fit.residual_rms() / fit.largest_moment() + kNoResidual) / kSameResidual);
   };
   std::stable_sort(fits.begin(), fits.end(),
                    [&](const auto& a, const auto& b) { return digits(a) < digits(b); });
@@ -103,7 +103,7 @@ void rank(std::vector<Identification>& fits) {
   std::vector<std::string> alike;
   for (std::size_t i = 1; i < fits.size(); ++i) {
     const double ratio =
-        fits[i].residual_rms() / std::max(best.residual_rms(), kRounding * best.largest_moment());
+        fits[i].residual_rms() / std::max(best.residual_rms(), kNoResidual * best.largest_moment());
     if (2 * rows * std::log(ratio) <= kLikelihoodFall) alike.push_back(fits[i].law);
   }
   if (!alike.empty()) {

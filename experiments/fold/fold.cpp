@@ -70,11 +70,11 @@ Request read(const CommandLine& line) {
   return request;
 }
 
-std::string law_of(const Scene& scene) {
+std::string law_words(const Scene& scene) {
   return scene.law + (scene.param.contains("fatigue.dc") ? " with fatigue" : "");
 }
 
-std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law_of(scene); }
+std::string what(const Scene& scene) { return scene.fabric.name + ", law " + law_words(scene); }
 
 using Numbers = std::vector<std::pair<std::string, double>>;
 

@@ -11,7 +11,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBegin = "<!-- keys:begin -->", kEnd = "<!-- keys:end -->";
+constexpr std::string_view kKeysBegin = "<!-- keys:begin -->", kKeysEnd = "<!-- keys:end -->";
 
 // A cell must not end at a bar.
 std::string cell(const std::string& text) {
@@ -68,12 +68,12 @@ std::vector<KeyPage> key_pages(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
     if (entry.path().extension() != ".md") continue;
     KeyPage page{entry.path(), whole_file(entry.path(), "cannot read " + entry.path().string())};
-    const std::size_t begin = page.text.find(kBegin), first = begin + kBegin.size();
+    const std::size_t begin = page.text.find(kKeysBegin), first = begin + kKeysBegin.size();
     if (begin == page.text.npos) continue;
-    const std::size_t end = page.text.find(kEnd, first);
+    const std::size_t end = page.text.find(kKeysEnd, first);
     if (end == page.text.npos)
-      throw Error::request(page.file.string() + " has " + std::string(kBegin) + " without " +
-                           std::string(kEnd) + " below it");
+      throw Error::request(page.file.string() + " has " + std::string(kKeysBegin) + " without " +
+                           std::string(kKeysEnd) + " below it");
     const std::string tables = "\n" + key_tables();
     page.stale = page.text.compare(first, end - first, tables) != 0;
     page.text.replace(first, end - first, tables);

@@ -21,7 +21,7 @@ constexpr double kGrowing = 2;        // energy of the second half over the firs
 // Below the limit the true energy is at most 1/(1 - r^2) times the one that symplectic Euler conserves, with
 // r the step over the limit: 100 at r = 0.995.  Beyond it waves grow until the implicit membrane holds them.
 constexpr double kLargest = 100;
-constexpr int kLooks = 200;  // times that the energy is measured: what blows up makes the solver slow
+constexpr int kEnergyLooks = 200;  // times that the energy is measured: what blows up makes the solver slow
 
 const std::vector<double> kLinear = {1e-9}, kCoupled = {1e-9, 2e-4};  // [m] see LimitCondition::amplitudes
 const LimitCondition kConditions[] = {
@@ -87,9 +87,9 @@ bool is_bounded(const LimitCase& of, double amplitude, double step, int substeps
   const double initial = energy(*simulation);
   double half[2] = {initial, 0};
   try {
-    for (int look = 0; look < kLooks; ++look) {
-      simulation->advance(substeps / kLooks);
-      double& most = half[2 * look / kLooks];
+    for (int look = 0; look < kEnergyLooks; ++look) {
+      simulation->advance(substeps / kEnergyLooks);
+      double& most = half[2 * look / kEnergyLooks];
       most = std::max(most, energy(*simulation));
       if (!(most < kLargest * initial) || half[1] > kGrowing * half[0]) return false;
     }

@@ -8,7 +8,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kLength = 0.2;  // [m]
+constexpr double kSide = 0.2;  // [m]
 
 // 1e-8, "1e-8": a decade a tick.
 SweepAxis decades(const std::string& label, int from, int to, int every) {
@@ -37,9 +37,9 @@ Pin pin_at(double x, double y) {
 // A square held level by two corners and let go: it swings down, folds and sways.
 Scene falling_square() {
   Scene scene = default_scene();
-  scene.cloth.length = kLength;
+  scene.cloth.length = kSide;
   scene.triangles = 128;
-  scene.pin = {pin_at(0, kLength), pin_at(kLength, kLength)};
+  scene.pin = {pin_at(0, kSide), pin_at(kSide, kSide)};
   return scene;
 }
 

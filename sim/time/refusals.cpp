@@ -56,7 +56,7 @@ std::vector<std::string> pressing(Body<Real, Device>& body, int vertex, const Ei
       by.push_back("obstacle[" + std::to_string(set.item[o].index) + "] (" +
                    name_of(scene.obstacle[set.item[o].index].kind) + ")");
   if (body.self_contact && body.self_contact->pairs() > 0 && body.self_contact->forces()[vertex].norm() > 0)
-    by.push_back("the cloth itself");
+    by.emplace_back("the cloth itself");
   return by;
 }
 

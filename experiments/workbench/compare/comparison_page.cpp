@@ -233,7 +233,7 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
 }
 
 // Those of shown_numbers() that stand below a column.
-std::vector<std::string> metrics_of(const SweepColumn& column) {
+std::vector<std::string> own_metrics(const SweepColumn& column) {
   std::vector<std::string> keys;
   if (!column.manifest) return keys;
   const Metrics& metrics = column.manifest->metrics;
@@ -273,7 +273,7 @@ std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns) 
   for (const ShownNumber& number : shown_numbers()) {
     const char* key = number.metric;
     const bool shown = std::any_of(columns.begin(), columns.end(), [&](const SweepColumn& c) {
-      const std::vector<std::string> own = metrics_of(c);
+      const std::vector<std::string> own = own_metrics(c);
       return std::find(own.begin(), own.end(), key) != own.end();
     });
     if (shown) keys.push_back(key);
@@ -286,7 +286,7 @@ std::vector<std::string> numbers_of(const SweepColumn& column) {
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest) return lines;
   const Metrics& metrics = column.manifest->metrics;
-  for (const std::string& key : metrics_of(column)) {
+  for (const std::string& key : own_metrics(column)) {
     lines.push_back(metrics[key].is_text() ? split_unit(key).name + " " + metrics[key].text()
                                            : metric_text(key, metrics[key].number()));
     if (is_headline(metrics, key)) lines.push_back(headline_words(metrics, key).errors);

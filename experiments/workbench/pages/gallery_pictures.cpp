@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr int kWidth = 900;                        // [pixels] of an embedded picture
 constexpr std::uintmax_t kLargestDrawing = 60000;  // [byte] SVG files above this are linked, and shown as PNG
-constexpr int kMostFrames = 12;
+constexpr int kExhibitFrames = 12;
 
 // What names of files mean, see Options::look and Options::light.
 std::string words_of(std::string stem) {
@@ -124,8 +124,8 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
     const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
     (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture, form);
   }
-  return large + player(exhibit.folder, exhibit.name + "/", kMostFrames, form) + html_group("grid", beside) +
-         html_group("grid wide", plots);
+  return large + player(exhibit.folder, exhibit.name + "/", kExhibitFrames, form) +
+         html_group("grid", beside) + html_group("grid wide", plots);
 }
 
 }  // namespace hysteron::experiments

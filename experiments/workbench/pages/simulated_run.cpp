@@ -38,7 +38,7 @@ Said said_by(const Fact& fact, const std::vector<std::string>& names,
 
 std::string grouped(long count) {
   std::string text = std::to_string(count);
-  for (int at = static_cast<int>(text.size()) - 3; at > (count < 0); at -= 3) text.insert(at, ",");
+  for (int at = static_cast<int>(text.size()) - 3; at > (count < 0); at -= 3) text.insert(at, 1, ',');
   return text;
 }
 
