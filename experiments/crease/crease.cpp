@@ -41,7 +41,7 @@ Setup defaults() {
   // Of what the clamp carries, without the plate's 10 N: with 1e-6 the angle is the same to 0.1 degree.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-6;
-  scene.contact_stiffness = 1e9;  // plates: 10 N sink 7 % of a thickness into them
+  scene.contact_stiffness = 1e9;  // of plates, which bear 10 N: what they press are the layers
   setup.options.fps = 30;
   setup.options.camera_direction = {0.25, -1.0, 0.2};
   setup.options.camera_fov = 22;

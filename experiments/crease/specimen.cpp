@@ -7,7 +7,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/recovery.h"
-#include "sim/contact/penalty.h"
+#include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 #include "sim/time/simulation.h"
 
@@ -129,11 +129,12 @@ double Crease::plate_force(const std::vector<Eigen::Vector3d>& x, double time) c
   if (scene.obstacle.size() < 2) return 0;
   const Obstacle& plate = scene.obstacle[1];
   const double underside = placement(plate.motion, time)(plate.center).z() - plate.size.z();
+  const ObstacleShell<double> shell = obstacle_shell(scene);
   double force = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const bool under = (x[i] - plate.center).cwiseAbs().x() < plate.size.x();
-    const double depth = scene.fabric.thickness - (underside - x[i].z());
-    if (under && depth > 0) force += contact_stiffness_per_area(scene) * cloth.mesh.vertex_area[i] * depth;
+    const double distance = underside - x[i].z();
+    if (under && distance < shell.thickness) force -= cloth.mesh.vertex_area[i] * shell.at(distance).slope;
   }
   return force;
 }

@@ -8,7 +8,7 @@
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
 #include "sim/base/error.h"
-#include "sim/contact/penalty.h"
+#include "sim/contact/compression.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -56,9 +56,6 @@ Setup defaults() {
   // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-5;
-  // A quarter of what a scene takes for cotton broad: a third fewer of Newton's iterations, the coefficient
-  // to 0.02 points.  At 1e6 limp cloth sinks in by more than its thickness.
-  scene.contact_stiffness = 1e7;
   setup.options.camera_direction = {0.35, -1.0, 0.62};
   setup.options.camera_fov = 24;
   return setup;
@@ -78,8 +75,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice) {
   // apparatus, and the plate throws nothing up when it goes down.
   constexpr double kOwnWeights = 4;
   const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
-  const double shell = std::max(scene.fabric.thickness / 2,
-                                scene.fabric.thickness - pressure / contact_stiffness_per_area(scene));
+  const double shell = distance_under(obstacle_shell(scene), pressure);
   scene.cloth.position = {0, 0, shell};
   Obstacle pedestal;
   pedestal.kind = ObstacleKind::cylinder;

@@ -18,13 +18,13 @@ struct Barrier {
   Real energy, slope, stiffness;  // [J/m^2], by distance [N/m^2], [N/m^3]; slope <= 0 <= stiffness
 };
 
-inline constexpr double kStiffest = 0.05;  // share of the range below which the stiffness stays
+inline constexpr double kStiffest = 0.05;
 
-// Of a gap below the range; k [N/m^3].
+// Of a gap below the range; k [N/m^3].  The stiffness stays below `stiffest` of the range.
 template <class Real>
-HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range) {
+HYST_HD Barrier<Real> barrier(Real k, Real gap, Real range, Real stiffest = static_cast<Real>(kStiffest)) {
   using std::log;
-  const Real closest = static_cast<Real>(kStiffest) * range, beyond = gap < closest ? gap - closest : Real(0);
+  const Real closest = stiffest * range, beyond = gap < closest ? gap - closest : Real(0);
   const Real u = (gap - beyond) / range, w = u - 1, ln = log(u);
   const Real energy = -k * range * range * w * w * ln, slope = -k * range * (2 * w * ln + w * w / u),
              stiffness = k * (w * w / (u * u) - 4 * w / u - 2 * ln);

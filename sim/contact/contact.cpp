@@ -2,15 +2,22 @@
 
 #include <numeric>
 
-#include "sim/contact/penalty.h"
 #include "sim/contact/touch.h"
 
 namespace hysteron {
 
 namespace {
 
-// Tangential over normal penalty stiffness.
+// Most of the stiffness of friction's stop, over that of the shell at its stiffest.
 constexpr double kTangential = 0.5;
+
+template <class Real>
+ContactModel<Real> contact_model(const Scene& scene) {
+  const ObstacleShell<double> shell = obstacle_shell(scene);
+  return {{static_cast<Real>(shell.thickness), static_cast<Real>(shell.k)},
+          static_cast<Real>(kElasticSlip * shell.thickness),
+          static_cast<Real>(kTangential * shell.stiffest())};
+}
 
 }  // namespace
 
@@ -19,19 +26,17 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
     : device_(device),
       obstacle_(scene.obstacle),
       fabric_friction_(scene.fabric.friction),
-      shell_(static_cast<Real>(scene.fabric.thickness)),
+      model_(contact_model<Real>(scene)),
       vertices_(mesh.vertices()),
       area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())),
       slip_(device, vertices_),
       touching_(device, vertices_),
       spared_(device, vertices_),
+      stored_(device, vertices_),
       loss_(device, vertices_),
       work_(device, vertices_),
       energy_(device, vertices_),
-      deep_(device, 1) {
-  stiffness_ = static_cast<Real>(contact_stiffness_per_area(scene));
-  tangential_ = static_cast<Real>(kTangential) * stiffness_;
-}
+      inside_(device, 1) {}
 
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
@@ -41,7 +46,7 @@ void Contact<Real, Device>::move(double start, double end) {
 template <class Real, class Device>
 void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
                                 Mat3<Real>* diagonal) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   const Vec3<Real>* slipped = slip_.data();
@@ -51,7 +56,7 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
         const Touch<Real> t = touch(set, model, x[i], area[i]);
         if (t.index < 0) return;
         const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-        const Real kt = model.tangential * area[i] * s.share;
+        const Real kt = s.stiffness * s.share;
         rhs[i] += step * (t.normal_force - kt * s.trial);
         if (!diagonal) return;
         diagonal[i] += step * step *
@@ -61,48 +66,49 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
 
 template <class Real, class Device>
 int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before, const char* held) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   Vec3<Real>* slipped = slip_.data();
   int* touching = touching_.data();
-  double *loss = loss_.data(), *work = work_.data(), *deep = deep_.data();
+  double *stored = stored_.data(), *loss = loss_.data(), *work = work_.data(), *inside = inside_.data();
   const char* spared = spared_.data();
   for_each_sum<1>(
       device_, "contact history", vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         const Touch<Real> t = touch(set, model, x[i], area[i]);
-        const Real k = model.tangential * area[i];
         if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
-          loss[i] += static_cast<double>(k * slipped[i].squaredNorm() / 2);
+          loss[i] += stored[i];
+          stored[i] = 0;
           slipped[i].setZero();
         }
         touching[i] = t.index + 1;
         if (t.index < 0) return;
-        const bool too_deep = t.strongest > 2 * model.shell * model.stiffness * area[i];
-        if (too_deep && !(held[i] && spared[i])) sums.term[0] += 1;
+        if (t.inside && !(held[i] && spared[i])) sums.term[0] += 1;
         const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+        // The stop's stiffness follows the pressure: what the work done on it does not leave stored is lost.
         const Vec3<Real> stretched = s.share * s.trial;
-        loss[i] += static_cast<double>(k * stretched.dot(s.trial - stretched));
-        work[i] += static_cast<double>((t.normal_force - k * stretched).dot(t.obstacle_motion));
+        const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
+        loss[i] +=
+            stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slipped[i]));
+        work[i] += static_cast<double>((t.normal_force - s.stiffness * stretched).dot(t.obstacle_motion));
+        stored[i] = kept;
         slipped[i] = stretched;
       },
-      HYST_KERNEL(const Sums<1>& total) { *deep = total.term[0]; });
-  return static_cast<int>(deep_.download()[0]);
+      HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
+  return static_cast<int>(inside_.download()[0]);
 }
 
 template <class Real, class Device>
 double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
-  const Vec3<Real>* slipped = slip_.data();
+  const double* stored = stored_.data();
   double* energy = energy_.data();
   for_each(
-      device_, "contact energy", vertices_, HYST_KERNEL(int i) {
-        energy[i] = touch(set, model, x[i], area[i]).energy +
-                    static_cast<double>(model.tangential * area[i] * slipped[i].squaredNorm() / 2);
-      });
+      device_, "contact energy", vertices_,
+      HYST_KERNEL(int i) { energy[i] = touch(set, model, x[i], area[i]).energy + stored[i]; });
   const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -115,8 +121,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + loss_.bytes() + work_.bytes() +
-         energy_.bytes() + lagged_.bytes() + deep_.bytes();
+  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() + loss_.bytes() +
+         work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -1,11 +1,14 @@
-// Cloth against obstacles: a penalty shell with Coulomb friction, inside the implicit solve.
+// Cloth against obstacles: a shell that gives in to pressure as layers do, with Coulomb friction, inside the
+// implicit solve.
 //
-// Normal: energy k A (d - t)^2/2 per vertex where the distance d is less than the shell t (the cloth's
-// thickness); its Gauss-Newton Hessian k A n n^T is positive semidefinite.  Friction is a Prandtl stop in the
-// tangent plane: an elastic slip E with stiffness k_t, limited to mu f_n/k_t by radial return.  It holds a
-// resting cloth for good, where a velocity-smoothed friction would let it creep.
+// Normal: the barrier of compression.h per vertex where its distance is less than the cloth's thickness; the
+// Gauss-Newton Hessian is positive semidefinite.  Iterates may be in a solid, where the shell is stiff and
+// pushes them out; a state of equilibrium is not, unless it is crushed.  Friction is a Prandtl stop in the
+// tangent plane: an elastic slip of up to 1 % of the thickness, limited to mu f_n by radial return.  It holds
+// a resting cloth for good, where a velocity-smoothed friction would let it creep.
 #pragma once
 
+#include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
@@ -18,6 +21,19 @@ struct LaggedFriction {
   Vec3<Real> normal;
   Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
   Real limit;        // mu f_n [N]; 0: no contact
+};
+
+template <class Real>
+struct ContactModel {
+  ObstacleShell<Real> shell;
+  Real slip;        // elastic slip of friction [m]
+  Real tangential;  // most of its stiffness [N/m^3]
+
+  // Stiffness of friction's stop [N/m].
+  HYST_HD Real stop_stiffness(Real limit, Real area) const {
+    const Real most = tangential * area;
+    return limit < most * slip ? limit / slip : most;
+  }
 };
 
 struct ContactLoss {
@@ -36,37 +52,36 @@ class Contact {
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            Mat3<Real>* diagonal);
   // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
-  // them friction has a potential, to which evaluate() adds the normal penalty's: its gradient to `gradient`,
+  // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
   // its energies() per vertex.  add_stiffness() is its positive semidefinite part.
   void lag(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // [J]
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal);
 
-  // Accepts the positions: slips and losses.  Returns how many vertices are deeper below a surface than the
-  // shell is thick.
+  // Accepts the positions: slips and losses.  Returns how many vertices are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
-  // Vertices that may be that deep while they are held: they were when they or the obstacle came.
+  // Vertices that may be there while they are held: they were when they or the obstacle came.
   void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
   std::vector<char> spared() const { return spared_.download(); }
 
   double stored_energy(const Vec3<Real>* position);  // [J]
   ContactLoss losses() const;                        // since the start
-  double stiffness() const { return stiffness_; }    // per area [N/m^3]
   std::size_t bytes() const;
 
  private:
   Device& device_;
   std::vector<Obstacle> obstacle_;
   double fabric_friction_;
-  Real shell_, stiffness_, tangential_;  // t [m], k [N/m^3], k_t [N/m^3]
+  ContactModel<Real> model_;
   int vertices_;
   ObstacleSet<Real> set_;
   Buffer<Real, Device> area_;
   Buffer<Vec3<Real>, Device> slip_;  // E [m]
   Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
   Buffer<char, Device> spared_;
-  Buffer<double, Device> loss_, work_, energy_, deep_;
+  Buffer<double, Device> stored_;    // in it [J]
+  Buffer<double, Device> loss_, work_, energy_, inside_;
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
 };
 

@@ -17,7 +17,7 @@ HYST_HD Vec3<Real> lagged_slip(const LaggedFriction<Real>& lagged, const Vec3<Re
 template <class Real, class Device>
 void Contact<Real, Device>::lag(const Vec3<Real>* x) {
   if (lagged_.size() == 0) lagged_ = Buffer<LaggedFriction<Real>, Device>(device_, vertices_);
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   const Vec3<Real>* slipped = slip_.data();
@@ -33,7 +33,7 @@ void Contact<Real, Device>::lag(const Vec3<Real>* x) {
 
 template <class Real, class Device>
 void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   const LaggedFriction<Real>* lagged = lagged_.data();
@@ -45,7 +45,7 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
         gradient[i] -= t.normal_force;
         if (!(lagged[i].limit > 0)) return;
         const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]);
-        const Real k = model.tangential * area[i], length = e.norm(), limit = lagged[i].limit / k;
+        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(), limit = lagged[i].limit / k;
         const bool slides = length > limit;
         energy[i] += static_cast<double>(k * (slides ? limit * (length - limit / 2) : length * length / 2));
         gradient[i] += (slides ? k * limit / length : k) * e;
@@ -55,7 +55,7 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
 template <class Real, class Device>
 void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
                                           Mat3<Real>* diagonal) {
-  const ContactModel<Real> model{shell_, stiffness_, tangential_};
+  const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   const LaggedFriction<Real>* lagged = lagged_.data();
@@ -64,7 +64,7 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
         diagonal[i] += touch(set, model, x[i], area[i]).normal_stiffness;
         if (!(lagged[i].limit > 0)) return;
         const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]), n = lagged[i].normal;
-        const Real k = model.tangential * area[i], length = e.norm(), limit = lagged[i].limit / k;
+        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(), limit = lagged[i].limit / k;
         Mat3<Real> tangent = Mat3<Real>::Identity() - n * n.transpose();
         if (length > limit) tangent = limit / length * (tangent - e / length * (e / length).transpose());
         diagonal[i] += k * tangent;

@@ -35,26 +35,25 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
   return set;
 }
 
-std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                           double allowed) {
+std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x) {
   std::vector<char> result;
   for (const Eigen::Vector3d& p : x) {
     bool deep = false;
-    for (int o = 0; o < set.count; ++o) deep |= -distance_to<double>(set.item[o], p).value > allowed;
+    for (int o = 0; o < set.count; ++o) deep |= distance_to<double>(set.item[o], p).value < 0;
     result.push_back(deep);
   }
   return result;
 }
 
 Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                  const std::vector<char>& spared, double allowed) {
+                  const std::vector<char>& spared) {
   Immersion result;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (spared[i]) continue;
     bool counted = false;
     for (int o = 0; o < set.count; ++o) {
       const double depth = -distance_to<double>(set.item[o], x[i]).value;
-      if (!(depth > allowed)) continue;
+      if (!(depth > 0)) continue;
       result.count += !counted;
       counted = true;
       if (depth <= result.depth) continue;
@@ -66,19 +65,22 @@ Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vecto
   return result;
 }
 
-bool is_squeezed(const ObstacleSet<double>& set, double shell, const Eigen::Vector3d& x,
-                 const Eigen::Vector3d& push) {
+bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& shell, const Eigen::Vector3d& x,
+                 const Eigen::Vector3d& pressure) {
+  const auto pressure_at = [&](double distance) {
+    return distance < shell.thickness ? -shell.at(distance).slope : 0.0;
+  };
   Distance<double> at[kMostObstacles];
   for (int o = 0; o < set.count; ++o) {
     at[o] = distance_to<double>(set.item[o], x);
     at[o].normal = set.item[o].rotation * Eigen::Vector3d(at[o].normal);
   }
   for (int o = 0; o < set.count; ++o) {
-    if (!(-at[o].value > shell)) continue;
-    double against = std::max(0.0, -push.dot(at[o].normal));
+    if (!(at[o].value < 0)) continue;
+    double against = std::max(0.0, -pressure.dot(at[o].normal));
     for (int p = 0; p < set.count; ++p)
-      against += std::max(0.0, shell - at[p].value) * std::max(0.0, -at[p].normal.dot(at[o].normal));
-    if (against >= (shell - at[o].value) / 2) return true;
+      against += pressure_at(at[p].value) * std::max(0.0, -at[p].normal.dot(at[o].normal));
+    if (against >= pressure_at(at[o].value) / 2) return true;
   }
   return false;
 }

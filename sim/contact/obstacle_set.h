@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/contact/compression.h"
 #include "sim/contact/signed_distance.h"
 #include "sim/scene/scene.h"
 
@@ -38,28 +39,24 @@ template <class Real>
 ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
                                    double start, double end);
 
-// A vertex in a solid (of `hollow`: outside).  The cloth is a thickness t away from where it touches; one
-// that is deeper than t below a surface lies beyond what the contact's shell stands for: it started there,
-// was hit hard, or is crushed.
+// A vertex in a solid (of `hollow`: outside): it started there, was hit hard, or is crushed.
 struct Immersion {
   int vertex = -1, obstacle = -1;  // -1: none
   double depth = 0;                // below the surface [m]
-  int count = 0;                   // of vertices that are too deep
+  int count = 0;                   // of vertices in solids
 };
 
-// Which vertices are deeper than `allowed` [m] in one of the obstacles.
-std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                           double allowed);
+// Which vertices are in one of the obstacles.
+std::vector<char> immersed(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x);
 
-// The deepest vertex of those that are not spared and are deeper than `allowed` [m] in one of the obstacles.
+// The deepest vertex of those that are not spared and are in one of the obstacles.
 Immersion deepest(const ObstacleSet<double>& set, const std::vector<Eigen::Vector3d>& x,
-                  const std::vector<char>& spared, double allowed);
+                  const std::vector<char>& spared);
 
-// Whether a vertex at x that is deeper than the shell in one obstacle is pressed from its other side by at
-// least half as much: by other obstacles, or by the `push` of other layers, a force over the penalty's
-// stiffness [m].
-bool is_squeezed(const ObstacleSet<double>& set, double shell, const Eigen::Vector3d& x,
-                 const Eigen::Vector3d& push);
+// Whether a vertex at x that is in one obstacle is pressed from its other side by at least half as much: by
+// other obstacles, or by other layers with a `pressure` [Pa].
+bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& shell, const Eigen::Vector3d& x,
+                 const Eigen::Vector3d& pressure);
 
 // "vertex 57 at (0.1, 0.2, 0) m lies 4.2 mm inside obstacle[1] (sphere)"; of `hollow`: "outside".
 std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,

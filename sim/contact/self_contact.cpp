@@ -9,17 +9,8 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kSlip = 0.01;              // elastic slip of friction over the thickness
-constexpr double kPressure = 50 * 98.0665;  // of the KES compression test [Pa] (Kawabata 1980)
-constexpr double kCompressed = 0.2;         // of the thickness, at that pressure
-constexpr double kDisplacementOfEdge = 5;   // largest that is looked at, over the mean edge length
-constexpr double kReachOfEdge = 0.2;        // most that lists reach beyond a path, over the mean edge length
-
-// Stiffness [N/m^3] of a barrier that gives in by kCompressed at kPressure.
-double barrier_stiffness(double thickness) {
-  const double range = (1 - kHardest) * thickness, gap = range - kCompressed * thickness;
-  return -kPressure / barrier(1.0, gap, range).slope;
-}
+constexpr double kDisplacementOfEdge = 5;  // largest that is looked at, over the mean edge length
+constexpr double kReachOfEdge = 0.2;       // most that lists reach beyond a path, over the mean edge length
 
 double mean_edge(const ClothMesh& mesh) {
   double sum = 0;
@@ -38,7 +29,7 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       most_reach_(std::max(thickness_, static_cast<Real>(kReachOfEdge * mean_edge(mesh)))),
       max_displacement_(std::max(4 * thickness_, static_cast<Real>(kDisplacementOfEdge * mean_edge(mesh)))),
       model_{static_cast<Real>(barrier_stiffness(scene.fabric.thickness)),
-             static_cast<Real>(scene.fabric.friction), static_cast<Real>(kSlip) * thickness_},
+             static_cast<Real>(scene.fabric.friction), static_cast<Real>(kElasticSlip) * thickness_},
       pairs_(device, mesh, scene.fabric.thickness),
       center_(device, vertices_),
       step_length_(device),

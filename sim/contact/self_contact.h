@@ -4,9 +4,8 @@
 // A start without intersections stays without: every path that Newton's method takes is checked
 // (additive_ccd.h) against all pairs that it could bring together (self_pairs.h).
 //
-// Barrier: layers feel each other from a distance of the thickness on and never come nearer than half of it.
-// Its stiffness is that at which the pressure of the KES compression test, 50 gf/cm^2 = 4.9 kPa (Kawabata
-// 1980), takes a fifth of the thickness; an assumed softness, the same for all fabrics.
+// Barrier: layers feel each other from a distance of the thickness on and never come nearer than half of it;
+// compression.h has its stiffness.
 // Friction: a Prandtl stop per pair as against obstacles (contact.h), which slides after an elastic slip of
 // 1 % of the thickness; its force limit is that of the last iterate that lag() saw.
 // Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.

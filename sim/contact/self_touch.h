@@ -2,12 +2,11 @@
 #pragma once
 
 #include "sim/contact/additive_ccd.h"
-#include "sim/contact/barrier.h"
+#include "sim/contact/compression.h"
 #include "sim/contact/self_contact.h"
 
 namespace hysteron {
 
-inline constexpr double kHardest = 0.5;  // share of a shell to which pressure can press it
 inline constexpr double kClosest = 0.1;  // share that no step goes below
 
 template <class Real>

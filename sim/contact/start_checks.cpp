@@ -81,12 +81,11 @@ void refuse_near(const Scene& scene, const Cloth& cloth) {
 
 void refuse_immersed(const Scene& scene, const Cloth& cloth) {
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, 0, 0);
-  const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0), scene.fabric.thickness);
+  const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0));
   if (found.count == 0) return;
   const auto origin = scene.origin.find("obstacle[" + std::to_string(found.obstacle) + "]");
   throw Error::request("obstacle: at the start " + immersion_text(found, scene.obstacle, cloth.start) +
-                       ", more than fabric.thickness = " + millimetres(scene.fabric.thickness) + ", of " +
-                       std::to_string(found.count) +
+                       ", of " + std::to_string(found.count) +
                        " such vertices the deepest: move the cloth or the obstacle" +
                        (origin == scene.origin.end() ? "" : " (" + origin->second + ")"));
 }

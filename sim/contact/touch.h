@@ -1,25 +1,21 @@
-// One vertex against all obstacles: the penalty's force, and the stop of friction in its tangent plane.
+// One vertex against all obstacles: the force of its shell, and the stop of friction in its tangent plane.
 #pragma once
 
 #include "sim/contact/contact.h"
 
 namespace hysteron {
 
-template <class Real>
-struct ContactModel {
-  Real shell, stiffness, tangential;
-};
-
 // Everything about one vertex in contact.
 template <class Real>
 struct Touch {
   Vec3<Real> normal_force = Vec3<Real>::Zero();  // sum over obstacles [N]
   Mat3<Real> normal_stiffness = Mat3<Real>::Zero();
-  double energy = 0;                                // of the normal penalty [J]
+  double energy = 0;                                // of the shells [J]
   Vec3<Real> obstacle_motion = Vec3<Real>::Zero();  // of the strongest obstacle's point over the step [m]
   Vec3<Real> normal = Vec3<Real>::Zero();
   Real strongest = 0, friction = 0;  // largest normal force [N], its coefficient
   int index = -1;
+  bool inside = false;  // of a solid
 };
 
 template <class Real>
@@ -29,13 +25,14 @@ HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const Cont
   for (int o = 0; o < set.count; ++o) {
     const Obstacle3<Real>& obstacle = set.item[o];
     const Distance<Real> d = distance_to(obstacle, x);
-    const Real depth = model.shell - d.value;
-    if (!(depth > 0)) continue;
+    if (!(d.value < model.shell.thickness)) continue;
     const Vec3<Real> n = obstacle.rotation * d.normal;
-    const Real k = model.stiffness * area, force = k * depth;
+    const Barrier<Real> b = model.shell.at(d.value);
+    const Real force = -area * b.slope;
     t.normal_force += force * n;
-    t.normal_stiffness += k * n * n.transpose();
-    t.energy += static_cast<double>(force * depth / 2);
+    t.normal_stiffness += area * b.stiffness * n * n.transpose();
+    t.energy += static_cast<double>(area * b.energy);
+    t.inside |= d.value < 0;
     if (force > t.strongest) {
       t.strongest = force;
       t.friction = obstacle.friction;
@@ -47,11 +44,11 @@ HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const Cont
   return t;
 }
 
-// Trial slip, and the share of it that friction can hold.
+// Trial slip, the share of it that friction can hold, and the stiffness of the stop [N/m].
 template <class Real>
 struct Slip {
   Vec3<Real> trial;
-  Real share;
+  Real share, stiffness;
 };
 
 template <class Real>
@@ -60,8 +57,8 @@ HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, R
   Vec3<Real> e = moved - t.obstacle_motion;
   if (touching == t.index + 1) e += before;
   e -= t.normal * t.normal.dot(e);
-  const Real limit = t.friction * t.strongest / (model.tangential * area), length = e.norm();
-  return {e, length > limit ? limit / length : Real(1)};
+  const Real limit = t.friction * t.strongest, k = model.stop_stiffness(limit, area), length = e.norm();
+  return {e, k * length > limit ? limit / (k * length) : Real(1), k};
 }
 
 }  // namespace hysteron

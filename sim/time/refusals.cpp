@@ -82,11 +82,11 @@ void refuse_arrival(Body<Real, Device>& body, double met, double time) {
   const std::vector<Eigen::Vector3d> x = positions_of(body);
   const std::vector<char> held = body.cloth.held(scene, time);
   const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);
-  const Immersion found = deepest(set, x, held, scene.fabric.thickness);
+  const Immersion found = deepest(set, x, held);
   if (found.count > 0)
     throw Error::run(at_time(time) + "an obstacle appears where the cloth is: " +
                      immersion_text(found, scene.obstacle, x) + others(found));
-  std::vector<char> spared = body.contact->spared(), deep = immersed(set, x, scene.fabric.thickness);
+  std::vector<char> spared = body.contact->spared(), deep = immersed(set, x);
   for (int i = 0; i < body.vertices; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
   body.contact->spare(spared);
 }
@@ -99,7 +99,7 @@ void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, dou
   for (int i = 0; i < body.vertices; ++i) unconcerned[i] = held[i] || !before[i];
   const std::vector<Eigen::Vector3d> x = positions_of(body);
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
-  const Immersion found = deepest(set, x, unconcerned, scene.fabric.thickness);
+  const Immersion found = deepest(set, x, unconcerned);
   if (found.count == 0) return;
   throw Error::run(at_time(time) + "a pin releases the cloth inside an obstacle: " +
                    immersion_text(found, scene.obstacle, x) + others(found));
@@ -116,19 +116,18 @@ void refuse_crushed(Body<Real, Device>& body, double time) {
   const std::vector<Vec3<Real>> layers = body.self_contact
                                              ? body.self_contact->forces()
                                              : std::vector<Vec3<Real>>(body.vertices, Vec3<Real>::Zero());
+  const ObstacleShell<double> shell = obstacle_shell(scene);
   std::vector<char> well(body.vertices);
   for (int i = 0; i < body.vertices; ++i) {
-    const double stiffness = body.contact->stiffness() * body.cloth.mesh.vertex_area[i];
-    const Eigen::Vector3d force = layers[i].template cast<double>() / stiffness;
-    well[i] = held[i] ? spared[i] : !is_squeezed(set, scene.fabric.thickness, x[i], force);
+    const Eigen::Vector3d pressure = layers[i].template cast<double>() / body.cloth.mesh.vertex_area[i];
+    well[i] = held[i] ? spared[i] : !is_squeezed(set, shell, x[i], pressure);
   }
-  const Immersion found = deepest(set, x, well, scene.fabric.thickness);
+  const Immersion found = deepest(set, x, well);
   if (found.count == 0) return;
   const std::vector<std::string> by = pressing(body, found.vertex, x[found.vertex], time);
   throw Error::run(at_time(time) + "the cloth is crushed: " + immersion_text(found, scene.obstacle, x) +
-                   ", more than fabric.thickness = " + number(1e3 * scene.fabric.thickness) + " mm" +
                    (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
-                   ": leave it more room, or raise contact-stiffness = " + number(body.contact->stiffness()) +
+                   ": leave it more room, or raise contact-stiffness = " + number(shell.stiffest()) +
                    " N/m^3");
 }
 

@@ -7,7 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/bending.h"
 #include "sim/contact/obstacle_set.h"
-#include "sim/contact/penalty.h"
+#include "sim/contact/compression.h"
 #include "sim/contact/start_checks.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/scene_reader.h"
@@ -65,7 +65,7 @@ StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureO
   if (scene.integrator != Integrator::explicit_euler) return limits;
   double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);
   const double viscous_membrane = scene.fabric.damping * stiff;
-  if (!scene.obstacle.empty()) stiff += contact_stiffness_per_area(scene) / scene.fabric.density;
+  if (!scene.obstacle.empty()) stiff += obstacle_shell(scene).stiffest() / scene.fabric.density;
   limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);
   return limits;
 }

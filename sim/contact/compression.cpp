@@ -1,0 +1,28 @@
+#include "sim/contact/compression.h"
+
+namespace hysteron {
+
+double barrier_stiffness(double thickness) {
+  constexpr double kPressure = 50 * 98.0665;  // [Pa]
+  const double range = (1 - kHardest) * thickness, gap = range - kCompressed * thickness;
+  return -kPressure / barrier(1.0, gap, range).slope;
+}
+
+ObstacleShell<double> obstacle_shell(const Scene& scene) {
+  ObstacleShell<double> shell{scene.fabric.thickness, 1};
+  shell.k = scene.contact_stiffness > 0 ? scene.contact_stiffness / shell.stiffest()
+                                        : barrier_stiffness(scene.fabric.thickness);
+  return shell;
+}
+
+double distance_under(const ObstacleShell<double>& shell, double pressure) {
+  double low = 0, high = shell.thickness;
+  constexpr double kWithin = 1e-12;  // of the thickness
+  while (high - low > kWithin * shell.thickness) {
+    const double middle = (low + high) / 2;
+    (-shell.at(middle).slope > pressure ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace hysteron

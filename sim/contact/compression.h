@@ -1,0 +1,39 @@
+// How cloth gives in to pressure, between layers and against obstacles alike.
+//
+// The only number: at the pressure of the KES compression test, 50 gf/cm^2 = 4.9 kPa (Kawabata 1980), a
+// barrier has given in by a fifth of the thickness; an assumed softness, the same for all fabrics.
+#pragma once
+
+#include "sim/contact/barrier.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+inline constexpr double kHardest = 0.5;     // share of a shell to which pressure can press it
+inline constexpr double kCompressed = 0.2;  // of the shell, at the pressure of the test
+inline constexpr double kElasticSlip = 0.01;  // of friction, over the thickness
+
+// Stiffness k of the barrier of such a shell [N/m^3].
+double barrier_stiffness(double thickness);
+
+// How an obstacle's shell answers: a barrier up to the compression that was measured; beyond, its stiffness
+// stays.  It would take some ten times the test's pressure to reach the surface of the solid.
+template <class Real>
+struct ObstacleShell {
+  Real thickness;  // of the shell [m]
+  Real k;          // of the barrier [N/m^3]
+
+  HYST_HD Barrier<Real> at(Real distance) const {
+    constexpr double kMeasured = (1 - kHardest - kCompressed) / (1 - kHardest);  // share of the range left
+    const Real hardest = static_cast<Real>(kHardest) * thickness;
+    return barrier(k, distance - hardest, thickness - hardest, static_cast<Real>(kMeasured));
+  }
+  HYST_HD Real stiffest() const { return at(0).stiffness; }  // [N/m^3]
+};
+
+// That of a scene: `contact-stiffness` is its stiffness at the compression of the test.
+ObstacleShell<double> obstacle_shell(const Scene& scene);
+// Distance at which a shell bears a pressure [Pa]; at least 0.
+double distance_under(const ObstacleShell<double>& shell, double pressure);
+
+}  // namespace hysteron
