@@ -9,8 +9,8 @@
 
 namespace hysteron {
 
-inline constexpr double kHardest = 0.5;     // share of a shell to which pressure can press it
-inline constexpr double kCompressed = 0.2;  // of the shell, at the pressure of the test
+inline constexpr double kHardest = 0.5;       // share of a shell to which pressure can press it
+inline constexpr double kCompressed = 0.2;    // of the shell, at the pressure of the test
 inline constexpr double kElasticSlip = 0.01;  // of friction, over the thickness
 
 // Stiffness k of the barrier of such a shell [N/m^3].

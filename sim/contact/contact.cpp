@@ -89,8 +89,7 @@ int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before,
         // The stop's stiffness follows the pressure: what the work done on it does not leave stored is lost.
         const Vec3<Real> stretched = s.share * s.trial;
         const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
-        loss[i] +=
-            stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slipped[i]));
+        loss[i] += stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slipped[i]));
         work[i] += static_cast<double>((t.normal_force - s.stiffness * stretched).dot(t.obstacle_motion));
         stored[i] = kept;
         slipped[i] = stretched;
@@ -121,8 +120,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() + loss_.bytes() +
-         work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes();
+  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
+         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -80,7 +80,7 @@ class Contact {
   Buffer<Vec3<Real>, Device> slip_;  // E [m]
   Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
   Buffer<char, Device> spared_;
-  Buffer<double, Device> stored_;    // in it [J]
+  Buffer<double, Device> stored_;  // in it [J]
   Buffer<double, Device> loss_, work_, energy_, inside_;
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
 };

@@ -45,7 +45,8 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
         gradient[i] -= t.normal_force;
         if (!(lagged[i].limit > 0)) return;
         const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]);
-        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(), limit = lagged[i].limit / k;
+        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(),
+                   limit = lagged[i].limit / k;
         const bool slides = length > limit;
         energy[i] += static_cast<double>(k * (slides ? limit * (length - limit / 2) : length * length / 2));
         gradient[i] += (slides ? k * limit / length : k) * e;
@@ -64,7 +65,8 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
         diagonal[i] += touch(set, model, x[i], area[i]).normal_stiffness;
         if (!(lagged[i].limit > 0)) return;
         const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]), n = lagged[i].normal;
-        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(), limit = lagged[i].limit / k;
+        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(),
+                   limit = lagged[i].limit / k;
         Mat3<Real> tangent = Mat3<Real>::Identity() - n * n.transpose();
         if (length > limit) tangent = limit / length * (tangent - e / length * (e / length).transpose());
         diagonal[i] += k * tangent;

@@ -15,6 +15,12 @@ void Ledger::close() {
   remainder_relative = scale > 0 ? std::abs(remainder) / scale : 0;
 }
 
+double Ledger::integrator_share() const {
+  const double numerical = std::abs(integrator());
+  const double physical = std::abs(bending_friction) + viscous + air + std::abs(contact_friction);
+  return numerical > 0 ? numerical / (numerical + physical) : 0;
+}
+
 std::vector<std::pair<std::string, double>> Ledger::rows() const {
   return {{"kinetic", kinetic},
           {"gravitational", gravitational},

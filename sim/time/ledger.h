@@ -29,6 +29,8 @@ struct Ledger {
   double remainder_relative = 0;  // over the sum of the terms' magnitudes
 
   double integrator() const { return inertia + unbalanced + bending_gap + implicit_gap + gravity_gap; }
+  // What the integrator took, or gave, over all that was dissipated; 0 where nothing was.
+  double integrator_share() const;
   // Sets remainder from the other terms.
   void close();
   std::vector<std::pair<std::string, double>> rows() const;  // name, value, in the balance's order

@@ -6,8 +6,8 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/bending.h"
-#include "sim/contact/obstacle_set.h"
 #include "sim/contact/compression.h"
+#include "sim/contact/obstacle_set.h"
 #include "sim/contact/start_checks.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/scene_reader.h"

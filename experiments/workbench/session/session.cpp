@@ -151,8 +151,22 @@ void Session::note_deep_contact() {
   run_->metric("deep_contact_steps_count", deep);
   if (deep == 0) return;
   run_->progress("warning: in " + std::to_string(deep) +
-                 " parts of steps the cloth was deeper in an obstacle than its thickness: a larger "
-                 "contact-stiffness or a shorter step keeps it out");
+                 " parts of steps the cloth was in an obstacle: a larger contact-stiffness or a shorter step "
+                 "keeps it out");
+}
+
+// The step that would do is an estimate: the share is taken to fall as the step does.
+void Session::note_integrator(const Ledger& ledger) {
+  constexpr double kMost = 0.25;
+  const double share = ledger.integrator_share();
+  run_->metric("integrator_share_percent", 100 * share);
+  if (share <= kMost) return;
+  const double step = setup_.scene.step * kMost / (1 - kMost) * (1 - share) / share;
+  run_->progress(
+      fmt::format("warning: the integrator took {:.0f} % of all energy that was dissipated: steps of about "
+                  "{:.2g} s would "
+                  "take {:.0f} %",
+                  100 * share, step, 100 * kMost));
 }
 
 bool Session::only_explain() const { return setup_.options.explain; }
@@ -262,6 +276,7 @@ void Session::finish(const std::string& title) {
   manifest.bytes_device = simulation_->device_bytes();
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
+  note_integrator(ledger);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
     run_->metric("newton_iterations_per_step", simulation_->newton_iterations());

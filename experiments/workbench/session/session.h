@@ -69,6 +69,7 @@ class Session {
   std::string opening_words() const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
+  void note_integrator(const Ledger& ledger);
   void note_deep_contact();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 

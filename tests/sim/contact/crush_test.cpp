@@ -1,7 +1,6 @@
 // Cloth that is crushed ends the run with place and time; cloth that is only pressed does not.
 #include <gtest/gtest.h>
 
-#include "sim/contact/penalty.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
 #include "tests/sim/scene/scene_file.h"
@@ -54,7 +53,7 @@ Failure press(const Trial& trial, Simulation& simulation) {
 }
 
 // Between two plates h apart, both shells give in alike: each is sunk into by t - h/2.  At h = t that is half
-// of the shell, of which the cloth's weight takes 1e-4.
+// of the shell, where it is so stiff that the cloth's weight takes next to nothing.
 TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
   for (const char* integrator : {"implicit", "semi-implicit"}) {
     const double t = Fabric{}.thickness;
@@ -67,18 +66,17 @@ TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
   }
 }
 
-// The middle between ground and plate is deeper than t in both once the plate has come 2 t below the ground.
+// The middle between ground and plate is in both once the plate is below the ground.
 TEST(Press, BeyondTheThicknessEndsTheRunWithObstacleVertexPlaceAndTime) {
   for (const char* integrator : {"implicit", "semi-implicit", "explicit"}) {
     const Trial trial = pressed_sheet(integrator, -4 * Fabric{}.thickness);
     const auto simulation = trial.simulation();
     const Failure failure = press(trial, *simulation);
     expect_naming(failure, {"the cloth is crushed: vertex ", " at (", " mm inside obstacle[",
-                            "fabric.thickness = 0.497 mm", "obstacle[0] (ground)", "obstacle[1] (box)",
-                            " and ", "at t = 0."});
+                            "obstacle[0] (ground)", "obstacle[1] (box)", " and ", "at t = 0."});
     double time = 0;
     EXPECT_EQ(std::sscanf(failure.message.c_str(), "at t = %lf s", &time), 1);
-    const double way = (0.01 + 2 * Fabric{}.thickness) / (0.01 + 4 * Fabric{}.thickness);
+    const double way = 0.01 / (0.01 + 4 * Fabric{}.thickness);
     double u = 0;
     while (way_done(u) < way) u += 1e-4;
     EXPECT_NEAR(time, u * kDown, 2 * trial.scene.step) << integrator;
@@ -160,8 +158,8 @@ TEST(Press, IsCountedWhereStepsAreTakenUnbalanced) {
   EXPECT_GT(simulation->deep_steps(), 3);
 }
 
-// A ball that hits a free sheet drives it in deeper than its thickness for a moment, since the penalty is
-// soft: it is thrown off, not crushed.
+// A ball that hits a free sheet drives it in for a moment where its shell is soft: it is thrown off, not
+// crushed.
 TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   Scene scene = test::free_square(200);
   scene.integrator = Integrator::implicit;

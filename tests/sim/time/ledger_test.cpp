@@ -162,6 +162,25 @@ TEST(Ledger, IntegratorsLossShrinksWithFirstOrderInTheStep) {
   EXPECT_NEAR(loss_order("semi-implicit", 1e-4, 1e-4), 1, kSlack);
 }
 
+// Backward Euler takes all from a cloth without friction, air and viscosity, and the less beside friction's
+// part the shorter the steps are.
+TEST(Ledger, SharesWhatWasDissipatedBetweenTheIntegratorAndTheCloth) {
+  const auto share = [](const std::string& law, double step) {
+    Scene scene = scene_of(law, "implicit");
+    scene.step = step;
+    scene.air_drag = scene.fabric.damping = 0;
+    Trial trial(scene);
+    test::ripple(trial.cloth, 3e-3);
+    return trial.after(std::lround(0.02 / step))->ledger().integrator_share();
+  };
+  EXPECT_EQ(share("linear", 1e-3), 1);
+  const double coarse = share("prandtl", 1e-3), fine = share("prandtl", 2.5e-4);
+  EXPECT_GT(fine, 0);
+  EXPECT_LT(fine, coarse);
+  EXPECT_LT(coarse, 1);
+  EXPECT_EQ(Ledger{}.integrator_share(), 0);
+}
+
 TEST(Ledger, AccountsAreThoseOfTheLaw) {
   const auto of = [](const std::string& law) {
     Trial trial(scene_of(law, "semi-implicit"));

@@ -1,0 +1,51 @@
+// What obstacles' shells answer to pressure.
+#include "sim/contact/compression.h"
+
+#include <gtest/gtest.h>
+
+namespace hysteron {
+namespace {
+
+constexpr double kTest = 50 * 98.0665;  // pressure of the KES compression test, 50 gf/cm^2 [Pa]
+
+TEST(ObstacleShell, GivesInByAFifthUnderThePressureOfTheCompressionTest) {
+  Scene scene;
+  const double t = scene.fabric.thickness;
+  EXPECT_NEAR(distance_under(obstacle_shell(scene), kTest) / t, 0.8, 1e-9);
+}
+
+TEST(ObstacleShell, HasTheStiffnessOfTheSceneThereAndBeyond) {
+  Scene scene;
+  scene.contact_stiffness = 1e7;
+  const ObstacleShell<double> shell = obstacle_shell(scene);
+  const double t = scene.fabric.thickness;
+  for (double share : {0.8, 0.5, 0.0, -3.0}) EXPECT_NEAR(shell.at(share * t).stiffness / 1e7, 1, 1e-12);
+  EXPECT_LT(shell.at(0.9 * t).stiffness, 0.5e7);
+}
+
+// Ten times the test's pressure do not bring cloth to a solid's surface.
+TEST(ObstacleShell, KeepsClothOutOfTheSolidUnderTenTimesThatPressure) {
+  EXPECT_GT(distance_under(obstacle_shell(Scene{}), 10 * kTest), 0);
+  EXPECT_LT(-obstacle_shell(Scene{}).at(0).slope, 15 * kTest);
+}
+
+// Pressure is the slope of the energy, stiffness that of the pressure, across the end of what was measured.
+TEST(ObstacleShell, HasSmoothEnergyPressureAndStiffness) {
+  const ObstacleShell<double> shell = obstacle_shell(Scene{});
+  const double t = shell.thickness, h = 1e-5 * t;
+  for (double share : {0.999, 0.95, 0.85, 0.8001, 0.7999, 0.6, 0.1, -0.5}) {
+    const double d = share * t;
+    const auto low = shell.at(d - h), high = shell.at(d + h), middle = shell.at(d);
+    EXPECT_NEAR((high.energy - low.energy) / (2 * h) / middle.slope, 1, 1e-4) << share;
+    EXPECT_NEAR((high.slope - low.slope) / (2 * h) / middle.stiffness, 1, 1e-3) << share;
+  }
+}
+
+TEST(ObstacleShell, PressesFromItsThicknessOn) {
+  const ObstacleShell<double> shell = obstacle_shell(Scene{});
+  EXPECT_NEAR(shell.at(shell.thickness).slope, 0, 1e-12);
+  EXPECT_NEAR(distance_under(shell, 0), shell.thickness, 1e-9 * shell.thickness);
+}
+
+}  // namespace
+}  // namespace hysteron
