@@ -212,6 +212,8 @@ TEST(Program, EndsADrapeAtRest) {
     EXPECT_TRUE(manifest["metrics"]["settled"].get<bool>()) << release;
     EXPECT_TRUE(manifest["metrics"]["rest_shift_percent"].is_number()) << release;
     EXPECT_EQ(manifest["energy"]["kinetic"], 0) << release;
+    EXPECT_GT(manifest["metrics"]["integrator_share_percent"], 0) << release;
+    EXPECT_LT(manifest["metrics"]["integrator_share_percent"], 100) << release;
     EXPECT_LT(manifest["metrics"]["energy_remainder_relative"], 1e-9) << release;
   }
 }

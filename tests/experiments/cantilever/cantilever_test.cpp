@@ -96,8 +96,9 @@ TEST(Cantilever, ComparesWithTheElasticaOfItsOwnDirection) {
     EXPECT_NEAR(
         metrics["bending_length_m"].get<double>() / metrics["elastica_bending_length_m"].get<double>(), 1,
         kWithin);
-    if (law == std::string("linear"))
+    if (law == std::string("linear")) {
       EXPECT_NEAR(metrics["elastica_drop_over_length"].get<double>() / kDropOfTen, 1, 1e-4);
+    }
   }
 }
 
