@@ -155,9 +155,9 @@ void Session::note_deep_contact() {
                  "keeps it out");
 }
 
-// The step that would do is an estimate: the share is taken to fall as the step does.  Of statics the share is
-// what jumps from one equilibrium to the next set free, whatever the step; of cloth that dissipates nothing itself
-// it is all.
+// The step that would do is an estimate: the share is taken to fall as the step does.  Of statics the share
+// is what jumps from one equilibrium to the next set free, whatever the step; of cloth that dissipates
+// nothing itself it is all.
 void Session::note_integrator(const Ledger& ledger) {
   constexpr double kMost = 0.25;
   const double share = ledger.integrator_share();
