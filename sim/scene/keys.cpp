@@ -63,7 +63,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"gravity", at<&S::gravity>, "m/s^2", between(-1e4, 1e4), "", "acceleration"},
     {"air-drag", at<&S::air_drag>, "kg/(m^2 s)", at_least(0), "", "linear drag per area"},
     {"self-contact", at<&S::self_contact>, "", any(), "", "cloth cannot pass through itself"},
-    {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "of obstacles, per area, where 4.9 kPa press; 0: as of layers"},
+    {"contact-stiffness", at<&S::contact_stiffness>, "N/m^3", at_least(0), "", "of obstacles, per area, pressed in by a fifth of the thickness; 0: that of layers"},
     {"seed", at<&S::seed>, "", at_least(0), "", "of random meshes"},
 };
 
