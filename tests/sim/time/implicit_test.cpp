@@ -40,6 +40,7 @@ Positions shape_after(const Scene& scene, double seconds) {
 struct OrderCase {
   std::string law, integrator;
   double order;
+  std::string name() const { return test::Method{law, "shape", integrator}.name(); }
 };
 class Order : public testing::TestWithParam<OrderCase> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, Order,
@@ -47,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                                          OrderCase{"prandtl", "implicit", 1}, OrderCase{"prandtl", "bdf2", 2},
                                          OrderCase{"linear", "tr-bdf2", 2},
                                          OrderCase{"prandtl", "tr-bdf2", 2}),
-                         [](const auto& c) { return c.param.law + "_" + c.param.integrator; });
+                         [](const auto& c) { return c.param.name(); });
 
 // Against symplectic steps of 10 us, for a time in which the cloth bends and unbends.
 TEST_P(Order, AgreesWithTinyExplicitStepsThroughReversals) {
