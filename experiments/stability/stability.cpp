@@ -29,7 +29,7 @@ double diagonal(const ClothMesh& mesh) {
 }
 
 long planned_steps(const Simulation& simulation, const Scene& scene, const CellEffort& effort) {
-  const bool solved = scene.integrator == Integrator::implicit || scene.integrator == Integrator::bdf2;
+  const bool solved = scene.is_implicit();
   const double work = solved ? kWorkOfSolvedStep : simulation.limits().substeps;
   return std::max(1L, std::lround(std::min(scene.seconds / scene.step, std::floor(effort.work / work))));
 }

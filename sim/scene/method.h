@@ -8,11 +8,12 @@
 namespace hysteron {
 
 // semi_implicit: bending explicit, membrane and contact implicit.  implicit: backward Euler; bdf2: the same
-// with second order; quasi_static: equilibria; these three have every force at the end of the step.
+// with second order; tr_bdf2: a trapezoidal stage, then bdf2 over the rest of the step (Bank et al. 1985);
+// quasi_static: equilibria; these four have every force at the end of the step or stage.
 // explicit_euler: symplectic Euler, every force explicit.
-enum class Integrator { semi_implicit, implicit, bdf2, quasi_static, explicit_euler };
-constexpr std::array<const char*, 5> names(Integrator) {
-  return {"semi-implicit", "implicit", "bdf2", "quasi-static", "explicit"};
+enum class Integrator { semi_implicit, implicit, bdf2, tr_bdf2, quasi_static, explicit_euler };
+constexpr std::array<const char*, 6> names(Integrator) {
+  return {"semi-implicit", "implicit", "bdf2", "tr-bdf2", "quasi-static", "explicit"};
 }
 
 // How often semi_implicit solves: with every substep of bending, or once per step as the chapter has it.

@@ -172,7 +172,7 @@ struct Scene {
   // Bending as well: every force at the end of the step.
   bool is_implicit() const {
     return integrator == Integrator::implicit || integrator == Integrator::bdf2 ||
-           integrator == Integrator::quasi_static;
+           integrator == Integrator::tr_bdf2 || integrator == Integrator::quasi_static;
   }
 };
 

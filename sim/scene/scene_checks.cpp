@@ -210,7 +210,7 @@ void check_steps(const Scene& scene) {
   if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
     throw Error::request(
         "self-contact (" + origin_of(scene, "self-contact") +
-        ") needs integrator = implicit | bdf2 | quasi-static | semi-implicit, not explicit (" +
+        ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static | semi-implicit, not explicit (" +
         origin_of(scene, "integrator") + ")");
   if (scene.self_contact && scene.integrator == Integrator::semi_implicit &&
       scene.implicit_every == ImplicitEvery::step)
@@ -220,11 +220,11 @@ void check_steps(const Scene& scene) {
   if (!(scene.tolerance > 0)) return;
   if (scene.integrator == Integrator::explicit_euler || scene.integrator == Integrator::quasi_static)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs integrator = bdf2 | implicit | " + "semi-implicit, not " +
+                         " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
                          name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " with self-contact needs integrator = bdf2 | implicit, not semi-implicit (" +
+                         " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
                          origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +

@@ -58,10 +58,11 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
 
 template <class Real, class Device>
 void Body<Real, Device>::meet(double start, Real h) {
-  hands.attach_and_release(*this, start);
+  jumped |= hands.attach_and_release(*this, start);
   if (contact && start >= next_obstacle_) {
     refuse_arrival(*this, met_, start);
     met_ = start;
+    jumped = true;
     next_obstacle_ = 1e30;
     for (const Obstacle& o : scene.obstacle)
       if (o.from > start) next_obstacle_ = std::min(next_obstacle_, o.from);
@@ -100,6 +101,7 @@ void Body<Real, Device>::carry_out_commands(double start, double end) {
     for (const Eigen::Vector3d& center : command_center_)
       chosen.push_back(is_in_box(center, command.low, command.high));
     bending.command(command.kind, chosen);
+    jumped = true;
   }
 }
 

@@ -53,6 +53,8 @@ struct Body {
   Buffer<VertexLedger, Device> ledger;
   Hands<Real, Device> hands;
   StepCounts counts;
+  // Hands, obstacles or commands have changed forces at once since the stage accepted last.
+  bool jumped = false;
 
   // A stage from `start` over h: what is held and how it moves, where obstacles go, where the cloth was.
   void begin_stage(double start, Real h);

@@ -27,17 +27,19 @@ Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& clot
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
-  if (start < next_) return;
+bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
+  if (start < next_) return false;
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
   next_ = next == times_.end() ? 1e30 : *next;
   const std::vector<int> pins = body.cloth.pins(body.scene, start);
   std::vector<char> held;
   for (int p : pins) held.push_back(p >= 0);
+  const bool changed = held != body.held.download();
   book(body, held);
   if (body.contact) refuse_release(body, held, start);
   body.held.upload(held);
   if (moving_) take(body, pins, start);
+  return changed;
 }
 
 // A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of

@@ -30,7 +30,8 @@ class Hands {
   Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
 
   // Hands take hold and let go where that is due at `start`; Error::run where cloth is let go in an obstacle.
-  void attach_and_release(Body<Real, Device>& body, double start);
+  // Says whether any did.
+  bool attach_and_release(Body<Real, Device>& body, double start);
   // Gives held vertices the constant velocity that brings them to their place at the end of the stage.
   void move(Body<Real, Device>& body, double start, Real h);
 

@@ -29,6 +29,7 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
           body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
           make_linear_solver<Real>(*body.device, body.scene, body.cloth,
                                    body.scene.is_implicit() ? body.bending.law().largest_stiffness() : 0.0)),
+      two_stages_(body.scene.integrator == Integrator::tr_bdf2),
       tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>
@@ -39,6 +40,7 @@ void ImplicitIntegrator<Real, Device>::step(double start) {
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::become_static() {
   solver_.become_static(body_.scene);
+  two_stages_ = false;
   tolerance_ = 0;  // of steps in time
 }
 
@@ -53,10 +55,12 @@ double ImplicitIntegrator<Real, Device>::load_share(double time) const {
 }
 
 template <class Real, class Device>
-NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h) {
+NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, bool is_first_stage) {
   body_.begin_stage(start, static_cast<Real>(h));
+  if (body_.jumped) solver_.forget_acceleration();
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h));
+  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h),
+                                              is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
@@ -69,14 +73,29 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
   body_.clock.begin(Stage::history);
   solver_.accept(vertices_of(body_), body_.ledger.data());
   body_.clock.end(Stage::history);
-  ++body_.counts.parts;
+  body_.jumped = false;
   body_.end_stage(end);
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
-  const NewtonOutcome outcome = attempt(start, h);
-  if (outcome.converged) return accept(start + h);
+  const NewtonOutcome outcome = attempt(start, first_stage(h), two_stages_);
+  if (!outcome.converged) return take_halves(start, h, halvings, outcome);
+  accept(start + first_stage(h));
+  ++body_.counts.parts;
+  if (two_stages_) take_last_stage(start + first_stage(h), h - first_stage(h), halvings);
+}
+
+// The rest of a step after its first stage, which stays: each stage leaves a state from which steps can start.
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::take_last_stage(double start, double h, int halvings) {
+  const NewtonOutcome outcome = attempt(start, h, false);
+  outcome.converged ? accept(start + h) : take_halves(start, h, halvings, outcome);
+}
+
+template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int halvings,
+                                                   const NewtonOutcome& outcome) {
   if (halvings == kMostHalvings) refuse_unbalanced(body_, solver_, start, h, outcome);
   ++body_.counts.retried;
   take_interval(start, h / 2, halvings + 1);
@@ -90,11 +109,13 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
-    const NewtonOutcome outcome = attempt(now, h);
+    const NewtonOutcome outcome = attempt(now, first_stage(h), two_stages_);
     const double error = outcome.converged ? solver_.local_error(vertices_of(body_)) : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {
-      accept(now + h);
+      accept(now + first_stage(h));
+      ++body_.counts.parts;
+      if (two_stages_) take_last_stage(now + first_stage(h), h - first_stage(h), 0);
       now += h;
     } else if (wanted < least) {
       throw Error::run("tolerance = " + std::to_string(tolerance_) + " m cannot be met at t = " +

@@ -1,5 +1,5 @@
-// Steps that are solved by Newton's method: `implicit`, `bdf2` and `quasi-static`, with every force at the
-// end of the step; and `semi-implicit` with self-contact, whose bending lags.
+// Steps that are solved by Newton's method: `implicit`, `bdf2`, `tr-bdf2` and `quasi-static`, with every
+// force at the end of the step or stage; and `semi-implicit` with self-contact, whose bending lags.
 #pragma once
 
 #include "sim/time/implicit_step.h"
@@ -25,11 +25,15 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
 
  private:
   void take_adaptive_step(double start);
-  NewtonOutcome attempt(double start, double h);
+  void take_last_stage(double start, double h, int halvings);
+  void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
+  double first_stage(double h) const { return two_stages_ ? kTrapezoidalShare * h : h; }
+  NewtonOutcome attempt(double start, double h, bool is_first_stage);
   void accept(double end);
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
+  bool two_stages_;   // tr-bdf2
   double tolerance_;  // 0: steps as given
   double part_ = 0;   // of adaptive steps: the coming one [s]
 };

@@ -55,7 +55,8 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
                                          SelfContact<Real, Device>* self_contact,
                                          std::unique_ptr<LinearSolver<Real, Device>> solver)
     : device_(device),
-      two_step_(scene.integrator == Integrator::bdf2),
+      two_step_(scene.integrator == Integrator::bdf2 || scene.integrator == Integrator::tr_bdf2),
+      two_stage_(scene.integrator == Integrator::tr_bdf2),
       static_(scene.integrator == Integrator::quasi_static),
       bending_lags_(scene.integrator == Integrator::semi_implicit),
       gravity_(scene.gravity.cast<Real>()),
@@ -80,7 +81,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
   static_ = true;
-  two_step_ = false;
+  two_step_ = two_stage_ = false;
   newton_.set_limits(newton_limits<Real>(scene, true));
   last_h_ = 0;  // velocities that were are no guess
 }
@@ -92,15 +93,26 @@ std::size_t ImplicitStep<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
-NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share) {
+StepFormula ImplicitStep<Real, Device>::rates_of(double h) const {
+  if (static_) return StepFormula::statics(h);
   const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;
-  formula_ = static_     ? StepFormula::statics(h)
-             : two_steps ? StepFormula::bdf2(h, last_h_)
-                         : StepFormula::backward_euler(h);
+  return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
+}
+
+template <class Real, class Device>
+StepFormula ImplicitStep<Real, Device>::formula_of(double h, bool is_first_stage) const {
+  if (static_ || !is_first_stage) return rates_of(h);
+  return knows_acceleration_ ? StepFormula::trapezoidal(h) : StepFormula::backward_euler(h);
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share,
+                                                bool is_first_stage) {
+  formula_ = formula_of(h, is_first_stage);
   share_ = static_cast<Real>(share);
   place(state);
-  potential_.begin({formula_, state.x, x_before_.data(), reference_.data(), predicted_.data(), state.held,
-                    gravity_, drag_, share_});
+  potential_.begin({formula_, rates_of(h), state.x, x_before_.data(), reference_.data(), predicted_.data(),
+                    state.held, gravity_, drag_, share_});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const double steady = potential_of_guess(state, false);
   double begun = steady;
@@ -158,8 +170,10 @@ double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& s
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
   const Real beta_dt = static_ ? Real(0) : static_cast<Real>(formula_.beta_dt);
-  const Real extrapolation = static_cast<Real>(formula_.extrapolation);
+  const Real extrapolation = static_cast<Real>(formula_.extrapolation),
+             carried = static_cast<Real>(formula_.carried);
   const Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
+  const Vec3<Real>* a = acceleration_.data();
   Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
   for_each(
       device_, "implicit start", vertices_, HYST_KERNEL(int i) {
@@ -168,6 +182,10 @@ void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
         if (extrapolation > 0) {
           reference[i] += extrapolation * (x[i] - x0[i]);
           drift[i] += extrapolation * (v[i] - v0[i]);
+        }
+        if (carried > 0) {
+          reference[i] += carried * v[i];
+          drift[i] += carried * a[i];
         }
         predicted[i] = reference[i] + beta_dt * drift[i];
       });
@@ -222,12 +240,17 @@ void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, R
 
 // Both the formula's error and the extrapolation's are multiples of h^2 x^(2) (backward Euler: 1/2 against
 // 1/2 more) or of h^3 x^(3) (bdf2 with w = h/h_before: (1 + w)^2/(6 w (1 + 2w)) against 1/6 + 1/(4w) more).
+// tr-bdf2's is (sqrt 2 - 1)/2 - 1/6 of h^3 x^(3); its trapezoidal stage misses the extrapolation by gamma^3/4 of
+// that.
 template <class Real, class Device>
 double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
   const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;
   const double of_bdf2 = (1 + w) * (1 + w) / (6 * w * (1 + 2 * w)), of_extrapolation = 1.0 / 6 + 1 / (4 * w);
-  const bool second = formula_.extrapolation > 0;
-  const double share = second ? of_bdf2 / (of_bdf2 + of_extrapolation) : 0.5;
+  const double of_step = (std::sqrt(2.0) - 1) / 2 - 1.0 / 6, of_stage = std::pow(kTrapezoidalShare, 3) / 4;
+  const bool second = error_order() == 3;
+  const double share = formula_.carried > 0 ? of_step / of_stage
+                       : second             ? of_bdf2 / (of_bdf2 + of_extrapolation)
+                                            : 0.5;
   const Real h = static_cast<Real>(formula_.dt), curved = second ? h * h / 2 : Real(0);
   const Vec3<Real>*x = state.x, *v = state.v, *a = acceleration_.data(), *end = end_.data();
   const char* held = state.held;
@@ -252,6 +275,7 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
   membrane_.add_viscous_loss();
   move_on(state);
   last_h_ = formula_.dt;
+  knows_acceleration_ = true;
 }
 
 // Work of the forces at the end of the step over the way there.  Membrane and contact: what is left of the
@@ -298,9 +322,9 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt), h = static_cast<Real>(formula_.dt);
-  const bool two_step = two_step_, statics = static_;
+  const bool two_step = two_step_, statics = static_, at_end = two_stage_;
   Vec3<Real>*x = state.x, *v = state.v, *x0 = x_before_.data(), *v0 = v_before_.data();
-  const Vec3<Real>*end = end_.data(), *reference = reference_.data();
+  const Vec3<Real>*end = end_.data(), *reference = reference_.data(), *drift = drift_.data();
   Vec3<Real>* acceleration = acceleration_.data();
   const char* held = state.held;
   for_each(
@@ -311,6 +335,7 @@ void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
           v0[i] = v[i];
         }
         acceleration[i] = statics ? Vec3<Real>((end[i] - x[i]) / h) : Vec3<Real>((moved - v[i]) / h);
+        if (at_end && !held[i]) acceleration[i] = rate * (moved - drift[i]);
         x[i] = end[i];
         v[i] = moved;
       });

@@ -1,4 +1,14 @@
-// One implicit step: backward Euler, two-step backward differences (bdf2), or equilibrium (quasi-static).  In
+// One implicit step: backward Euler, two-step backward differences (bdf2), a stage of tr-bdf2, or equilibrium
+// (quasi-static).
+//
+// tr-bdf2 (Bank et al. 1985): the trapezoidal rule over gamma h with gamma = 2 - sqrt 2, then bdf2 from the
+// step's start and that stage over the rest; L-stable, of second order, and both stages have the same beta h.
+// Each is accepted with its own history, contact, hands and obstacles.  The trapezoidal rule takes over the
+// acceleration at the start, that is all forces there, from the stage before, where it was the solution: no
+// force is evaluated anew.  Where none is known, at the start and after a jump of forces, the first stage is
+// backward Euler's, which keeps the order.
+//
+// In
 // `semi-implicit` with self-contact bending lags: its force is that of the state accepted last.
 #pragma once
 
@@ -28,6 +38,8 @@ struct Unbalanced {
   Eigen::Vector3d position{0, 0, 0};
 };
 
+inline constexpr double kTrapezoidalShare = 0.58578643762690495;  // of a step of tr-bdf2: 2 - sqrt 2
+
 template <class Real, class Device>
 class ImplicitStep {
  public:
@@ -37,7 +49,10 @@ class ImplicitStep {
                SelfContact<Real, Device>* self_contact, std::unique_ptr<LinearSolver<Real, Device>> solver);
 
   // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
-  NewtonOutcome solve(const VertexState<Real>& state, double h, double share);
+  // The first stage of tr-bdf2 is its trapezoidal one.
+  NewtonOutcome solve(const VertexState<Real>& state, double h, double share, bool is_first_stage = false);
+  // Forces have jumped: the acceleration that was is not the one to go on with.
+  void forget_acceleration() { knows_acceleration_ = false; }
   // Steps are equilibria from now on.
   void become_static(const Scene& scene);
   // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
@@ -46,7 +61,7 @@ class ImplicitStep {
   // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
   // mean square by mass [m].  It is of the order error_order() in the step.
   double local_error(const VertexState<Real>& state);
-  double error_order() const { return formula_.extrapolation > 0 ? 3 : 2; }
+  double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const char* held) const;
   // Where solve() has ended without success.
@@ -63,10 +78,13 @@ class ImplicitStep {
 
  private:
   static constexpr double kMostGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
+  StepFormula formula_of(double h, bool is_first_stage) const;
+  StepFormula rates_of(double h) const;
   double potential_of_guess(const VertexState<Real>& state, bool accelerated);
 
   Device& device_;
-  bool two_step_, static_, bending_lags_;
+  bool two_step_, two_stage_, static_, bending_lags_;
+  bool knows_acceleration_ = false;  // at the state accepted last
   Vec3<Real> gravity_;
   Real drag_;       // over mass [1/s]
   Real share_ = 1;  // of the weight
@@ -83,9 +101,10 @@ class ImplicitStep {
   Buffer<Vec3<Real>, Device> end_;  // positions looked for
   Buffer<Vec3<Real>, Device> reference_, drift_,
       predicted_;  // r [m], velocity that goes with it [m/s], y [m]
-  // Over the step before: acceleration [m/s^2]; in statics the velocity of the load [m/s].
+  // Over the step before: acceleration [m/s^2]; in tr-bdf2 that at its end; in statics the velocity of the load
+  // [m/s].
   Buffer<Vec3<Real>, Device> acceleration_;
-  Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step before; bdf2 only
+  Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step or stage before; bdf2 and tr-bdf2
   Buffer<Vec3<Real>, Device> displacement_;         // to a guess; with self-contact only
 };
 

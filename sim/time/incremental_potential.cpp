@@ -29,8 +29,8 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
 template <class Real, class Device>
 void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
   start_ = start;
-  membrane_.begin_step(start.formula, start.now, start.before);
-  if (!bending_lags_) bending_.begin_step(start.formula);
+  membrane_.begin_step(start.rates, start.now, start.before);
+  if (!bending_lags_) bending_.begin_step(start.rates);
 }
 
 template <class Real, class Device>

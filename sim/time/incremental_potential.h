@@ -22,8 +22,8 @@ namespace hysteron {
 // Where a step starts; arrays of vertices.
 template <class Real>
 struct StepStart {
-  StepFormula formula;
-  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read if formula.extrapolation = 0)
+  StepFormula formula, rates;              // of motion; of strains and angles, for viscosity
+  const Vec3<Real>*now, *before;           // x_n, x_{n-1} (not read without extrapolation)
   const Vec3<Real>*reference, *predicted;  // r, y
   const char* held;
   Vec3<Real> gravity;  // [m/s^2]

@@ -41,6 +41,7 @@ std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>
       return std::make_unique<SemiImplicit<Real, Device>>(body, limits);
     case Integrator::implicit:
     case Integrator::bdf2:
+    case Integrator::tr_bdf2:
     case Integrator::quasi_static:
       return std::make_unique<ImplicitIntegrator<Real, Device>>(body);
   }

@@ -24,7 +24,7 @@ class TimeIntegrator {
 
 [[noreturn]] inline void refuse_statics(const Scene& scene) {
   throw Error::request("integrator = " + name_of(scene.integrator) +
-                       " has no equilibrium solve: use implicit | bdf2 | quasi-static");
+                       " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
 }
 
 // The one that the body's scene names.

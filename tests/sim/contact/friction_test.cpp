@@ -78,7 +78,7 @@ double coulomb(double slope) { return kGravity * (std::sin(slope) - kFriction * 
 constexpr double kHeld = 1e-10;  // [m] in half a second: what rounding and Newton's tolerance leave
 
 class SlopeOfGround : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Integrators, SlopeOfGround, testing::Values("implicit", "bdf2"));
+INSTANTIATE_TEST_SUITE_P(Integrators, SlopeOfGround, testing::Values("implicit", "bdf2", "tr-bdf2"));
 
 TEST_P(SlopeOfGround, HoldsASheetForGoodTwoPercentBelowTheTangentOfFriction) {
   const Slide found = slide(on_ground(slope_of(kBelow), GetParam()), 1);

@@ -53,6 +53,7 @@ std::vector<test::Method> methods() {
   all.push_back({"prandtl", "shape", "explicit"});
   for (const char* law : {"linear", "prandtl", "kim"}) all.push_back({law, "shape", "implicit"});
   all.push_back({"prandtl", "hinge", "bdf2"});
+  all.push_back({"prandtl", "hinge", "tr-bdf2"});
   return all;
 }
 

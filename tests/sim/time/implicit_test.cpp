@@ -40,13 +40,15 @@ Positions shape_after(const Scene& scene, double seconds) {
 struct OrderCase {
   std::string law, integrator;
   double order;
+  std::string name() const { return test::Method{law, "shape", integrator}.name(); }
 };
 class Order : public testing::TestWithParam<OrderCase> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, Order,
                          testing::Values(OrderCase{"linear", "implicit", 1}, OrderCase{"linear", "bdf2", 2},
-                                         OrderCase{"prandtl", "implicit", 1},
-                                         OrderCase{"prandtl", "bdf2", 2}),
-                         [](const auto& c) { return c.param.law + "_" + c.param.integrator; });
+                                         OrderCase{"prandtl", "implicit", 1}, OrderCase{"prandtl", "bdf2", 2},
+                                         OrderCase{"linear", "tr-bdf2", 2},
+                                         OrderCase{"prandtl", "tr-bdf2", 2}),
+                         [](const auto& c) { return c.param.name(); });
 
 // Against symplectic steps of 10 us, for a time in which the cloth bends and unbends.
 TEST_P(Order, AgreesWithTinyExplicitStepsThroughReversals) {
@@ -89,7 +91,7 @@ TEST(StiffPaper, StaysFiniteForAThousandLargeSteps) {
   scene.fabric.b1 = scene.fabric.b2 = 4e-4;
   scene.fabric.density = 0.1;
   scene.fabric.warp = scene.fabric.weft = 1e4;
-  for (const char* integrator : {"implicit", "bdf2"}) {
+  for (const char* integrator : {"implicit", "bdf2", "tr-bdf2"}) {
     scene.integrator = value_named<Integrator>(integrator);
     scene.step = 1.0 / 24;
     const auto simulation = Trial(scene).after(1000);
@@ -224,7 +226,7 @@ TEST(Turned, SceneMovesAlike) {
 }
 
 TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
-  for (const char* integrator : {"bdf2", "semi-implicit"}) {
+  for (const char* integrator : {"bdf2", "tr-bdf2", "semi-implicit"}) {
     const Positions exact = shape_after(soft_sheet("prandtl", "bdf2", 0.05e-3), 0.064);
     double last_error = 1e30;
     long last_parts = 0;
@@ -241,6 +243,34 @@ TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
       last_parts = simulation->parts_taken();
     }
   }
+}
+
+// The first step of bdf2 is backward Euler's; tr-bdf2 starts itself once it knows an acceleration.
+TEST(TrBdf2, LosesLessThanBdf2AtTwiceTheStep) {
+  const auto loss = [](const std::string& integrator, double step) {
+    Trial trial(soft_sheet("linear", integrator, step));
+    test::ripple(trial.cloth, 5e-3);
+    return trial.after(static_cast<int>(std::lround(0.064 / step)))->ledger().integrator();
+  };
+  EXPECT_GT(loss("tr-bdf2", 0.8e-3), 0);
+  EXPECT_LT(loss("tr-bdf2", 0.8e-3), loss("bdf2", 0.4e-3));
+}
+
+// Under its weight alone every step is exact: x = g t^2/2, from the second one on also for the stages.
+TEST(TrBdf2, FallsFreelyAsGalileo) {
+  Scene scene = test::free_square(40);
+  scene.integrator = Integrator::tr_bdf2;
+  scene.step = 1.0 / 240;
+  scene.air_drag = 0;
+  const auto simulation = Trial(scene).after(24);
+  const double t = simulation->time(), g = -scene.gravity.z();
+  const double first =
+      (2 - std::sqrt(2.0)) * scene.step;  // a stage by backward Euler: too far by g first^2/2
+  const double speed = -simulation->velocities()[0].z();
+  EXPECT_NEAR(speed / (g * t), 1, 1e-9);
+  const double fallen = Trial(scene).cloth.start[0].z() - simulation->positions()[0].z();
+  EXPECT_NEAR(fallen, g * t * t / 2, g * first * first);
+  EXPECT_GT(fallen, g * t * t / 2);
 }
 
 // Clamps that jump by a quarter turn within one step of 1/24 s.

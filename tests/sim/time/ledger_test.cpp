@@ -42,6 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Balance,
                                          LedgerCase{"prandtl", "explicit"},
                                          LedgerCase{"wong", "semi-implicit"}, LedgerCase{"pabst", "explicit"},
                                          LedgerCase{"prandtl", "implicit"}, LedgerCase{"prandtl", "bdf2"},
+                                         LedgerCase{"prandtl", "tr-bdf2"}, LedgerCase{"wong", "tr-bdf2"},
                                          LedgerCase{"kim", "implicit"}, LedgerCase{"wong", "bdf2"},
                                          LedgerCase{"prandtl", "quasi-static"}),
                          [](const auto& c) { return c.param.name(); });

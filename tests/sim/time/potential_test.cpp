@@ -99,9 +99,9 @@ struct Step {
     }
   }
   void begin(double step = kStep) {
-    potential.begin({StepFormula::backward_euler(step), reference.data(), nullptr, reference.data(),
-                     predicted.data(), held.data(), trial.scene.gravity,
-                     trial.scene.air_drag / trial.scene.fabric.density, 1});
+    const StepFormula formula = StepFormula::backward_euler(step);
+    potential.begin({formula, formula, reference.data(), nullptr, reference.data(), predicted.data(),
+                     held.data(), trial.scene.gravity, trial.scene.air_drag / trial.scene.fabric.density, 1});
   }
   PotentialValue at(const Positions& x, const Positions& direction) {
     return potential.evaluate(x.data(), direction.data());

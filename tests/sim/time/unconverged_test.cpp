@@ -79,7 +79,7 @@ TEST(HandsThatBringHome, AreThereInTime) {
 
 // Without weight and hands only the cloth's own motion says what is small.
 class FreeCloth : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2"));
+INSTANTIATE_TEST_SUITE_P(Integrators, FreeCloth, testing::Values("implicit", "bdf2", "tr-bdf2"));
 
 Scene weightless(const char* integrator) {
   Scene scene = test::free_square();
