@@ -6,8 +6,8 @@
 
 namespace hysteron {
 
-// v = (x - reference)/beta_dt with reference = (1 + e) x_n - e x_{n-1} + c v_n, e the extrapolation; likewise the
-// acceleration from velocities.
+// v = (x - reference)/beta_dt with reference = (1 + e) x_n - e x_{n-1} + c v_n, e the extrapolation; likewise
+// the acceleration from velocities.
 struct StepFormula {
   double dt = 0;             // from x_n to x [s]
   double beta_dt = 0;        // the formula's coefficient beta times dt [s]; infinite in statics

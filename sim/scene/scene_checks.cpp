@@ -223,9 +223,10 @@ void check_steps(const Scene& scene) {
                          " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
                          name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
-    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
-                         origin_of(scene, "integrator") + ")");
+    throw Error::request(
+        shown(scene, "tolerance", scene.tolerance, "m") +
+        " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
+        origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
     throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
                          " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");

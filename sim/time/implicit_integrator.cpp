@@ -59,8 +59,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   body_.begin_stage(start, static_cast<Real>(h));
   if (body_.jumped) solver_.forget_acceleration();
   body_.clock.begin(Stage::solve);
-  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h),
-                                              is_first_stage);
+  const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
@@ -86,7 +85,8 @@ void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int
   if (two_stages_) take_last_stage(start + first_stage(h), h - first_stage(h), halvings);
 }
 
-// The rest of a step after its first stage, which stays: each stage leaves a state from which steps can start.
+// The rest of a step after its first stage, which stays: each stage leaves a state from which steps can
+// start.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_last_stage(double start, double h, int halvings) {
   const NewtonOutcome outcome = attempt(start, h, false);

@@ -240,8 +240,8 @@ void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, R
 
 // Both the formula's error and the extrapolation's are multiples of h^2 x^(2) (backward Euler: 1/2 against
 // 1/2 more) or of h^3 x^(3) (bdf2 with w = h/h_before: (1 + w)^2/(6 w (1 + 2w)) against 1/6 + 1/(4w) more).
-// tr-bdf2's is (sqrt 2 - 1)/2 - 1/6 of h^3 x^(3); its trapezoidal stage misses the extrapolation by gamma^3/4 of
-// that.
+// tr-bdf2's is (sqrt 2 - 1)/2 - 1/6 of h^3 x^(3); its trapezoidal stage misses the extrapolation by gamma^3/4
+// of that.
 template <class Real, class Device>
 double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
   const double w = last_h_ > 0 ? formula_.dt / last_h_ : 1;

@@ -101,8 +101,8 @@ class ImplicitStep {
   Buffer<Vec3<Real>, Device> end_;  // positions looked for
   Buffer<Vec3<Real>, Device> reference_, drift_,
       predicted_;  // r [m], velocity that goes with it [m/s], y [m]
-  // Over the step before: acceleration [m/s^2]; in tr-bdf2 that at its end; in statics the velocity of the load
-  // [m/s].
+  // Over the step before: acceleration [m/s^2]; in tr-bdf2 that at its end; in statics the velocity of the
+  // load [m/s].
   Buffer<Vec3<Real>, Device> acceleration_;
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step or stage before; bdf2 and tr-bdf2
   Buffer<Vec3<Real>, Device> displacement_;         // to a guess; with self-contact only
