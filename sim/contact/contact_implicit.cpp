@@ -1,5 +1,6 @@
 // Contact in an implicit step.  Friction follows the normal force and therefore has no potential; with the
 // force of the last iterate it has one, a stop's: k_t |e|^2/2 up to the limit, then limit |e|.
+#include "sim/contact/sliding_stop.h"
 #include "sim/contact/touch.h"
 
 namespace hysteron {
@@ -54,8 +55,8 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
 }
 
 template <class Real, class Device>
-void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
-                                          Mat3<Real>* diagonal) {
+void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before, Mat3<Real>* diagonal,
+                                          bool is_near) {
   const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
@@ -64,12 +65,9 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
       device_, "contact stiffness", vertices_, HYST_KERNEL(int i) {
         diagonal[i] += touch(set, model, x[i], area[i]).normal_stiffness;
         if (!(lagged[i].limit > 0)) return;
-        const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]), n = lagged[i].normal;
-        const Real k = model.stop_stiffness(lagged[i].limit, area[i]), length = e.norm(),
-                   limit = lagged[i].limit / k;
-        Mat3<Real> tangent = Mat3<Real>::Identity() - n * n.transpose();
-        if (length > limit) tangent = limit / length * (tangent - e / length * (e / length).transpose());
-        diagonal[i] += k * tangent;
+        const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]);
+        const Real k = model.stop_stiffness(lagged[i].limit, area[i]);
+        diagonal[i] += sliding_stiffness<Real>(e, lagged[i].normal, k, lagged[i].limit / k, is_near);
       });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/contact/self_touch.h"
+#include "sim/contact/sliding_stop.h"
 
 namespace hysteron {
 
@@ -206,7 +207,7 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before) {
+void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before, bool is_near) {
   clock_.begin(Stage::contact);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
@@ -231,11 +232,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
         }
         if (!(f.limit > 0)) return;
         const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
-        const Real length = e.norm();
-        Mat3<Real> tangent = Mat3<Real>::Identity() - f.normal * f.normal.transpose();
-        if (length > model.slip)
-          tangent = model.slip / length * (tangent - (e / length) * (e / length).transpose());
-        s.block += f.limit / model.slip * tangent;
+        s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, is_near);
       });
   group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));

@@ -165,10 +165,10 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
         rest[i].setZero();
       });
-  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal);
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, full);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
-    self_contact_->linearise(x, start_.now);
+    self_contact_->linearise(x, start_.now, full);
     self_contact_->add_stiffness_diagonal(rest);
   }
   LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}};

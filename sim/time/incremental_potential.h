@@ -60,8 +60,9 @@ class IncrementalPotential {
   // Phi and its gradient; the direction may be null.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
   // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  It is
-  // positive semidefinite unless it is `full`: then with what compression takes away.  Bending's part is
-  // Gauss-Newton's, without the second derivatives of angles.
+  // positive semidefinite unless it is `full`, for near the minimum: then with what compression takes away,
+  // and with friction that slides more easily (sliding_stop.h).  Bending's part is Gauss-Newton's, without
+  // the second derivatives of angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   double load();  // norm of the weight of all free vertices [N]

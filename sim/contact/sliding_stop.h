@@ -1,0 +1,31 @@
+// The stiffness of friction's stop, in contact with obstacles and between layers alike.
+//
+// Once the stop slides, its energy grows as limit |e| with the stretch e.  The second derivative of this,
+// limit/|e| (P - e e'/|e|^2) with P the tangent plane's projection, has nothing along e: a direction of
+// Newton's method runs past e = 0, where friction turns round, and most of it is cut off.  limit/|e| P is the
+// stiffness of the quadratic that touches |e| and lies above it everywhere: with it full steps go down (Vogel
+// & Oman 1996, lagged diffusivity), but near the minimum only linearly.  docs/contact.md has what was
+// measured.
+#pragma once
+
+#include "sim/device/host_device.h"
+
+namespace hysteron {
+
+// Share of e e'/|e|^2 that is taken out: far from the minimum, and near it.
+inline constexpr double kSlidingFar = 0, kSlidingNear = 0.75;
+
+// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m].
+template <class Real>
+HYST_HD Mat3<Real> sliding_stiffness(const Vec3<Real>& e, const Vec3<Real>& normal, Real k, Real most,
+                                     bool is_near) {
+  Mat3<Real> tangent = Mat3<Real>::Identity() - normal * normal.transpose();
+  const Real length = e.norm();
+  if (length > most) {
+    const Real share = static_cast<Real>(is_near ? kSlidingNear : kSlidingFar);
+    tangent = most / length * (tangent - share * (e / length) * (e / length).transpose());
+  }
+  return k * tangent;
+}
+
+}  // namespace hysteron
