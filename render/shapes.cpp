@@ -129,6 +129,16 @@ TriangleMesh capsule_mesh(float radius, float height) {
   return turned(outline, radius);
 }
 
+TriangleMesh torus_mesh(float radius, float height) {
+  require_positive("torus radius", radius);
+  require_positive("torus height", height);
+  std::vector<OutlinePoint> outline;
+  add_arc(outline, {radius, 0}, height / 2, kPi, -kPi, kSectors / 2);
+  TriangleMesh mesh = turned(outline, height / 2);
+  mesh.centred = false;
+  return mesh;
+}
+
 TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim) {
   for (int axis = 0; axis < 3; ++axis) require_positive("box half edge", half_edges[axis]);
   const float least = half_edges.minCoeff();

@@ -27,6 +27,8 @@ TriangleMesh sphere_mesh(float radius);
 TriangleMesh cylinder_mesh(float radius, float height, float rim);
 // `height`: length of the axis between the two hemispheres' centres.
 TriangleMesh capsule_mesh(float radius, float height);
+// A ring around z: `radius` to the middle of its wire, which is `height` thick.
+TriangleMesh torus_mesh(float radius, float height);
 // `rim` rounds edges and corners, at most the least half edge.
 TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim);
 

@@ -19,15 +19,16 @@ namespace {
 
 struct CrumpleChoice {
   double ridge = 20;
+  int quick_triangles = 1500;
 };
 using C = CrumpleChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
+    {"crumple.quick-triangles", at<&C::quick_triangles>, "", between(2, 1e8), "", "with --quick at most so many triangles"},
 };
 // clang-format on
 
-constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
 constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
 constexpr double kLines = 0.5;      // test lines for ridges, in mean edges
@@ -62,19 +63,25 @@ RidgeMetrics wrinkles_of(Session& session, const C& choice) {
           root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
 }
 
-render::Box box_of_start(const Cloth& cloth) {
+// Of the cloth at the start and of where hands take it.
+render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   render::Box box;
   box.low = box.high = cloth.start[0].cast<float>();
-  for (const Eigen::Vector3d& x : cloth.start) {
+  const auto include = [&](const Eigen::Vector3d& x) {
     box.low = box.low.cwiseMin(x.cast<float>());
     box.high = box.high.cwiseMax(x.cast<float>());
-  }
+  };
+  for (const Eigen::Vector3d& x : cloth.start) include(x);
+  for (std::size_t p = 0; p < scene.pin.size(); ++p)
+    for (const Keyframe& key : scene.pin[p].motion.keys)
+      if (scene.pin[p].from == 0)
+        for (int i : cloth.pin_vertices[p]) include(cloth.start[i] + key.position);
   return box;
 }
 
 Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
   Question question;
-  question.bounds = box_of_start(session.cloth());
+  question.bounds = box_of_motion(session.scene(), session.cloth());
   const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
   question.bounds.high.z() += kHeadroom * size.z();
   question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
@@ -138,14 +145,14 @@ void draw_all(Session& session, const RidgeMetrics& wrinkles) {
   for (const TablePlot& plot : plots_of(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
 
-void limit_to_quick(Setup& setup) {
-  setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
+void limit_to_quick(Setup& setup, const C& choice) {
+  setup.scene.triangles = std::min(setup.scene.triangles, choice.quick_triangles);
   setup.options.fps = std::min(setup.options.fps, kQuickFps);
 }
 
 void crumple_once(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), [&](Setup& s) { limit_to_quick(s, choice); });
   Session session(line, setup);
   if (session.only_explain()) return;
   RidgeMetrics wrinkles;

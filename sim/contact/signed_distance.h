@@ -8,8 +8,8 @@
 
 namespace hysteron {
 
-// A shape in its own frame: ground z <= 0; hollow: all but a sphere; cylinder and capsule along z, centred;
-// box centred.
+// A shape in its own frame: ground z <= 0; hollow: all but a sphere; cylinder, capsule and torus along z,
+// centred; box centred.
 template <class Real>
 struct Shape {
   ObstacleKind kind;
@@ -85,6 +85,17 @@ template <class Real>
 HYST_HD inline Distance<Real> capsule_distance(const Shape<Real>& s, const Vec3<Real>& p) {
   const Real z = p[2] < -s.half[2] ? -s.half[2] : (p[2] > s.half[2] ? s.half[2] : p[2]);
   return sphere_distance(s, Vec3<Real>(p[0], p[1], p[2] - z));
+}
+
+// A ring around z: `half[0]` to the middle of its wire, whose radius is `half[2]`.
+template <class Real>
+HYST_HD inline Distance<Real> torus_distance(const Shape<Real>& s, const Vec3<Real>& p) {
+  using std::sqrt;
+  const Real r = sqrt(p[0] * p[0] + p[1] * p[1]);
+  const Vec3<Real> radial = r > 0 ? Vec3<Real>(p[0] / r, p[1] / r, 0) : Vec3<Real>(1, 0, 0);
+  const Vec3<Real> from_wire = p - s.half[0] * radial;
+  const Real length = from_wire.norm();
+  return {length - s.half[2], length > 0 ? Vec3<Real>(from_wire / length) : radial};
 }
 
 template <class Real>

@@ -92,6 +92,9 @@ ClothMesh make_disc(double radius, int triangles, MeshFamily family, unsigned se
 // Errors as make_rectangle, and where the sides of the seam have different vertices.
 ClothMesh make_tube(double length, double radius, int triangles, MeshFamily family, unsigned seed);
 
+// That many of the same mesh, each `offset` further than the one before; vertices and triangles copy by copy.
+ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
+
 // Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture
 // coordinates, where every corner has one, become the pattern, or face_warp if they have seams.
 // weld > 0 merges each vertex into the first one closer than that distance [m].

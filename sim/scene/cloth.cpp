@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/error.h"
+#include "sim/scene/key_table.h"
+#include "sim/scene/start_shape.h"
 
 namespace hysteron {
 namespace {
@@ -12,15 +14,39 @@ constexpr double kSelectionSlack = 1e-9;  // [m]: box corners meet grid vertices
 
 bool is_obj(const std::string& name) { return name.size() > 4 && name.substr(name.size() - 4) == ".obj"; }
 
-ClothMesh rest_mesh(const Scene& scene) {
+ClothMesh one_rest_mesh(const Scene& scene) {
   const ClothShape& c = scene.cloth;
+  const int triangles = scene.triangles / c.copies;
   if (is_obj(scene.mesh)) return read_obj(scene.mesh, c.weld);
   if (c.shape == "file") return read_obj(c.file, c.weld);
   const MeshFamily family = mesh_family(scene.mesh);
-  if (c.shape == "disc") return make_disc(c.radius, scene.triangles, family, scene.seed);
-  if (c.shape == "tube") return make_tube(c.length, c.radius, scene.triangles, family, scene.seed);
+  if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
+  if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);
   const double width = c.shape == "square" ? c.length : c.width;
-  return make_rectangle(c.length, width, scene.triangles, family, scene.seed);
+  return make_rectangle(c.length, width, triangles, family, scene.seed);
+}
+
+// What is nearer than that at rest, contact takes for neighbours in one cloth.
+void check_copies(const Scene& scene, const ClothMesh& one) {
+  const ClothShape& c = scene.cloth;
+  Eigen::Vector3d low = one.rest[0], high = low;
+  for (const Eigen::Vector3d& x : one.rest) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  const double gap = (c.copy_offset.cwiseAbs() - (high - low)).cwiseMax(0.0).norm();
+  const double least = 2 * scene.fabric.thickness;
+  if (gap >= least) return;
+  const auto found = scene.origin.find("cloth.copy-offset");
+  throw Error::request("cloth.copy-offset = [" + number_text(c.copy_offset.x()) + ", " +
+                       number_text(c.copy_offset.y()) + ", " + number_text(c.copy_offset.z()) + "] m (" +
+                       (found == scene.origin.end() ? "default" : found->second) + ") leaves copies " +
+                       number_text(gap) + " m apart, which must be >= " + number_text(least) +
+                       " m, twice the fabric's thickness");
+}
+
+ClothMesh rest_mesh(const Scene& scene) {
+  ClothMesh one = one_rest_mesh(scene);
+  if (scene.cloth.copies == 1) return one;
+  check_copies(scene, one);
+  return copies_of(one, scene.cloth.copies, scene.cloth.copy_offset);
 }
 
 std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
@@ -38,6 +64,29 @@ std::vector<int> selected(const ClothMesh& mesh, const Pin& pin) {
       if (is_in_box(mesh.rest[i], pin.low, pin.high)) vertices.push_back(i);
   }
   return vertices;
+}
+
+Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> start) {
+  Cloth cloth;
+  cloth.mesh = std::move(mesh);
+  cloth.start = std::move(start);
+  const double warp = scene.cloth.warp_angle * kDegree;
+  cloth.mesh.warp_axis = {std::cos(warp), std::sin(warp), 0};
+  const Eigen::Vector3d angle = scene.cloth.rotation * kDegree;
+  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
+                                    Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
+                                       .toRotationMatrix();
+  for (Eigen::Vector3d& x : cloth.start) x = rotation * x + scene.cloth.position;
+  cloth.pin.assign(cloth.mesh.vertices(), -1);
+  for (std::size_t p = 0; p < scene.pin.size(); ++p) {
+    cloth.pin_vertices.push_back(selected(cloth.mesh, scene.pin[p]));
+    if (cloth.pin_vertices.back().empty())
+      throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
+    if (scene.pin[p].from > 0) continue;
+    for (int vertex : cloth.pin_vertices.back()) cloth.pin[vertex] = static_cast<int>(p);
+  }
+  return cloth;
 }
 
 }  // namespace
@@ -83,28 +132,15 @@ std::vector<char> Cloth::held_throughout(const Scene& scene) const {
   return result;
 }
 
-Cloth make_cloth(const Scene& scene) { return place_cloth(scene, rest_mesh(scene)); }
+Cloth make_cloth(const Scene& scene) {
+  ClothMesh mesh = rest_mesh(scene);
+  std::vector<Eigen::Vector3d> start = start_shape(scene, mesh);
+  return placed(scene, std::move(mesh), std::move(start));
+}
 
 Cloth place_cloth(const Scene& scene, ClothMesh mesh) {
-  Cloth cloth;
-  cloth.mesh = std::move(mesh);
-  const double warp = scene.cloth.warp_angle * kDegree;
-  cloth.mesh.warp_axis = {std::cos(warp), std::sin(warp), 0};
-  const Eigen::Vector3d angle = scene.cloth.rotation * kDegree;
-  const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(angle.z(), Eigen::Vector3d::UnitZ()) *
-                                    Eigen::AngleAxisd(angle.y(), Eigen::Vector3d::UnitY()) *
-                                    Eigen::AngleAxisd(angle.x(), Eigen::Vector3d::UnitX()))
-                                       .toRotationMatrix();
-  for (const Eigen::Vector3d& x : cloth.mesh.rest) cloth.start.push_back(rotation * x + scene.cloth.position);
-  cloth.pin.assign(cloth.mesh.vertices(), -1);
-  for (std::size_t p = 0; p < scene.pin.size(); ++p) {
-    cloth.pin_vertices.push_back(selected(cloth.mesh, scene.pin[p]));
-    if (cloth.pin_vertices.back().empty())
-      throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
-    if (scene.pin[p].from > 0) continue;
-    for (int vertex : cloth.pin_vertices.back()) cloth.pin[vertex] = static_cast<int>(p);
-  }
-  return cloth;
+  std::vector<Eigen::Vector3d> start = mesh.rest;
+  return placed(scene, std::move(mesh), std::move(start));
 }
 
 }  // namespace hysteron

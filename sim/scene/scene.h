@@ -68,6 +68,12 @@ struct ClothShape {
   Eigen::Vector3d position{0, 0, 0};
   Eigen::Vector3d rotation{0, 0, 0};
   double warp_angle = 0;
+  std::string start = "rest";
+  int pleats = 4;
+  int copies = 1;
+  Eigen::Vector3d copy_offset{0, 0, 0.01};
+  double copy_turn = 0;
+  double copy_scatter = 0;
 };
 
 // An instant of a prescribed motion; between keys positions and angles are interpolated smoothly (velocity

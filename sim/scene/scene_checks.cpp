@@ -6,6 +6,7 @@
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
+#include "sim/scene/start_shape.h"
 
 namespace hysteron {
 namespace {
@@ -139,6 +140,11 @@ void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string
   if (form.has_axis && solid.axis.isZero(0)) {
     throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
   }
+  if (solid.kind == ObstacleKind::torus && solid.radius <= solid.height / 2) {
+    throw Error::request(path + ".radius = " + number_text(solid.radius) + " m must be > " +
+                         number_text(solid.height / 2) + " m, half of " + path +
+                         ".height: a torus needs a hole (" + origin_of(scene, path) + ")");
+  }
   const double room = form.has_rim ? form.half_thickness : kInfinity;
   if (solid.rim > room) {
     throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
@@ -244,6 +250,7 @@ void check_scene(const Scene& scene) {
   check_fabric(scene);
   check_mesh(scene);
   check_one_mesh(scene);
+  check_start_shape(scene);
   check_phases(scene);
   check_method(scene);
   check_steps(scene);

@@ -43,6 +43,7 @@ TEST(Shapes, VolumesAreTheClosedForms) {
   EXPECT_NEAR(volume(sphere_mesh(2)) / (4.0 / 3 * kPi * 8), 1, kChords);
   EXPECT_NEAR(volume(cylinder_mesh(0.5f, 2, 0)) / (kPi * 0.25 * 2), 1, kChords);
   EXPECT_NEAR(volume(capsule_mesh(0.5f, 2)) / (kPi * 0.25 * 2 + 4.0 / 3 * kPi * 0.125), 1, kChords);
+  EXPECT_NEAR(volume(torus_mesh(0.5f, 0.2f)) / (2 * kPi * 0.5 * kPi * 0.01), 1, kChords);
   EXPECT_NEAR(volume(box_mesh({1, 2, 3}, 0)) / (8 * 6), 1, kChords);
 }
 
@@ -50,6 +51,7 @@ TEST(Shapes, NormalsPointOutward) {
   expect_unit_normals_along_triangles(sphere_mesh(1));
   expect_unit_normals_along_triangles(cylinder_mesh(0.045f, 0.12f, 0.002f));
   expect_unit_normals_along_triangles(capsule_mesh(0.1f, 0.3f));
+  expect_unit_normals_along_triangles(torus_mesh(0.05f, 0.01f));
   expect_unit_normals_along_triangles(box_mesh({0.1f, 0.2f, 0.05f}, 0.01f));
 }
 
@@ -88,6 +90,7 @@ TEST(Shapes, LengthsThatAreNotPositiveAreRefused) {
   EXPECT_EQ(test::error_of([] { sphere_mesh(0); }).exit_code(), 2);
   EXPECT_EQ(test::error_of([] { cylinder_mesh(1, -1, 0); }).exit_code(), 2);
   EXPECT_EQ(test::error_of([] { capsule_mesh(std::nanf(""), 1); }).exit_code(), 2);
+  EXPECT_EQ(test::error_of([] { torus_mesh(1, 0); }).exit_code(), 2);
   EXPECT_EQ(test::error_of([] { box_mesh({1, 0, 1}, 0); }).exit_code(), 2);
 }
 

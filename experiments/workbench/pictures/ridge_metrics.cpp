@@ -52,6 +52,17 @@ struct Line {
   }
 };
 
+// Copies side by side along the first coordinate.
+void place_apart(std::vector<Eigen::Vector2d>& at, int copies) {
+  const std::size_t each = at.size() / copies;
+  const auto first = at.begin(), end = first + static_cast<std::ptrdiff_t>(each);
+  const auto by_x = [](const auto& a, const auto& b) { return a.x() < b.x(); };
+  const auto [low, high] = std::minmax_element(first, end, by_x);
+  const double from = low->x(), stride = 1.1 * (high->x() - from);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    at[i] = {at[i % each].x() + static_cast<double>(i / each) * stride, at[i % each].y()};
+}
+
 }  // namespace
 
 std::vector<double> curvature_size(const std::vector<double>& curvature, int dimension) {
@@ -70,6 +81,7 @@ std::vector<Eigen::Vector2d> unrolled(const ClothMesh& mesh, const ClothShape& s
     const double around = std::atan2(-x.y(), -x.z());
     result.push_back({x.x(), shape.shape == "tube" ? shape.radius * around : x.y()});
   }
+  if (shape.copies > 1) place_apart(result, shape.copies);
   return result;
 }
 

@@ -37,6 +37,8 @@ std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
       return render::sphere_mesh(f(o.radius));
     case ObstacleKind::capsule:
       return render::capsule_mesh(f(o.radius), f(o.height));
+    case ObstacleKind::torus:
+      return render::torus_mesh(f(o.radius), f(o.height));
     case ObstacleKind::box:
       return render::box_mesh(o.size.cast<float>(), f(o.rim));
     case ObstacleKind::cylinder:

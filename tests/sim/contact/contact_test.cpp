@@ -151,7 +151,7 @@ TEST(Contact, TableTakenAwayLetsItsClothFall) {
 // Cloth over every kind of obstacle: no vertex is ever in it.
 TEST(Contact, NothingFallsThroughAnyObstacle) {
   for (const ObstacleKind kind : {ObstacleKind::ground, ObstacleKind::sphere, ObstacleKind::cylinder,
-                                  ObstacleKind::box, ObstacleKind::capsule}) {
+                                  ObstacleKind::box, ObstacleKind::capsule, ObstacleKind::torus}) {
     Scene scene = test::free_square(300);
     scene.law = "prandtl";
     scene.solver_tolerance = 1e-4;

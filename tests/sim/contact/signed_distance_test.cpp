@@ -19,6 +19,7 @@ const Solid kSphere{ObstacleKind::sphere, Vector3d::Constant(kRadius), 0};
 const Solid kCylinder{ObstacleKind::cylinder, Vector3d(kRadius, kRadius, kHalfHeight), kRim};
 const Solid kBox{ObstacleKind::box, Vector3d(0.5, 0.4, 0.3), kRim};
 const Solid kCapsule{ObstacleKind::capsule, Vector3d(kRadius, kRadius, kHalfHeight), 0};
+const Solid kTorus{ObstacleKind::torus, Vector3d(kRadius, kRadius, 0.1), 0};
 
 double distance(const Solid& s, const Vector3d& p) { return signed_distance(s, p).value; }
 
@@ -48,10 +49,18 @@ TEST(SignedDistance, OfRoundedEdgesIsToTheRimsCircle) {
   EXPECT_NEAR(distance(kBox, {0.45 + 0.2, 0.35 + 0.2, 0.25 + 0.1}), 0.3 - kRim, kRounding);
 }
 
+TEST(SignedDistance, OfTheTorusIsToTheCircleInItsWireLessTheWiresRadius) {
+  EXPECT_NEAR(distance(kTorus, {0.6 * 1.5, 0.8 * 1.5, 0}), 1 - 0.1, kRounding);  // outside, in its plane
+  EXPECT_NEAR(distance(kTorus, {0, kRadius, 0.3}), 0.3 - 0.1, kRounding);        // above the wire
+  EXPECT_NEAR(distance(kTorus, {0, kRadius - 0.3, 0.4}), 0.5 - 0.1, kRounding);  // beside and above it
+  EXPECT_NEAR(distance(kTorus, {0, 0.45, 0}), 0.05 - 0.1, kRounding);            // in the wire
+  EXPECT_NEAR(distance(kTorus, {0, 0, 0}), kRadius - 0.1, kRounding);            // in the hole
+}
+
 TEST(SignedDistance, NormalIsTheUnitGradientToSecondOrder) {
   std::mt19937 generator(6);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const Solid& s : {kGround, kSphere, kCylinder, kBox, kCapsule}) {
+  for (const Solid& s : {kGround, kSphere, kCylinder, kBox, kCapsule, kTorus}) {
     double error[2] = {0, 0};
     for (int trial = 0; trial < 200; ++trial) {
       const Vector3d p(uniform(generator), uniform(generator), uniform(generator));
@@ -109,7 +118,7 @@ TEST(SignedDistance, ChangesNoFasterThanThePointMoves) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto point = [&] { return Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
-  for (const Solid& s : {kGround, kSphere, kCylinder, kBox, kCapsule})
+  for (const Solid& s : {kGround, kSphere, kCylinder, kBox, kCapsule, kTorus})
     for (int trial = 0; trial < 1000; ++trial) {
       const Vector3d p = point(), q = p + 0.1 * point();
       EXPECT_LE(std::abs(distance(s, p) - distance(s, q)), (p - q).norm() + kRounding);

@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"UnknownObstacle",
                  "[[obstacle]]\n[[obstacle]]\nkind = \"cone\"\n",
                  3,
-                 {"obstacle[1].kind = cone", "ground | sphere | hollow | cylinder | box | capsule"}},
+                 {"obstacle[1].kind = cone", "ground | sphere | hollow | cylinder | box | capsule | torus"}},
         BadScene{"ZeroRadius", "[[obstacle]]\nradius = 0\n", 2, {"obstacle[0].radius = 0 m must be > 0"}},
         BadScene{"ZeroEdge",
                  "[[obstacle]]\nsize = [1, 0, 1]\n",

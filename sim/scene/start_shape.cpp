@@ -1,0 +1,191 @@
+#include "sim/scene/start_shape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/base/error.h"
+#include "sim/mesh/random_points.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kPi = std::numbers::pi;
+
+// Of a knot.
+constexpr double kLeastRadius = 5;  // in widths: below, the torsion stretches the strip by more than 1 %
+constexpr double kSway = 0.15;      // of the radius: how far loops swing in and out
+constexpr double kRise =
+    0.9;  // of the width: how far they swing up and down, which parts them where they cross
+constexpr double kDrift = 1.2;    // of the width: from the beginning to the end, which parts the tails
+constexpr double kEnd = 4 * kPi;  // two loops
+constexpr int kPieces = 4000;     // of its length
+
+// The middle line of a knot at angle u, 0 to kEnd, and its derivatives.
+struct KnotCurve {
+  double width, radius;
+
+  double rise(double u) const { return width * (kRise * std::sin(1.5 * u) + kDrift * (u / kEnd - 0.5)); }
+  double reach(double u) const { return radius * (1 + kSway * std::cos(1.5 * u)); }
+  Vector3d at(double u) const { return {reach(u) * std::sin(u), reach(u) * std::cos(u), rise(u)}; }
+  Vector3d first(double u) const {
+    const double r = reach(u), dr = -1.5 * radius * kSway * std::sin(1.5 * u);
+    return {dr * std::sin(u) + r * std::cos(u), dr * std::cos(u) - r * std::sin(u),
+            width * (1.5 * kRise * std::cos(1.5 * u) + kDrift / kEnd)};
+  }
+  Vector3d second(double u) const {
+    const double r = reach(u), dr = -1.5 * radius * kSway * std::sin(1.5 * u),
+                 d2r = -2.25 * radius * kSway * std::cos(1.5 * u);
+    return {(d2r - r) * std::sin(u) + 2 * dr * std::cos(u), (d2r - r) * std::cos(u) - 2 * dr * std::sin(u),
+            -2.25 * width * kRise * std::sin(1.5 * u)};
+  }
+};
+
+// The same by its length, the tails along -x and +x.
+class Knot {
+ public:
+  Knot(double width, double radius) : curve_{width, radius} {
+    way_.push_back(0);
+    for (int i = 1; i <= kPieces; ++i) {
+      const double u = kEnd * i / kPieces, h = kEnd / kPieces;  // Simpson's rule
+      way_.push_back(
+          way_.back() +
+          h / 6 * (curve_.first(u - h).norm() + 4 * curve_.first(u - h / 2).norm() + curve_.first(u).norm()));
+    }
+    // Its ends have the same direction, in the plane of x and z.
+    level_ = Eigen::Quaterniond::FromTwoVectors(curve_.first(0), Vector3d::UnitX()).toRotationMatrix();
+  }
+
+  double length() const { return way_.back(); }
+
+  // At `s` from the knot's beginning along its middle line and `v` beside it.
+  Vector3d at(double s, double v) const {
+    const double inside = std::clamp(s, 0.0, length()), u = angle_at(inside);
+    const Vector3d along = curve_.first(u).normalized(),
+                   beside = curve_.first(u).cross(curve_.second(u)).normalized();
+    return level_ * (curve_.at(u) + (s - inside) * along + v * beside);
+  }
+
+ private:
+  double angle_at(double s) const {
+    const auto after = std::upper_bound(way_.begin() + 1, way_.end() - 1, s);
+    const double part = (s - *(after - 1)) / (*after - *(after - 1));
+    return kEnd * (static_cast<double>(after - 1 - way_.begin()) + part) / kPieces;
+  }
+
+  KnotCurve curve_;
+  std::vector<double> way_;  // [m], up to each piece's beginning
+  Eigen::Matrix3d level_;
+};
+
+// Length of a flat run.
+double run_of(const ClothShape& c) { return (c.length - (c.pleats - 1) * kPi * c.radius) / c.pleats; }
+
+// Of a point at `s` along the cloth, in the plane of the pleats.
+Vector3d pleated(const ClothShape& c, double s, double y) {
+  const double run = run_of(c), period = run + kPi * c.radius;
+  const int layer = std::clamp(static_cast<int>(s / period), 0, c.pleats - 1);
+  const double on = s - layer * period, turn = std::max(0.0, on - run) / c.radius;
+  const double along = std::min(on, run) + c.radius * std::sin(turn);
+  return {layer % 2 ? run - along : along, y, c.radius * (2 * layer + 1 - std::cos(turn))};
+}
+
+// Turns and moves each copy by its draw.
+void draw_copies(const Scene& scene, std::vector<Vector3d>& x) {
+  const ClothShape& c = scene.cloth;
+  if (c.copy_turn == 0 && c.copy_scatter == 0) return;
+  Uniform uniform(scene.seed);
+  const std::size_t each = x.size() / c.copies;
+  for (int k = 0; k < c.copies; ++k) {
+    Vector3d low = x[k * each], high = low;
+    for (std::size_t i = k * each; i < (k + 1) * each; ++i)
+      low = low.cwiseMin(x[i]), high = high.cwiseMax(x[i]);
+    const Vector3d middle = (low + high) / 2;
+    const double angle = kPi / 180 * uniform(-c.copy_turn, c.copy_turn);
+    const double dx = uniform(-c.copy_scatter, c.copy_scatter), dy = uniform(-c.copy_scatter, c.copy_scatter);
+    const Eigen::AngleAxisd turn(angle, Vector3d::UnitZ());
+    for (std::size_t i = k * each; i < (k + 1) * each; ++i)
+      x[i] = middle + turn * (x[i] - middle) + Vector3d(dx, dy, 0);
+  }
+}
+
+// "cloth.radius = 0.01 m (scene.toml:7)"
+std::string shown(const Scene& scene, const std::string& key, const std::string& value,
+                  const std::string& unit) {
+  const auto found = scene.origin.find(key);
+  return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" +
+         (found == scene.origin.end() ? "default" : found->second) + ")";
+}
+std::string shown(const Scene& scene, const std::string& key, double metres) {
+  return shown(scene, key, number_text(metres), "m");
+}
+
+void check_knot(const Scene& scene) {
+  const ClothShape& c = scene.cloth;
+  if (c.radius < kLeastRadius * c.width)
+    throw Error::request(shown(scene, "cloth.radius", c.radius) + " must be >= " +
+                         number_text(kLeastRadius * c.width) + " m, " + number_text(kLeastRadius) +
+                         " times " + shown(scene, "cloth.width", c.width) + ", for cloth.start = knot");
+  const double least = knot_length(c.width, c.radius);
+  if (c.length < least)
+    throw Error::request(shown(scene, "cloth.length", c.length) + " must be >= " + number_text(least) +
+                         " m for a knot with loops of " + shown(scene, "cloth.radius", c.radius));
+}
+
+void check_pleats(const Scene& scene) {
+  const ClothShape& c = scene.cloth;
+  if (c.radius < scene.fabric.thickness)
+    throw Error::request(shown(scene, "cloth.radius", c.radius) +
+                         " must be >= " + number_text(scene.fabric.thickness) +
+                         " m, fabric.thickness, for cloth.start = pleats");
+  if (run_of(c) <= 0)
+    throw Error::request(shown(scene, "cloth.length", c.length) + " must be > " +
+                         number_text((c.pleats - 1) * kPi * c.radius) + " m for " +
+                         shown(scene, "cloth.pleats", std::to_string(c.pleats), "") + " with turns of " +
+                         shown(scene, "cloth.radius", c.radius));
+}
+
+}  // namespace
+
+double knot_length(double width, double radius) { return Knot(width, radius).length() + 2 * radius; }
+
+void check_start_shape(const Scene& scene) {
+  const ClothShape& c = scene.cloth;
+  if (c.copies > 1 && scene.triangles < 2 * c.copies)
+    throw Error::request(shown(scene, "triangles", std::to_string(scene.triangles), "") +
+                         " must be at least 2 for each of " +
+                         shown(scene, "cloth.copies", std::to_string(c.copies), ""));
+  if (c.start == "rest") return;
+  const bool knot = c.start == "knot", of_file = scene.mesh.ends_with(".obj") || scene.mesh.ends_with(".OBJ");
+  if (of_file || !(c.shape == "strip" || (!knot && c.shape == "square")))
+    throw Error::request(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
+                         (knot ? "" : " or square") + ", not " +
+                         (of_file ? "the mesh " + scene.mesh : c.shape));
+  knot ? check_knot(scene) : check_pleats(scene);
+}
+
+std::vector<Vector3d> start_shape(const Scene& scene, const ClothMesh& mesh) {
+  const ClothShape& c = scene.cloth;
+  std::vector<Vector3d> x = mesh.rest;
+  const auto each_with = [&](const auto& place) {
+    const std::size_t each = x.size() / c.copies;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vector3d offset = static_cast<double>(i / each) * c.copy_offset, flat = x[i] - offset;
+      x[i] = place(flat) + offset;
+    }
+  };
+  if (c.start == "knot") {
+    const Knot knot(c.width, c.radius);
+    const double tail = (c.length - knot.length()) / 2;
+    each_with([&](const Vector3d& p) { return knot.at(p.x() - tail, p.y() - c.width / 2); });
+  } else if (c.start == "pleats") {
+    each_with([&](const Vector3d& p) { return pleated(c, p.x(), p.y()); });
+  }
+  draw_copies(scene, x);
+  return x;
+}
+
+}  // namespace hysteron
