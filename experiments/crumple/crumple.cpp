@@ -19,16 +19,15 @@ namespace {
 
 struct CrumpleChoice {
   double ridge = 20;
-  int quick_triangles = 1500;
 };
 using C = CrumpleChoice;
 // clang-format off
 const KeyRow<C> kRows[] = {
     {"crumple.ridge", at<&C::ridge>, "1/m", positive(), "", "residual curvature from which a place counts as part of a ridge"},
-    {"crumple.quick-triangles", at<&C::quick_triangles>, "", between(2, 1e8), "", "with --quick at most so many triangles"},
 };
 // clang-format on
 
+constexpr int kQuickTriangles = 1500;
 constexpr double kQuickFps = 10;
 constexpr int kBins = 40;           // of the histogram of curvatures, up to two K0
 constexpr double kLines = 0.5;      // test lines for ridges, in mean edges
@@ -145,14 +144,14 @@ void draw_all(Session& session, const RidgeMetrics& wrinkles) {
   for (const TablePlot& plot : plots_of(scene.fabric.name)) draw(session.run(), plot, scene.law);
 }
 
-void limit_to_quick(Setup& setup, const C& choice) {
-  setup.scene.triangles = std::min(setup.scene.triangles, choice.quick_triangles);
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, kQuickTriangles);
   setup.options.fps = std::min(setup.options.fps, kQuickFps);
 }
 
 void crumple_once(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), [&](Setup& s) { limit_to_quick(s, choice); });
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Session session(line, setup);
   if (session.only_explain()) return;
   RidgeMetrics wrinkles;

@@ -31,5 +31,28 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_NE(text_of(out / "table.csv").find("prandtl,"), std::string::npos);
 }
 
+// The beginning of each shipped scene, on a small mesh.
+class ShippedScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedScene, BeginsInBalanceAndFreeOfCrossingsUnderLawsWithAndWithoutMemory) {
+  const Folder folder;
+  const auto out = folder.path() / "run";
+  const Outcome outcome = program(
+      std::string("crumple --scene crumple-") + GetParam() +
+      " --law linear,prandtl --triangles 300 --seconds 0.06 --no-images --quiet --out " + out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* law : {"linear", "prandtl"}) {
+    const auto metrics = nlohmann::json::parse(text_of(out / law / "manifest.json"))["metrics"];
+    EXPECT_EQ(metrics["intersections"], 0) << law;
+    EXPECT_EQ(metrics["unbalanced_steps_count"], 0) << law;
+    EXPECT_EQ(metrics.value("deep_contact_steps_count", 0), 0) << law;
+    EXPECT_LT(metrics["energy_remainder_relative"], 1e-9) << law;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
+                         testing::Values("sphere", "tube", "fist", "fall", "knot", "wring", "press", "ring"),
+                         [](const auto& info) { return std::string(info.param); });
+
 }  // namespace
 }  // namespace hysteron::experiments

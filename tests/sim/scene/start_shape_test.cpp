@@ -1,0 +1,168 @@
+// Cloth that is flat at rest and starts otherwise: knotted, pleated, or as several copies.
+#include "sim/scene/start_shape.h"
+
+#include <cmath>
+
+#include "sim/mesh/intersections.h"
+#include "sim/scene/cloth.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+Scene strip_in(const std::string& start) {
+  Scene scene;
+  scene.mesh = "random";
+  scene.triangles = 2000;
+  scene.cloth.shape = "strip";
+  scene.cloth.start = start;
+  return scene;
+}
+
+Scene knotted() {
+  Scene scene = strip_in("knot");
+  scene.cloth.length = 0.8;
+  scene.cloth.width = 0.008;
+  scene.cloth.radius = 0.04;
+  return scene;
+}
+
+Scene pleated() {
+  Scene scene = strip_in("pleats");
+  scene.cloth.pleats = 6;
+  scene.cloth.length = 0.4;
+  scene.cloth.width = 0.05;
+  scene.cloth.radius = 0.005;
+  return scene;
+}
+
+Scene ten_sheets() {
+  Scene scene;
+  scene.mesh = "random";
+  scene.triangles = 1000;
+  scene.cloth.shape = "square";
+  scene.cloth.length = 0.2;
+  scene.cloth.copies = 10;
+  scene.cloth.copy_offset = {0, 0, 0.012};
+  scene.cloth.copy_turn = 20;
+  scene.cloth.copy_scatter = 0.01;
+  return scene;
+}
+
+// Of an edge, over its length at rest.
+double largest_strain(const Cloth& cloth) {
+  double largest = 0;
+  for (const Edge& e : cloth.mesh.edge) {
+    const double rest = (cloth.mesh.rest[e.p3] - cloth.mesh.rest[e.p2]).norm();
+    largest = std::max(largest, std::abs((cloth.start[e.p3] - cloth.start[e.p2]).norm() / rest - 1));
+  }
+  return largest;
+}
+
+// Of two vertices that are far from each other on the flat cloth.
+double nearest_layers(const Cloth& cloth, double far) {
+  double nearest = INFINITY;
+  for (int i = 0; i < cloth.mesh.vertices(); ++i)
+    for (int j = 0; j < i; ++j)
+      if ((cloth.mesh.rest[i] - cloth.mesh.rest[j]).norm() > far)
+        nearest = std::min(nearest, (cloth.start[i] - cloth.start[j]).norm());
+  return nearest;
+}
+
+TEST(StartShape, OfAKnotHardlyStretchesTheStripAndKeepsItsLayersApart) {
+  const Cloth cloth = make_cloth(knotted());
+  EXPECT_LT(largest_strain(cloth), 0.01);
+  EXPECT_TRUE(intersecting_triangles(cloth.mesh.face, cloth.start).empty());
+  EXPECT_GT(nearest_layers(cloth, 0.03), 2 * Fabric{}.thickness);
+}
+
+TEST(StartShape, OfAKnotEndsInTwoStraightTails) {
+  const Scene scene = knotted();
+  const Cloth cloth = make_cloth(scene);
+  Eigen::Vector3d first = Eigen::Vector3d::Zero(), last = Eigen::Vector3d::Zero();
+  for (int i = 0; i < cloth.mesh.vertices(); ++i) {
+    if (cloth.mesh.rest[i].x() == 0) first = cloth.start[i];
+    if (cloth.mesh.rest[i].x() == scene.cloth.length) last = cloth.start[i];
+  }
+  const double tails = scene.cloth.length - knot_length(scene.cloth.width, scene.cloth.radius);
+  EXPECT_GT(std::abs((last - first).x()), tails);
+  EXPECT_LT(std::abs((last - first).x()), scene.cloth.length / 2);
+}
+
+TEST(StartShape, OfPleatsHasTheirLayersAtTwiceTheRadius) {
+  const Scene scene = pleated();
+  const Cloth cloth = make_cloth(scene);
+  EXPECT_LT(largest_strain(cloth), 0.25);  // chords of the turns
+  EXPECT_TRUE(intersecting_triangles(cloth.mesh.face, cloth.start).empty());
+  double top = 0;
+  for (const Eigen::Vector3d& x : cloth.start) top = std::max(top, x.z());
+  EXPECT_NEAR(top, 2 * scene.cloth.radius * (scene.cloth.pleats - 1), 1e-12);
+}
+
+TEST(StartShape, OfCopiesIsTheSameMeshTimesTheirNumberAndFreeOfCrossings) {
+  const Scene scene = ten_sheets();
+  const Cloth cloth = make_cloth(scene);
+  Scene alone = scene;
+  alone.cloth.copies = 1;
+  alone.triangles = scene.triangles / 10;
+  const Cloth one = make_cloth(alone);
+  EXPECT_EQ(cloth.mesh.vertices(), 10 * one.mesh.vertices());
+  EXPECT_EQ(cloth.mesh.faces(), 10 * one.mesh.faces());
+  EXPECT_TRUE(intersecting_triangles(cloth.mesh.face, cloth.start).empty());
+  EXPECT_LT(largest_strain(cloth), 1e-12);
+  Scene again = scene;
+  again.seed = scene.seed + 1;
+  EXPECT_NE(make_cloth(again).start, cloth.start);
+}
+
+struct BadStart {
+  const char* name;
+  void (*spoil)(Scene&);
+  std::vector<const char*> naming;
+};
+
+void PrintTo(const BadStart& bad, std::ostream* out) { *out << bad.name; }
+
+class BadStartShape : public testing::TestWithParam<BadStart> {};
+
+TEST_P(BadStartShape, IsRefusedInOneLineThatNamesKeyValueAndRange) {
+  const Failure failure = failure_of([&] {
+    Scene scene = std::string(GetParam().name).find("Copies") == 0 ? ten_sheets()
+                  : std::string(GetParam().name).find("Knot") == 0 ? knotted()
+                                                                   : pleated();
+    GetParam().spoil(scene);
+    check_start_shape(scene);
+    make_cloth(scene);
+  });
+  EXPECT_EQ(failure.exit_code, 2) << failure.message;
+  EXPECT_EQ(failure.message.find('\n'), std::string::npos) << failure.message;
+  for (const char* part : GetParam().naming)
+    EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Starts, BadStartShape,
+    testing::Values(
+        BadStart{
+            "KnotOfTightLoops", [](Scene& s) { s.cloth.radius = 0.01; }, {"cloth.radius = 0.01 m", ">="}},
+        BadStart{"KnotInAShortStrip", [](Scene& s) { s.cloth.length = 0.2; }, {"cloth.length = 0.2 m", ">="}},
+        BadStart{
+            "KnotInADisc", [](Scene& s) { s.cloth.shape = "disc"; }, {"cloth.start = knot", "strip", "disc"}},
+        BadStart{"PleatsThinnerThanCloth",
+                 [](Scene& s) { s.cloth.radius = 1e-5; },
+                 {"cloth.radius = 1e-05 m", "fabric.thickness"}},
+        BadStart{"PleatsLongerThanCloth",
+                 [](Scene& s) { s.cloth.pleats = 60; },
+                 {"cloth.length = 0.4 m", "cloth.pleats = 60"}},
+        BadStart{"CopiesTooNear",
+                 [](Scene& s) {
+                   s.cloth.copy_offset = {0, 0, 3e-4};
+                 },
+                 {"cloth.copy-offset", "3e-04 m"}},
+        BadStart{"CopiesWithoutTriangles",
+                 [](Scene& s) { s.triangles = 12; },
+                 {"triangles = 12", "cloth.copies = 10"}}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace hysteron
