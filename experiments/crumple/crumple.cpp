@@ -71,10 +71,11 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
     box.high = box.high.cwiseMax(x.cast<float>());
   };
   for (const Eigen::Vector3d& x : cloth.start) include(x);
-  for (std::size_t p = 0; p < scene.pin.size(); ++p)
+  for (std::size_t p = 0; p < scene.pin.size(); ++p) {
+    if (scene.pin[p].from > 0) continue;
     for (const Keyframe& key : scene.pin[p].motion.keys)
-      if (scene.pin[p].from == 0)
-        for (int i : cloth.pin_vertices[p]) include(cloth.start[i] + key.position);
+      for (int i : cloth.pin_vertices[p]) include(cloth.start[i] + key.position);
+  }
   return box;
 }
 

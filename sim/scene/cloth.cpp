@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/error.h"
-#include "sim/scene/key_table.h"
+#include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
 namespace hysteron {
@@ -29,16 +29,15 @@ ClothMesh one_rest_mesh(const Scene& scene) {
 // What is nearer than that at rest, contact takes for neighbours in one cloth.
 void check_copies(const Scene& scene, const ClothMesh& one) {
   const ClothShape& c = scene.cloth;
-  Eigen::Vector3d low = one.rest[0], high = low;
-  for (const Eigen::Vector3d& x : one.rest) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  const double gap = (c.copy_offset.cwiseAbs() - (high - low)).cwiseMax(0.0).norm();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : one.rest) box.extend(x);
+  const double gap = (c.copy_offset.cwiseAbs() - box.sizes()).cwiseMax(0.0).norm();
   const double least = 2 * scene.fabric.thickness;
   if (gap >= least) return;
-  const auto found = scene.origin.find("cloth.copy-offset");
-  throw Error::request("cloth.copy-offset = [" + number_text(c.copy_offset.x()) + ", " +
-                       number_text(c.copy_offset.y()) + ", " + number_text(c.copy_offset.z()) + "] m (" +
-                       (found == scene.origin.end() ? "default" : found->second) + ") leaves copies " +
-                       number_text(gap) + " m apart, which must be >= " + number_text(least) +
+  const std::string offset = "[" + number_text(c.copy_offset.x()) + ", " + number_text(c.copy_offset.y()) +
+                             ", " + number_text(c.copy_offset.z()) + "]";
+  throw Error::request(shown(scene, "cloth.copy-offset", offset, "m") + " leaves copies " + number_text(gap) +
+                       " m apart, which must be >= " + number_text(least) +
                        " m, twice the fabric's thickness");
 }
 

@@ -6,6 +6,7 @@
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
+#include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
 namespace hysteron {
@@ -13,18 +14,6 @@ namespace {
 
 const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "flipped",
                                                 "unionjack", "equilateral", "random"};
-
-// Where a key was set; the fabric's program defaults and the experiment's have no place.
-std::string origin_of(const Scene& scene, const std::string& key) {
-  const auto found = scene.origin.find(key);
-  return found == scene.origin.end() ? "default" : found->second;
-}
-
-// "fabric.b1 = 1e-6 N m (--fabric.b1)"
-std::string shown(const Scene& scene, const std::string& key, double value, const std::string& unit) {
-  return key + " = " + number_text(value) + (unit.empty() ? "" : " " + unit) + " (" + origin_of(scene, key) +
-         ")";
-}
 
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;

@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/mesh/random_points.h"
-#include "sim/scene/key_table.h"
+#include "sim/scene/shown_key.h"
 
 namespace hysteron {
 namespace {
@@ -100,10 +100,9 @@ void draw_copies(const Scene& scene, std::vector<Vector3d>& x) {
   Uniform uniform(scene.seed);
   const std::size_t each = x.size() / c.copies;
   for (int k = 0; k < c.copies; ++k) {
-    Vector3d low = x[k * each], high = low;
-    for (std::size_t i = k * each; i < (k + 1) * each; ++i)
-      low = low.cwiseMin(x[i]), high = high.cwiseMax(x[i]);
-    const Vector3d middle = (low + high) / 2;
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = k * each; i < (k + 1) * each; ++i) box.extend(x[i]);
+    const Vector3d middle = (box.min() + box.max()) / 2;
     const double angle = kPi / 180 * uniform(-c.copy_turn, c.copy_turn);
     const double dx = uniform(-c.copy_scatter, c.copy_scatter), dy = uniform(-c.copy_scatter, c.copy_scatter);
     const Eigen::AngleAxisd turn(angle, Vector3d::UnitZ());
@@ -112,40 +111,29 @@ void draw_copies(const Scene& scene, std::vector<Vector3d>& x) {
   }
 }
 
-// "cloth.radius = 0.01 m (scene.toml:7)"
-std::string shown(const Scene& scene, const std::string& key, const std::string& value,
-                  const std::string& unit) {
-  const auto found = scene.origin.find(key);
-  return key + " = " + value + (unit.empty() ? "" : " " + unit) + " (" +
-         (found == scene.origin.end() ? "default" : found->second) + ")";
-}
-std::string shown(const Scene& scene, const std::string& key, double metres) {
-  return shown(scene, key, number_text(metres), "m");
-}
-
 void check_knot(const Scene& scene) {
   const ClothShape& c = scene.cloth;
   if (c.radius < kLeastRadius * c.width)
-    throw Error::request(shown(scene, "cloth.radius", c.radius) + " must be >= " +
+    throw Error::request(shown(scene, "cloth.radius", c.radius, "m") + " must be >= " +
                          number_text(kLeastRadius * c.width) + " m, " + number_text(kLeastRadius) +
-                         " times " + shown(scene, "cloth.width", c.width) + ", for cloth.start = knot");
+                         " times " + shown(scene, "cloth.width", c.width, "m") + ", for cloth.start = knot");
   const double least = knot_length(c.width, c.radius);
   if (c.length < least)
-    throw Error::request(shown(scene, "cloth.length", c.length) + " must be >= " + number_text(least) +
-                         " m for a knot with loops of " + shown(scene, "cloth.radius", c.radius));
+    throw Error::request(shown(scene, "cloth.length", c.length, "m") + " must be >= " + number_text(least) +
+                         " m for a knot with loops of " + shown(scene, "cloth.radius", c.radius, "m"));
 }
 
 void check_pleats(const Scene& scene) {
   const ClothShape& c = scene.cloth;
   if (c.radius < scene.fabric.thickness)
-    throw Error::request(shown(scene, "cloth.radius", c.radius) +
+    throw Error::request(shown(scene, "cloth.radius", c.radius, "m") +
                          " must be >= " + number_text(scene.fabric.thickness) +
                          " m, fabric.thickness, for cloth.start = pleats");
   if (run_of(c) <= 0)
-    throw Error::request(shown(scene, "cloth.length", c.length) + " must be > " +
+    throw Error::request(shown(scene, "cloth.length", c.length, "m") + " must be > " +
                          number_text((c.pleats - 1) * kPi * c.radius) + " m for " +
                          shown(scene, "cloth.pleats", std::to_string(c.pleats), "") + " with turns of " +
-                         shown(scene, "cloth.radius", c.radius));
+                         shown(scene, "cloth.radius", c.radius, "m"));
 }
 
 }  // namespace

@@ -34,8 +34,7 @@ bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double st
   const std::vector<int> pins = body.cloth.pins(body.scene, start);
   std::vector<char> held;
   for (int p : pins) held.push_back(p >= 0);
-  const bool changed = held != body.held.download();
-  book(body, held);
+  const bool changed = book(body, held);
   if (body.contact) refuse_release(body, held, start);
   body.held.upload(held);
   if (moving_) take(body, pins, start);
@@ -45,15 +44,16 @@ bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double st
 // A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
 // held vertices.
 template <class Real, class Device>
-void Hands<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
+bool Hands<Real, Device>::book(Body<Real, Device>& body, const std::vector<char>& held) {
   const std::vector<char> before = body.held.download();
-  if (held == before) return;
+  if (held == before) return false;
   const std::vector<Vec3<Real>> v = body.v.download();
   const std::vector<Real> mass = body.mass.download();
   for (int i = 0; i < body.vertices; ++i) {
     const double kinetic = static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
     if (held[i] != before[i]) work_ += held[i] ? -kinetic : kinetic;
   }
+  return true;
 }
 
 // What a hand takes starts where it is.

@@ -42,7 +42,8 @@ class Hands {
   std::size_t bytes() const { return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes(); }
 
  private:
-  void book(Body<Real, Device>& body, const std::vector<char>& held);
+  // Says whether `held` differs from what was.
+  bool book(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
   HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
 

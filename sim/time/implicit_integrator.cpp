@@ -29,7 +29,6 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
           body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
           make_linear_solver<Real>(*body.device, body.scene, body.cloth,
                                    body.scene.is_implicit() ? body.bending.law().largest_stiffness() : 0.0)),
-      two_stages_(body.scene.integrator == Integrator::tr_bdf2),
       tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>
@@ -40,7 +39,6 @@ void ImplicitIntegrator<Real, Device>::step(double start) {
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::become_static() {
   solver_.become_static(body_.scene);
-  two_stages_ = false;
   tolerance_ = 0;  // of steps in time
 }
 
@@ -78,19 +76,20 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
-  const NewtonOutcome outcome = attempt(start, first_stage(h), two_stages_);
-  if (!outcome.converged) return take_halves(start, h, halvings, outcome);
-  accept(start + first_stage(h));
-  ++body_.counts.parts;
-  if (two_stages_) take_last_stage(start + first_stage(h), h - first_stage(h), halvings);
+  const NewtonOutcome outcome = attempt(start, first_stage(h), solver_.has_two_stages());
+  outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
 }
 
-// The rest of a step after its first stage, which stays: each stage leaves a state from which steps can
-// start.
+// Takes the first stage, which stays, and goes the rest of the way: each stage leaves a state from which
+// steps can start.
 template <class Real, class Device>
-void ImplicitIntegrator<Real, Device>::take_last_stage(double start, double h, int halvings) {
-  const NewtonOutcome outcome = attempt(start, h, false);
-  outcome.converged ? accept(start + h) : take_halves(start, h, halvings, outcome);
+void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvings) {
+  const double first = first_stage(h), rest = h - first;
+  accept(start + first);
+  ++body_.counts.parts;
+  if (!solver_.has_two_stages()) return;
+  const NewtonOutcome outcome = attempt(start + first, rest, false);
+  outcome.converged ? accept(start + first + rest) : take_halves(start + first, rest, halvings, outcome);
 }
 
 template <class Real, class Device>
@@ -109,13 +108,11 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
-    const NewtonOutcome outcome = attempt(now, first_stage(h), two_stages_);
+    const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages());
     const double error = outcome.converged ? solver_.local_error(vertices_of(body_)) : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {
-      accept(now + first_stage(h));
-      ++body_.counts.parts;
-      if (two_stages_) take_last_stage(now + first_stage(h), h - first_stage(h), 0);
+      finish(now, h, 0);
       now += h;
     } else if (wanted < least) {
       throw Error::run("tolerance = " + std::to_string(tolerance_) + " m cannot be met at t = " +

@@ -25,15 +25,14 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
 
  private:
   void take_adaptive_step(double start);
-  void take_last_stage(double start, double h, int halvings);
+  void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
-  double first_stage(double h) const { return two_stages_ ? kTrapezoidalShare * h : h; }
+  double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalShare * h : h; }
   NewtonOutcome attempt(double start, double h, bool is_first_stage);
   void accept(double end);
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
-  bool two_stages_;   // tr-bdf2
   double tolerance_;  // 0: steps as given
   double part_ = 0;   // of adaptive steps: the coming one [s]
 };

@@ -8,8 +8,7 @@
 // force is evaluated anew.  Where none is known, at the start and after a jump of forces, the first stage is
 // backward Euler's, which keeps the order.
 //
-// In
-// `semi-implicit` with self-contact bending lags: its force is that of the state accepted last.
+// In `semi-implicit` with self-contact bending lags: its force is that of the state accepted last.
 #pragma once
 
 #include <memory>
@@ -51,6 +50,7 @@ class ImplicitStep {
   // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
   // The first stage of tr-bdf2 is its trapezoidal one.
   NewtonOutcome solve(const VertexState<Real>& state, double h, double share, bool is_first_stage = false);
+  bool has_two_stages() const { return two_stage_; }  // tr-bdf2
   // Forces have jumped: the acceleration that was is not the one to go on with.
   void forget_acceleration() { knows_acceleration_ = false; }
   // Steps are equilibria from now on.

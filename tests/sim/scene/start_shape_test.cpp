@@ -10,29 +10,23 @@
 namespace hysteron {
 namespace {
 
-Scene strip_in(const std::string& start) {
+Scene strip_in(const std::string& start, double length, double width, double radius) {
   Scene scene;
   scene.mesh = "random";
   scene.triangles = 2000;
   scene.cloth.shape = "strip";
   scene.cloth.start = start;
+  scene.cloth.length = length;
+  scene.cloth.width = width;
+  scene.cloth.radius = radius;
   return scene;
 }
 
-Scene knotted() {
-  Scene scene = strip_in("knot");
-  scene.cloth.length = 0.8;
-  scene.cloth.width = 0.008;
-  scene.cloth.radius = 0.04;
-  return scene;
-}
+Scene knotted() { return strip_in("knot", 0.8, 0.008, 0.04); }
 
 Scene pleated() {
-  Scene scene = strip_in("pleats");
+  Scene scene = strip_in("pleats", 0.4, 0.05, 0.005);
   scene.cloth.pleats = 6;
-  scene.cloth.length = 0.4;
-  scene.cloth.width = 0.05;
-  scene.cloth.radius = 0.005;
   return scene;
 }
 
@@ -117,6 +111,7 @@ TEST(StartShape, OfCopiesIsTheSameMeshTimesTheirNumberAndFreeOfCrossings) {
 
 struct BadStart {
   const char* name;
+  Scene (*scene)();
   void (*spoil)(Scene&);
   std::vector<const char*> naming;
 };
@@ -127,9 +122,7 @@ class BadStartShape : public testing::TestWithParam<BadStart> {};
 
 TEST_P(BadStartShape, IsRefusedInOneLineThatNamesKeyValueAndRange) {
   const Failure failure = failure_of([&] {
-    Scene scene = std::string(GetParam().name).find("Copies") == 0 ? ten_sheets()
-                  : std::string(GetParam().name).find("Knot") == 0 ? knotted()
-                                                                   : pleated();
+    Scene scene = GetParam().scene();
     GetParam().spoil(scene);
     check_start_shape(scene);
     make_cloth(scene);
@@ -140,29 +133,38 @@ TEST_P(BadStartShape, IsRefusedInOneLineThatNamesKeyValueAndRange) {
     EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Starts, BadStartShape,
-    testing::Values(
-        BadStart{
-            "KnotOfTightLoops", [](Scene& s) { s.cloth.radius = 0.01; }, {"cloth.radius = 0.01 m", ">="}},
-        BadStart{"KnotInAShortStrip", [](Scene& s) { s.cloth.length = 0.2; }, {"cloth.length = 0.2 m", ">="}},
-        BadStart{
-            "KnotInADisc", [](Scene& s) { s.cloth.shape = "disc"; }, {"cloth.start = knot", "strip", "disc"}},
-        BadStart{"PleatsThinnerThanCloth",
-                 [](Scene& s) { s.cloth.radius = 1e-5; },
-                 {"cloth.radius = 1e-05 m", "fabric.thickness"}},
-        BadStart{"PleatsLongerThanCloth",
-                 [](Scene& s) { s.cloth.pleats = 60; },
-                 {"cloth.length = 0.4 m", "cloth.pleats = 60"}},
-        BadStart{"CopiesTooNear",
-                 [](Scene& s) {
-                   s.cloth.copy_offset = {0, 0, 3e-4};
-                 },
-                 {"cloth.copy-offset", "3e-04 m"}},
-        BadStart{"CopiesWithoutTriangles",
-                 [](Scene& s) { s.triangles = 12; },
-                 {"triangles = 12", "cloth.copies = 10"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Starts, BadStartShape,
+                         testing::Values(BadStart{"KnotOfTightLoops",
+                                                  knotted,
+                                                  [](Scene& s) { s.cloth.radius = 0.01; },
+                                                  {"cloth.radius = 0.01 m", ">="}},
+                                         BadStart{"KnotInAShortStrip",
+                                                  knotted,
+                                                  [](Scene& s) { s.cloth.length = 0.2; },
+                                                  {"cloth.length = 0.2 m", ">="}},
+                                         BadStart{"KnotInADisc",
+                                                  knotted,
+                                                  [](Scene& s) { s.cloth.shape = "disc"; },
+                                                  {"cloth.start = knot", "strip", "disc"}},
+                                         BadStart{"PleatsThinnerThanCloth",
+                                                  pleated,
+                                                  [](Scene& s) { s.cloth.radius = 1e-5; },
+                                                  {"cloth.radius = 1e-05 m", "fabric.thickness"}},
+                                         BadStart{"PleatsLongerThanCloth",
+                                                  pleated,
+                                                  [](Scene& s) { s.cloth.pleats = 60; },
+                                                  {"cloth.length = 0.4 m", "cloth.pleats = 60"}},
+                                         BadStart{"CopiesTooNear",
+                                                  ten_sheets,
+                                                  [](Scene& s) {
+                                                    s.cloth.copy_offset = {0, 0, 3e-4};
+                                                  },
+                                                  {"cloth.copy-offset", "3e-04 m"}},
+                                         BadStart{"CopiesWithoutTriangles",
+                                                  ten_sheets,
+                                                  [](Scene& s) { s.triangles = 12; },
+                                                  {"triangles = 12", "cloth.copies = 10"}}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace hysteron
