@@ -3,25 +3,13 @@
 #include <cmath>
 
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/stability/stability.h"
+#include "experiments/stability/named_attempts.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
 namespace {
-
-struct Named {
-  const char* name;
-  Attempt (*make)();
-};
-
-Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
-  Obstacle obstacle;
-  obstacle.kind = kind;
-  obstacle.center = center;
-  return obstacle;
-}
 
 // ---- meshes ----
 
@@ -77,7 +65,7 @@ Attempt cantilever(std::function<ClothMesh()> mesh) {
   return attempt;
 }
 
-const Named kMeshes[] = {
+const NamedAttempt kMeshes[] = {
     {"aspect 1", [] { return cantilever([] { return stretched_cells(1); }); }},
     {"aspect 10", [] { return cantilever([] { return stretched_cells(10); }); }},
     {"aspect 100", [] { return cantilever([] { return stretched_cells(100); }); }},
@@ -185,7 +173,7 @@ Attempt hanging_with(const Change& change) {
   return attempt;
 }
 
-const Named kScenes[] = {
+const NamedAttempt kScenes[] = {
     {"one triangle",
      [] {
        Attempt attempt{default_scene(), one_triangle, kHappens};
@@ -221,12 +209,6 @@ const Named kScenes[] = {
     {"folded by 180°", [] { return folded(180); }},
 };
 
-SweepAxis axis_of(const std::string& label, const Named* first, const Named* last) {
-  SweepAxis axis{label, {}};
-  for (const Named* entry = first; entry != last; ++entry) axis.ticks.push_back(entry->name);
-  return axis;
-}
-
 constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
 
 }  // namespace
@@ -235,7 +217,7 @@ Sweep mesh_sweep(const SweepChoice& choice) {
   Sweep sweep{"mesh",
               "Mesh quality: a strip or square held at one end; steps of 1 ms",
               {"law", choice.few_laws()},
-              axis_of("mesh", std::begin(kMeshes), std::end(kMeshes)),
+              axis_of("mesh", kMeshes),
               {"shape", "hinge"},
               {}};
   sweep.at = [elements = sweep.variants, laws = sweep.x.ticks](int variant, int column, int row) {
@@ -253,7 +235,7 @@ Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
   Sweep sweep{precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
               "Scenes that ask too much, in " + name_of(precision) + " precision",
               {"law", all ? law_names() : choice.few_laws()},
-              axis_of("scene", std::begin(kScenes), std::end(kScenes)),
+              axis_of("scene", kScenes),
               {"step 1 ms", "step 1/60 s"},
               {}};
   sweep.at = [precision, laws = sweep.x.ticks](int variant, int column, int row) {
@@ -279,6 +261,7 @@ const NamedSweep kSweeps[] = {
     {"density-step", density_sweep},
     {"friction-step", friction_sweep},
     {"mesh", mesh_sweep},
+    {"contact", contact_sweep},
     {"scenes", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp64); }},
     {"scenes-float", [](const SweepChoice& choice) { return scene_sweep(choice, Precision::fp32); }},
 };

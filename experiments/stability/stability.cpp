@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
+#include "sim/mesh/intersections.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -69,6 +70,13 @@ class Watch {
   Finding& finding_;
 };
 
+void look_for_crossings(Simulation& simulation, const Cloth& cloth, Finding& finding) {
+  const std::size_t crossing = intersecting_triangles(cloth.mesh.face, simulation.positions()).size();
+  if (crossing == 0) return;
+  finding.outcome = Outcome::diverged;
+  finding.message = std::to_string(crossing) + " triangles pass through others";
+}
+
 void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, Finding& finding) {
   const auto simulation = make_simulation(scene, cloth);
   finding.substeps = simulation->limits().substeps;
@@ -84,6 +92,8 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
     watch.look(*simulation);
   }
   finding.retried_steps = simulation->retried_steps();
+  if (finding.outcome == Outcome::ended && scene.self_contact)
+    look_for_crossings(*simulation, cloth, finding);
   if (finding.outcome == Outcome::ended && finding.retried_steps > 0) finding.outcome = Outcome::retried;
 }
 

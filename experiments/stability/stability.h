@@ -15,7 +15,7 @@ enum class Outcome {
   ended,     // to its end with finite numbers and bounded energy
   retried,   // the same, some steps taken again in halves
   refused,   // the program does not start it, and says why
-  diverged,  // broken off, not finite, or with more energy than was put in
+  diverged,  // broken off, not finite, with more energy than was put in, or with crossing layers
 };
 inline constexpr Outcome kOutcomes[] = {Outcome::ended, Outcome::retried, Outcome::refused,
                                         Outcome::diverged};
@@ -78,7 +78,7 @@ struct Sweep {
 
 // What the sweeps cover.
 struct SweepChoice {
-  std::vector<std::string> integrators = {"semi-implicit", "implicit", "bdf2", "explicit"};
+  std::vector<std::string> integrators = {"semi-implicit", "implicit", "bdf2", "tr-bdf2", "explicit"};
   std::vector<std::string> laws = {};  // empty: linear, prandtl and wong in maps, all in extreme scenes
   DeviceChoice device = DeviceChoice::cpu;
   bool quick = false;
@@ -89,12 +89,14 @@ std::vector<std::string> sweep_names();
 // Those named, in this order; Error::request for an unknown name.
 std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
 
-// Parts of make_sweeps(): of numbers (stability_maps.cpp), and of scenes and meshes (stability_scenes.cpp).
+// Parts of make_sweeps(): of numbers (maps.cpp), of scenes and meshes (scenes.cpp), and of contact
+// (contact_scenes.cpp).
 Sweep bending_sweep(const SweepChoice& choice);
 Sweep membrane_sweep(const SweepChoice& choice);
 Sweep density_sweep(const SweepChoice& choice);
 Sweep friction_sweep(const SweepChoice& choice);
 Sweep mesh_sweep(const SweepChoice& choice);
+Sweep contact_sweep(const SweepChoice& choice);
 Sweep scene_sweep(const SweepChoice& choice, Precision precision);
 
 // A cell of the map with what was found in it.

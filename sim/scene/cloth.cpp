@@ -118,7 +118,7 @@ std::vector<int> Cloth::pins(const Scene& scene, double time) const {
 
 std::vector<char> Cloth::held(const Scene& scene, double time) const {
   std::vector<char> result;
-  for (int p : pins(scene, time)) result.push_back(p >= 0);
+  for (int p : pins(scene, time)) result.push_back(p >= 0 && scene.pin[p].strength == 0);
   return result;
 }
 

@@ -103,6 +103,7 @@ struct Pin {
   double from = 0;
   double until = 1e30;
   double home = 0;
+  double strength = 0;
   Motion motion;
 };
 

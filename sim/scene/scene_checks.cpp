@@ -91,6 +91,10 @@ void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
     throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
                          origin_of(scene, path) + ")");
   }
+  if (pin.strength > 0 && !scene.is_implicit())
+    throw Error::request(path + ".strength = " + number_text(pin.strength) + " N (" + origin_of(scene, path) +
+                         ") needs integrator = implicit, bdf2, tr-bdf2 or quasi-static, not " +
+                         name_of(scene.integrator));
   check_motion(scene, path, pin.motion);
   for (std::size_t i = 0; i < pin.motion.keys.size(); ++i)
     if (pin.motion.keys[i].scale != 1)

@@ -8,11 +8,17 @@
 
 namespace hysteron {
 
+namespace {
+constexpr double kGive = 0.5;  // of the fabric's thickness: what a hand gives under all its strength
+}  // namespace
+
 template <class Real, class Device>
-Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs) {
+Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs)
+    : give_(static_cast<Real>(kGive * scene.fabric.thickness)) {
   bool homing = false;
   for (const Pin& pin : scene.pin) {
-    moving_ |= !pin.motion.keys.empty() || pin.from > 0;
+    limited_ |= pin.strength > 0;
+    moving_ |= !pin.motion.keys.empty() || pin.from > 0 || limited_;
     homing |= pin.home > 0;
     for (double time : {pin.from, pin.until})
       if (time > 0 && time < scene.seconds) times_.push_back(time);
@@ -23,7 +29,19 @@ Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& clot
   start_ = Buffer<Vec3<Real>, Device>(device, start);
   if (homing) home_ = Buffer<Vec3<Real>, Device>(device, start);
   pin_ = Buffer<int, Device>(device, cloth.pins(scene, 0));
-  if (with_arcs) arc_ = Buffer<Vec3<Real>, Device>(device, cloth.mesh.vertices());
+  const int vertices = cloth.mesh.vertices();
+  if (with_arcs) arc_ = Buffer<Vec3<Real>, Device>(device, vertices);
+  if (!limited_) return;
+  place_ = Buffer<Vec3<Real>, Device>(device, start);
+  strength_ = Buffer<Real, Device>(device, vertices);
+  lag_ = Buffer<Real, Device>(device, vertices);
+  scratch_ = std::make_unique<Scratch<Device>>(device);
+}
+
+template <class Real, class Device>
+std::size_t Hands<Real, Device>::bytes() const {
+  return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes() + place_.bytes() + strength_.bytes() +
+         lag_.bytes() + (scratch_ ? scratch_->bytes() : 0);
 }
 
 template <class Real, class Device>
@@ -32,13 +50,26 @@ bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double st
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
   next_ = next == times_.end() ? 1e30 : *next;
   const std::vector<int> pins = body.cloth.pins(body.scene, start);
-  std::vector<char> held;
-  for (int p : pins) held.push_back(p >= 0);
-  const bool changed = book(body, held);
+  const std::vector<char> held = body.cloth.held(body.scene, start);
+  bool changed = book(body, held);
   if (body.contact) refuse_release(body, held, start);
   body.held.upload(held);
+  if (limited_) changed |= pins != pin_.download();
   if (moving_) take(body, pins, start);
+  if (limited_) share_strength(body.scene, pins);
   return changed;
+}
+
+// A hand's strength is that on all its vertices together, in equal shares.
+template <class Real, class Device>
+void Hands<Real, Device>::share_strength(const Scene& scene, const std::vector<int>& pins) {
+  std::vector<int> count(scene.pin.size());
+  for (int p : pins)
+    if (p >= 0) ++count[p];
+  std::vector<Real> strength(pins.size());
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    if (pins[i] >= 0) strength[i] = static_cast<Real>(scene.pin[pins[i]].strength / count[pins[i]]);
+  strength_.upload(strength);
 }
 
 // A hand stops what it takes, and leaves what it lets go in motion: the balance counts no kinetic energy of
@@ -97,11 +128,14 @@ void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
   const int* pin = pin_.data();
   const char* held = body.held.data();
+  const Real* strength = strength_.data();
+  Vec3<Real>* place = place_.data();
   const Vec3<Real>*origin = start_.data(), *home = home_.data(), *x = body.x.data();
   Vec3<Real>*v = body.v.data(), *arc = arc_.data();
   for_each(
       *body.device, "handles", body.vertices, HYST_KERNEL(int i) {
-        if (!held[i]) return;
+        const bool gripped = strength && strength[i] > 0;
+        if (!held[i] && !gripped) return;
         const int p = pin[i];
         Vec3<Real> from = origin[i], more = Vec3<Real>::Zero();
         if (home) {
@@ -109,9 +143,26 @@ void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
           more = placed.homewards[p] * (placed.rotation[p] * (home[i] - origin[i]));
         }
         const Vec3<Real> end = placed.rotation[p] * from + placed.translation[p];
+        if (gripped) {
+          place[i] = end;
+          return;
+        }
         v[i] = (end - x[i]) / h;
         if (arc) arc[i] = placed.turn[p].cross(end - placed.pivot[p]) + placed.shift[p] + more;
       });
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::note_lag(Body<Real, Device>& body) {
+  if (!limited_) return;
+  const Grips<Real> grips = this->grips();
+  const Vec3<Real>* x = body.x.data();
+  Real* lag = lag_.data();
+  for_each(
+      *body.device, "lag of hands", body.vertices, HYST_KERNEL(int i) { lag[i] = -grips.lag(i, x[i]); });
+  const Real largest = -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
+  largest_lag_ = std::max(largest_lag_, static_cast<double>(largest));
+  if (largest > give_) ++slack_stages_;
 }
 
 template class Hands<double, ThisDevice>;

@@ -1,11 +1,14 @@
 // Hands: which vertices are held, and how those move.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "sim/device/algorithms.h"
 #include "sim/device/device.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/back_end.h"
+#include "sim/time/grips.h"
 
 namespace hysteron {
 
@@ -38,23 +41,37 @@ class Hands {
   bool any_moves() const { return moving_; }
   // Of a stage: along the arcs as its end sees them, duration times velocity [m]; null if no hand moves.
   const Vec3<Real>* arcs() const { return arc_.data(); }
-  double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
-  std::size_t bytes() const { return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes(); }
+  // Those of limited strength.
+  Grips<Real> grips() const { return {place_.data(), strength_.data(), give_}; }
+  // Notes how far vertices lag behind such hands at the end of a stage, and counts stages in which a hand
+  // pulls with all its strength.
+  void note_lag(Body<Real, Device>& body);
+  long slack_stages() const { return slack_stages_; }
+  double largest_lag() const { return largest_lag_; }  // [m]
+  double work() const { return work_; }                // done on the cloth by taking hold and letting go [J]
+  std::size_t bytes() const;
 
  private:
   // Says whether `held` differs from what was.
   bool book(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
+  void share_strength(const Scene& scene, const std::vector<int>& pins);
   HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
-  bool moving_ = false;
-  double next_ = 0;  // when hands take hold or let go next [s]
-  double work_ = 0;
+  bool moving_ = false;   // or of limited strength
+  bool limited_ = false;  // any is of limited strength
+  double next_ = 0;       // when hands take hold or let go next [s]
+  double work_ = 0, largest_lag_ = 0;
+  long slack_stages_ = 0;
+  Real give_;
   std::vector<double> times_;         // of all that
   Buffer<Vec3<Real>, Device> start_;  // where each hand has its vertices before it moves [m]
   Buffer<Vec3<Real>, Device> home_;   // where vertices were at t = 0, if a hand brings them back there
   Buffer<Vec3<Real>, Device> arc_;
   Buffer<int, Device> pin_;
+  Buffer<Vec3<Real>, Device> place_;  // of Grips
+  Buffer<Real, Device> strength_, lag_;
+  std::unique_ptr<Scratch<Device>> scratch_;
 };
 
 }  // namespace hysteron

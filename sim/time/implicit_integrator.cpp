@@ -16,7 +16,8 @@ namespace {
 // What a solve works on.
 template <class Real, class Device>
 VertexState<Real> vertices_of(Body<Real, Device>& body) {
-  return {body.x.data(), body.v.data(), body.held.data(), body.mass.data(), body.hands.arcs()};
+  return {body.x.data(),    body.v.data(),     body.held.data(),
+          body.mass.data(), body.hands.arcs(), body.hands.grips()};
 }
 
 }  // namespace
@@ -34,6 +35,11 @@ ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step(double start) {
   tolerance_ > 0 ? take_adaptive_step(start) : take_interval(start, body_.scene.step, 0);
+}
+
+template <class Real, class Device>
+std::vector<Vec3<Real>> ImplicitIntegrator<Real, Device>::handle_forces() {
+  return solver_.handle_forces(vertices_of(body_));
 }
 
 template <class Real, class Device>

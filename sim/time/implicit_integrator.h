@@ -15,7 +15,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   explicit ImplicitIntegrator(Body<Real, Device>& body);
   void step(double start) override;
   void become_static() override;
-  std::vector<Vec3<Real>> handle_forces() override { return solver_.handle_forces(body_.held.data()); }
+  std::vector<Vec3<Real>> handle_forces() override;
   std::size_t bytes() const override { return solver_.bytes(); }
 
  protected:

@@ -112,7 +112,7 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
   share_ = static_cast<Real>(share);
   place(state);
   potential_.begin({formula_, rates_of(h), state.x, x_before_.data(), reference_.data(), predicted_.data(),
-                    state.held, gravity_, drag_, share_});
+                    state.held, gravity_, drag_, share_, state.grips});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
   const double steady = potential_of_guess(state, false);
   double begun = steady;
@@ -130,13 +130,21 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
 }
 
 template <class Real, class Device>
-std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const char* held) const {
+std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const VertexState<Real>& state) const {
   std::vector<Vec3<Real>> force(vertices_);
   device_download(device_, force.data(), potential_.gradient(), force.size() * sizeof(Vec3<Real>));
   std::vector<char> mask(vertices_);
-  device_download(device_, mask.data(), held, mask.size());
+  device_download(device_, mask.data(), state.held, mask.size());
   for (int i = 0; i < vertices_; ++i)
     if (!mask[i]) force[i].setZero();
+  if (!state.grips.strength) return force;
+  std::vector<Vec3<Real>> place(vertices_);
+  std::vector<Real> strength(vertices_);
+  device_download(device_, place.data(), state.grips.place, place.size() * sizeof(Vec3<Real>));
+  device_download(device_, strength.data(), state.grips.strength, strength.size() * sizeof(Real));
+  const Grips<Real> grips{place.data(), strength.data(), state.grips.give};
+  const std::vector<Vec3<Real>> end = end_.download();
+  for (int i = 0; i < vertices_; ++i) force[i] += grips.force(i, end[i]);
   return force;
 }
 
@@ -291,6 +299,7 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   const char* held = state.held;
   const Real* mass = state.mass;
   const Vec3<Real>* handle_displacement = state.handle_displacement;
+  const Grips<Real> grips = state.grips;
   for_each(
       device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
@@ -298,12 +307,13 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
         const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down
-        const Vec3<Real> rest = inertial - air - weight - support - bend - gradient[i];
+        const Vec3<Real> grip = grips.force(i, end[i]);
+        const Vec3<Real> rest = inertial - air - weight - support - grip - bend - gradient[i];
         VertexLedger& sum = ledger[i];
         sum.bending_work += static_cast<double>(bend.dot(way));
         sum.gravity_work += static_cast<double>(weight.dot(d));
         sum.implicit_work += static_cast<double>(rest.dot(way));
-        sum.handle_work += static_cast<double>(support.dot(d));
+        sum.handle_work += static_cast<double>((support + grip).dot(d));
         if (held[i]) {
           sum.handle_work -= static_cast<double>((weight + support).dot(d) + (bend + rest).dot(way));
           return;

@@ -28,6 +28,7 @@ struct VertexState {
   // Of moving handles: the displacement along their arcs as the end of the step sees it, duration times
   // velocity; null if none moves [m].
   const Vec3<Real>* handle_displacement;
+  Grips<Real> grips = {};
 };
 
 // The vertex that is farthest from equilibrium.
@@ -63,7 +64,7 @@ class ImplicitStep {
   double local_error(const VertexState<Real>& state);
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
-  std::vector<Vec3<Real>> handle_forces(const char* held) const;
+  std::vector<Vec3<Real>> handle_forces(const VertexState<Real>& state) const;
   // Where solve() has ended without success.
   Unbalanced most_unbalanced(const char* held);
   std::size_t bytes() const;

@@ -66,7 +66,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   }
   add_energies(membrane_.energies(), membrane_.faces());
   if (!bending_lags_) add_energies(bending_.energies(), bending_.elements());
-  measure_gradient(direction);
+  measure_gradient(x, direction);
   const Totals t = sums_.download()[0];
   return {t.energy,
           t.size,
@@ -96,11 +96,13 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
         const Vec3<Real> stretch = membrane.at(i), bend = bending.at(i);
         gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - stretch - bend;
+        if (s.grips.any_at(i)) gradient[i] -= s.grips.force(i, x[i]);
         sums.term[2] += static_cast<double>(stretch.squaredNorm() + bend.squaredNorm());
         if (s.held[i]) return;
         sums.term[3] += static_cast<double>((mass[i] * inertia * moved).squaredNorm());
-        const double kinetic =
+        double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
+        if (s.grips.any_at(i)) kinetic += static_cast<double>(s.grips.energy(i, x[i]));
         Vec3<Real> given = mass[i] * g;
         if (lags) given += bend;
         const double weight = static_cast<double>(given.dot(x[i] - s.now[i]));
@@ -131,14 +133,16 @@ void IncrementalPotential<Real, Device>::add_energies(const double* energies, in
 }
 
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* direction) {
+void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* x, const Vec3<Real>* direction) {
   const Vec3<Real>* gradient = gradient_.data();
   const char* held = start_.held;
+  const Grips<Real> grips = start_.grips;
   Totals* totals = sums_.data();
   for_each_sum<3>(
       device_, "potential: gradient", vertices_,
       HYST_KERNEL(int i, Sums<3>& sums) {
         sums.term[held[i] ? 1 : 0] += static_cast<double>(gradient[i].squaredNorm());
+        if (grips.any_at(i)) sums.term[1] += static_cast<double>(grips.force(i, x[i]).squaredNorm());
         if (direction && !held[i]) sums.term[2] += static_cast<double>(gradient[i].dot(direction[i]));
       },
       HYST_KERNEL(const Sums<3>& total) {
@@ -159,10 +163,12 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   const Real beta_dt = static_cast<Real>(start_.formula.beta_dt);
   const Real inertia = 1 / (beta_dt * beta_dt) + start_.drag / beta_dt + shift;
   const Real* mass = mass_.data();
+  const Grips<Real> grips = start_.grips;
   Mat3<Real>* rest = rest_diagonal_.data();
   for_each(
       device_, "potential: masses", vertices_, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
+        if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], full);
         rest[i].setZero();
       });
   if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, full);

@@ -2,7 +2,7 @@
 // moment is a function of curvature from the accepted history on):
 //
 //   Phi(x) = sum m/2 |x - y|^2/beta_dt^2 + drag m/2 |x - r|^2/beta_dt - m g.(x - x_n)
-//            + membrane + bending law + viscosity + contact + friction [J]
+//            + membrane + bending law + viscosity + contact + friction + hands of limited strength [J]
 //
 // Lagged bending (of `semi-implicit`) is the force of the state accepted last: -f.(x - x_n) takes the place
 // of its energy.
@@ -16,6 +16,7 @@
 #include "sim/contact/self_contact.h"
 #include "sim/linear/pcg.h"
 #include "sim/membrane/membrane.h"
+#include "sim/time/grips.h"
 
 namespace hysteron {
 
@@ -29,13 +30,14 @@ struct StepStart {
   Vec3<Real> gravity;  // [m/s^2]
   Real drag;           // air drag over mass [1/s]
   Real share;          // of the weight that acts: the load of statics grows
+  Grips<Real> grips = {};
 };
 
 struct PotentialValue {
   double energy = 0;    // Phi [J]
   double size = 0;      // sum of the terms' magnitudes, for what rounding makes of it [J]
   double residual = 0;  // norm of the gradient over all free vertices [N]
-  double reaction = 0;  // the same over the held ones: what the handles carry [N]
+  double reaction = 0;  // norm over the held and gripped ones of what the handles carry [N]
   double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
   double slope = 0;     // gradient . direction [J]
@@ -79,7 +81,7 @@ class IncrementalPotential {
   // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
   void compute_gradient(const Vec3<Real>* x);
   void add_energies(const double* energies, int count);
-  void measure_gradient(const Vec3<Real>* direction);
+  void measure_gradient(const Vec3<Real>* x, const Vec3<Real>* direction);
 
  private:
   Device& device_;

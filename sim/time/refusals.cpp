@@ -139,7 +139,7 @@ void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& ste
   if (outcome.blocked) {
     message += "pins move the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
-    throw Error::run(message);
+    throw Error::run(message + "; pins with a strength lag behind instead");
   }
   if (!(outcome.load > 0))
     throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");

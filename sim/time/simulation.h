@@ -78,6 +78,10 @@ class Simulation {
   // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
   // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.
   virtual long deep_steps() const = 0;
+  // Of hands of limited strength: parts of steps in which one pulled with all of it, and how far vertices
+  // have lagged behind at most [m].
+  virtual long slack_hand_steps() const = 0;
+  virtual double hand_lag() const = 0;
 };
 
 // Chooses device and precision as the scene asks.  Error::request for what cannot be simulated, a start that

@@ -38,6 +38,8 @@ class Stepper : public Simulation {
   long retried_steps() const override { return body_.counts.retried; }
   long unbalanced_steps() const override { return body_.counts.unbalanced; }
   long deep_steps() const override { return body_.counts.deep; }
+  long slack_hand_steps() const override { return body_.hands.slack_stages(); }
+  double hand_lag() const override { return body_.hands.largest_lag(); }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return body_.device->bytes; }

@@ -155,6 +155,13 @@ void Session::note_deep_contact() {
                  "keeps it out");
 }
 
+void Session::note_slack_hands() {
+  const std::vector<Pin>& pins = setup_.scene.pin;
+  if (std::none_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.strength > 0; })) return;
+  run_->metric("slack_hand_steps_count", simulation_->slack_hand_steps());
+  run_->metric("hand_lag_m", simulation_->hand_lag());
+}
+
 // The step that would do is an estimate: the share is taken to fall as the step does.  Of statics the share
 // is what jumps from one equilibrium to the next set free, whatever the step; of cloth that dissipates
 // nothing itself it is all.
@@ -290,6 +297,7 @@ void Session::finish(const std::string& title) {
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
   if (!setup_.scene.obstacle.empty()) note_deep_contact();
+  note_slack_hands();
   if (checks_intersections()) run_->metric("intersections", intersections_);
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene, recoveries_);

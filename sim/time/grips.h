@@ -1,0 +1,44 @@
+// Hands of limited strength: each pulls its vertices towards where it wants them, by a spring that gives way
+// by `give` under the vertex's share of the strength, and beyond that with no more than this share.  The
+// energy of a vertex that lags by r is
+//
+//   strength r^2/(2 give)  for r <= give,  strength (r - give/2)  beyond,
+//
+// and the hand's work is that of an outer force.  Gripped vertices are free: contact keeps them apart like
+// any others, and no motion of a hand is impossible.
+#pragma once
+
+#include "sim/contact/sliding_stop.h"
+#include "sim/device/host_device.h"
+
+namespace hysteron {
+
+// Arrays of vertices; travels with a kernel launch by value.
+template <class Real>
+struct Grips {
+  const Vec3<Real>* place = nullptr;  // at the end of the stage [m]
+  const Real* strength = nullptr;     // each vertex's share [N], 0 where nothing grips it; null: no hand does
+  Real give = 0;                      // [m]
+
+  HYST_HD bool any_at(int i) const { return strength && strength[i] > 0; }
+  HYST_HD Real lag(int i, const Vec3<Real>& x) const { return any_at(i) ? (x - place[i]).norm() : Real(0); }
+  // On the vertex [N].
+  HYST_HD Vec3<Real> force(int i, const Vec3<Real>& x) const {
+    if (!any_at(i)) return Vec3<Real>::Zero();
+    const Vec3<Real> way = place[i] - x;
+    const Real r = way.norm();
+    return strength[i] / (r > give ? r : give) * way;
+  }
+  HYST_HD Real energy(int i, const Vec3<Real>& x) const {  // [J]
+    if (!any_at(i)) return 0;
+    const Real r = (x - place[i]).norm();
+    return strength[i] * (r > give ? r - give / 2 : r * r / (2 * give));
+  }
+  // As that of friction that slides (sliding_stop.h) [N/m].
+  HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, bool is_near) const {
+    if (!any_at(i)) return Mat3<Real>::Zero();
+    return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / give, give, is_near);
+  }
+};
+
+}  // namespace hysteron

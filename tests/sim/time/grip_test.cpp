@@ -1,0 +1,221 @@
+// Hands of limited strength: what they give, where they let the cloth lag, and that nothing tears.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/mesh/intersections.h"
+#include "sim/scene/scene_reader.h"
+#include "sim/time/grips.h"
+#include "tests/sim/contact/two_sheets.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kGiveOfThickness = 0.5;
+
+// One vertex whose hand pulls with 2 N beyond 0.1 mm.
+struct OneGrip {
+  Vector3d place{1e-3, 2e-3, 3e-3};
+  double strength = 2;
+  Grips<double> grips{&place, &strength, 1e-4};
+};
+
+TEST(Grip, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
+  const OneGrip one;
+  const Vector3d d = Vector3d(0.3, -0.5, 0.8).normalized();
+  for (double lag : {0.4e-4, 5e-4}) {
+    const Vector3d x = one.place + lag * Vector3d(0.6, 0, 0.8);
+    const auto error = [&](double h) {
+      const double rise = one.grips.energy(0, x + h * d) - one.grips.energy(0, x - h * d);
+      return std::abs(rise / (2 * h) + one.grips.force(0, x).dot(d));
+    };
+    if (lag > one.grips.give)
+      EXPECT_GT(std::log(error(4e-5) / error(1e-5)) / std::log(4), 1.8);
+    else
+      EXPECT_LT(error(1e-5), 1e-12);  // a parabola
+  }
+}
+
+TEST(Grip, HasThreeQuartersOfItsStiffnessTakenOutAlongTheWayNearTheMinimum) {
+  const OneGrip one;
+  const Vector3d n(0.6, 0, 0.8), x = one.place + 5e-4 * n;
+  const Matrix3d far = one.grips.stiffness(0, x, false), near = one.grips.stiffness(0, x, true);
+  const Vector3d across(0, 1, 0);
+  const double h = 1e-8;  // across the way both are the derivative of the force
+  const Vector3d change = (one.grips.force(0, x - h * across) - one.grips.force(0, x + h * across)) / (2 * h);
+  EXPECT_NEAR((far * across - change).norm(), 0, 1e-6 * change.norm());
+  EXPECT_NEAR((near * across - change).norm(), 0, 1e-6 * change.norm());
+  EXPECT_NEAR(n.dot(near * n), 0.25 * n.dot(far * n), 1e-12 * n.dot(far * n));
+}
+
+TEST(Grip, LiesBelowTheParabolaOfItsStiffness) {
+  const OneGrip one;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3d x = one.place + 3e-4 * draw(), d = 5e-4 * draw();
+    const double bound = one.grips.energy(0, x) - one.grips.force(0, x).dot(d) +
+                         d.dot(one.grips.stiffness(0, x, false) * d) / 2;
+    EXPECT_LE(one.grips.energy(0, x + d), bound + 1e-15);
+  }
+}
+
+// A square that hangs by two corners, each held with this strength [N].
+Trial hanging_by(double strength) {
+  Scene scene = test::hanging_square(100);
+  scene.gravity = {0, -9.81, 0};
+  scene.integrator = Integrator::implicit;
+  scene.step = 1.0 / 240;
+  for (Pin& pin : scene.pin) pin.strength = strength;
+  return Trial(scene);
+}
+
+double weight_of(const Trial& trial) {
+  double sum = 0;
+  for (int i = 0; i < trial.cloth.mesh.vertices(); ++i) sum += trial.mass(i) * trial.scene.gravity.norm();
+  return sum;
+}
+
+Vector3d sum_of(const std::vector<Vector3d>& forces) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& f : forces) sum += f;
+  return sum;
+}
+
+TEST(HandsOfLimitedStrength, GiveInProportionToWhatTheyCarry) {
+  const double kStrength = 2;
+  const Trial trial = hanging_by(kStrength);
+  const auto simulation = trial.simulation();
+  simulation->become_static();
+  simulation->advance(60);
+  EXPECT_NEAR(sum_of(simulation->handle_forces()).y(), weight_of(trial), 1e-5 * weight_of(trial));
+  const auto x = simulation->positions();
+  const auto force = simulation->handle_forces();
+  int hands = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (force[i].isZero(0)) continue;
+    ++hands;
+    const double give = kGiveOfThickness * trial.scene.fabric.thickness * force[i].norm() / kStrength;
+    EXPECT_NEAR((x[i] - trial.cloth.start[i]).norm(), give, 1e-9);
+  }
+  EXPECT_EQ(hands, 2);
+  EXPECT_EQ(simulation->slack_hand_steps(), 0);
+}
+
+// Free fall under what the hands do not carry.
+TEST(HandsOfLimitedStrength, LetGoOfWhatIsTooHeavyButPullOn) {
+  Trial trial = hanging_by(1);
+  const double weight = weight_of(trial), kShare = 0.6;
+  for (Pin& pin : trial.scene.pin) pin.strength = kShare * weight / 2;
+  const auto simulation = trial.simulation();
+  const auto middle = [&] {
+    Vector3d sum = Vector3d::Zero();
+    const auto x = simulation->positions();
+    for (std::size_t i = 0; i < x.size(); ++i) sum += trial.mass(static_cast<int>(i)) * x[i];
+    return sum.y() * trial.scene.gravity.norm() / weight;
+  };
+  constexpr int kBefore = 60, kSteps = 24;
+  simulation->advance(kBefore);
+  const double first = middle();
+  simulation->advance(kSteps);
+  const double second = middle();
+  simulation->advance(kSteps);
+  const double third = middle();
+  const double t = kSteps * trial.scene.step, g = trial.scene.gravity.norm();
+  EXPECT_NEAR((third - 2 * second + first) / (t * t), -(1 - kShare) * g, 0.02 * g);
+  EXPECT_GT(simulation->slack_hand_steps(), kSteps);
+  EXPECT_GT(simulation->hand_lag(), 0.05);
+  for (const Vector3d& f : simulation->handle_forces())
+    EXPECT_LE(f.norm(), kShare * weight / 2 * (1 + 1e-12));
+}
+
+TEST(HandsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
+  for (Integrator integrator : {Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2}) {
+    Trial trial = hanging_by(1);
+    trial.scene.integrator = integrator;
+    trial.scene.law = "prandtl";
+    trial.scene.newton_residual = 1e-9;
+    trial.scene.pin[0].strength = 0.3 * weight_of(trial);
+    trial.scene.pin[1].motion.keys = {{0, {0, 0, 0}, 0}, {0.2, {0, 0.05, 0}, 0}};
+    const auto simulation = trial.after(60);
+    const Ledger ledger = simulation->ledger();
+    EXPECT_GT(std::abs(ledger.handle_work), 1e-3 * weight_of(trial) * 0.05);
+    EXPECT_LT(std::abs(ledger.remainder_relative), 1e-9) << name_of(integrator);
+  }
+}
+
+// Where a rigid hand ends the run (Hands, crush_test.cpp).
+TEST(HandsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
+  constexpr double kGap = 5e-3, kWay = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
+  Trial trial = test::two_sheets(kGap, 60);
+  const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
+  Pin hand;
+  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kWay}, 0}};
+  hand.strength = kStrength;
+  trial.scene.pin.push_back(hand);
+  trial.cloth.pin_vertices.push_back({});
+  for (int i = lower; i < trial.cloth.mesh.vertices(); ++i) {
+    if (trial.cloth.mesh.rest[i].x() > 1 + 0.7 * test::kUpperSide) continue;
+    trial.cloth.pin[i] = 1;
+    trial.cloth.pin_vertices[1].push_back(i);
+  }
+  const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
+  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+  EXPECT_GT(simulation->slack_hand_steps(), 0);
+  EXPECT_GT(simulation->hand_lag(), kWay - kGap);
+  const std::vector<Vector3d> force = simulation->handle_forces();
+  Vector3d pull = Vector3d::Zero();
+  for (int i : trial.cloth.pin_vertices[1]) pull += force[i];
+  EXPECT_LT(pull.z(), -0.1 * kStrength);
+  EXPECT_LE(pull.norm(), kStrength * (1 + 1e-12));
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
+}
+
+// Two sheets, the hands of both told to swap places: the stronger one gets where it wants.
+TEST(HandsOfLimitedStrength, AgainstEachOtherDoNotTear) {
+  constexpr double kGap = 4e-3, kTime = 0.1;
+  Trial trial = test::two_sheets(kGap, 60);
+  const int vertices = trial.cloth.mesh.vertices();
+  const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
+  trial.scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, kGap}, 0}};
+  trial.scene.pin[0].strength = 4;
+  Pin hand;
+  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kGap}, 0}};
+  hand.strength = 1;
+  trial.scene.pin.push_back(hand);
+  trial.cloth.pin_vertices.push_back({});
+  for (int i = lower; i < vertices; ++i) {
+    trial.cloth.pin[i] = 1;
+    trial.cloth.pin_vertices[1].push_back(i);
+  }
+  const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
+  const auto x = simulation->positions();
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
+  const double give = kGiveOfThickness * trial.scene.fabric.thickness;
+  double below = 0, above = 0;
+  for (int i = 0; i < vertices; ++i)
+    (i < lower ? below : above) += x[i].z() / (i < lower ? lower : vertices - lower);
+  EXPECT_NEAR(below, kGap, give);
+  EXPECT_GT(above, kGap);
+  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+}
+
+TEST(HandsOfLimitedStrength, NeedAnIntegratorThatIsImplicitInAllForces) {
+  Scene scene = test::hanging_square(100);
+  scene.pin[0].strength = 1;
+  for (Integrator integrator : {Integrator::semi_implicit, Integrator::explicit_euler}) {
+    scene.integrator = integrator;
+    const Failure failure = failure_of([&] { check_scene(scene); });
+    EXPECT_EQ(failure.exit_code, 2);
+    EXPECT_NE(failure.message.find("pin[0].strength = 1 N"), std::string::npos) << failure.message;
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
