@@ -149,7 +149,7 @@ int run_buckle(const CommandLine& line) {
   const BucklingStrip pictured = buckling_strip(setup.scene, kind, length, kVisibleTilt, kPictured);
   setup.scene = pictured.scene;
   Session session(line, setup, pictured.cloth);
-  if (session.only_explain()) return 0;
+  if (session.is_over()) return 0;
 
   const Southwell found = measure(measured, kind, length, session);
   const Table table = table_of(found, power_of_load(kind));

@@ -82,7 +82,7 @@ int run_cantilever(const CommandLine& line) {
   const CantileverStrip strip = overhang(scene, length);
   scene = strip.scene;
   Session session(line, setup, strip.cloth);
-  if (session.only_explain()) return 0;
+  if (session.is_over()) return 0;
 
   std::vector<double> times, loads;
   for (int k = 1; k <= std::lround(scene.seconds * setup.options.fps); ++k) {

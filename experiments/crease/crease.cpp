@@ -134,7 +134,7 @@ void crease_once(const CommandLine& line) {
                                                : pleated(setup.scene, choice);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
-  if (session.only_explain()) return;
+  if (session.is_over()) return;
   Recovered recovered;
   std::vector<double> largest, left;
   session.simulate(question_of(session, crease, largest, recovered));

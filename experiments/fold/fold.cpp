@@ -163,7 +163,7 @@ void fold_cloth(const CommandLine& line, Request& request) {
   request.setup.scene = fold.scene;
   request.setup.options.fps = fold.fps;
   Session session(line, request.setup, fold.cloth);
-  if (session.only_explain()) return;
+  if (session.is_over()) return;
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
   if (!request.setup.options.no_images) run.path("README.md");

@@ -92,6 +92,14 @@ HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double 
 }
 
 template <class Real, class Device>
+void Hands<Real, Device>::visit(Archive& archive, Device& device) {
+  archive(next_);
+  archive(work_);
+  hysteron::visit(archive, device, start_);
+  hysteron::visit(archive, device, pin_);
+}
+
+template <class Real, class Device>
 void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   if (!moving_) return;
   const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));

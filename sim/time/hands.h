@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/device/device.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/back_end.h"
 
@@ -38,6 +38,8 @@ class Hands {
   bool any_moves() const { return moving_; }
   // Of a stage: along the arcs as its end sees them, duration times velocity [m]; null if no hand moves.
   const Vec3<Real>* arcs() const { return arc_.data(); }
+  // What outlives a step; where things were at t = 0 does not change.
+  void visit(Archive& archive, Device& device);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
   std::size_t bytes() const { return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes(); }
 
