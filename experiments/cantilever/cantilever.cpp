@@ -109,6 +109,7 @@ int run_cantilever(const CommandLine& line) {
     return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}", load_at(scene, m.time),
                        drops.last, elastica_drop(m.time));
   };
+  question.visit = [&](Archive& archive) { archive(drops); };
   session.simulate(question);
 
   Run& run = session.run();

@@ -94,6 +94,10 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   question.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening);
   };
+  question.visit = [&](Archive& archive) {
+    archive(largest);
+    archive(recovered);
+  };
   return question;
 }
 

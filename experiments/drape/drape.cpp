@@ -206,6 +206,7 @@ int run_drape(const CommandLine& line) {
     return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
                        m.fastest);
   };
+  question.visit = [&](Archive& archive) { archive(covered); };
   const bool settled = session.simulate(question);
 
   const Outline outline =
