@@ -167,6 +167,8 @@ int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own),
                              [&](Setup&) { own.elements = std::min(own.elements, kQuickElements); });
+  if (setup.options.checkpoint > 0 || setup.options.resume)
+    throw Error::request("--checkpoint and --resume: bench measures runs from their start");
   if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
   std::vector<Metrics> rows;
   const Cloth cloth = make_cloth(setup.scene);

@@ -82,7 +82,7 @@ int run_cantilever(const CommandLine& line) {
   const CantileverStrip strip = overhang(scene, length);
   scene = strip.scene;
   Session session(line, setup, strip.cloth);
-  if (session.only_explain()) return 0;
+  if (session.is_over()) return 0;
 
   std::vector<double> times, loads;
   for (int k = 1; k <= std::lround(scene.seconds * setup.options.fps); ++k) {
@@ -109,6 +109,7 @@ int run_cantilever(const CommandLine& line) {
     return fmt::format("load {:.2f}  drop {:.4f} of the length, elastica {:.4f}", load_at(scene, m.time),
                        drops.last, elastica_drop(m.time));
   };
+  question.visit = [&](Archive& archive) { archive(drops); };
   session.simulate(question);
 
   Run& run = session.run();

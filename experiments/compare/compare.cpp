@@ -31,7 +31,6 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
-    {"resume", at<&C::resume>, "", any(), "", "keep the columns that the same program has finished in this folder"},
     {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
@@ -125,7 +124,7 @@ int run_compare(const CommandLine& line) {
   const CommandLine inner = line_of_columns(line, choice);
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
-  SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), choice.resume,
+  SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   if (!choice.tune.empty() || !choice.tune_metric.empty())

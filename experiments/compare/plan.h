@@ -17,7 +17,6 @@ struct CompareChoice {
   int rows = 4;
   bool no_outlines = false;
   int jobs = 0;
-  bool resume = false;
   std::string match = "energy";
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";

@@ -94,6 +94,10 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   question.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  opening {:.1f} degree", m.time, recovered.opening);
   };
+  question.visit = [&](Archive& archive) {
+    archive(largest);
+    archive(recovered);
+  };
   return question;
 }
 
@@ -134,7 +138,7 @@ void crease_once(const CommandLine& line) {
                                                : pleated(setup.scene, choice);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
-  if (session.only_explain()) return;
+  if (session.is_over()) return;
   Recovered recovered;
   std::vector<double> largest, left;
   session.simulate(question_of(session, crease, largest, recovered));

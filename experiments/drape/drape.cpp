@@ -182,7 +182,7 @@ int run_drape(const CommandLine& line) {
   check_disc(setup.scene, choice);
   add_apparatus(setup.scene, choice);
   Session session(line, setup);
-  if (session.only_explain()) return 0;
+  if (session.is_over()) return 0;
   session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
 
   const float r = static_cast<float>(setup.scene.cloth.radius);
@@ -206,6 +206,7 @@ int run_drape(const CommandLine& line) {
     return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
                        m.fastest);
   };
+  question.visit = [&](Archive& archive) { archive(covered); };
   const bool settled = session.simulate(question);
 
   const Outline outline =

@@ -92,6 +92,22 @@ std::string FlexingMachine::progress(const Snapshot& instant) const {
                      ended_, curvature_, reading_.recovery_angle);
 }
 
+void FlexingMachine::visit(Archive& archive) {
+  for (int* number : {&count_, &ended_}) archive(*number);
+  for (double* number : {&curvature_, &largest_, &lost_, &crown_lost_, &time_}) archive(*number);
+  archive(crown_);
+  archive(reading_);
+  material_.visit(archive);
+  cycles_.visit(archive);
+  materials_.visit(archive);
+  loops_.resize(archive.size(loops_.size()));
+  for (render::Series& loop : loops_) {
+    archive(loop.label);
+    archive(loop.x);
+    archive(loop.y);
+  }
+}
+
 void FlexingMachine::finish() {
   cycles_.finish();
   materials_.finish();

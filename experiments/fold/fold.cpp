@@ -129,6 +129,7 @@ Question question_of(const Fold& fold, FlexingMachine& folding) {
   question.measure = [&](const Snapshot& m) { return folding.measure(m); };
   question.pictured = [&](const Snapshot&) { return folding.pictured(); };
   question.progress = [&](const Snapshot& m) { return folding.progress(m); };
+  question.visit = [&](Archive& archive) { folding.visit(archive); };
   return question;
 }
 
@@ -163,7 +164,7 @@ void fold_cloth(const CommandLine& line, Request& request) {
   request.setup.scene = fold.scene;
   request.setup.options.fps = fold.fps;
   Session session(line, request.setup, fold.cloth);
-  if (session.only_explain()) return;
+  if (session.is_over()) return;
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
   if (!request.setup.options.no_images) run.path("README.md");
@@ -195,6 +196,9 @@ void fold_law(const CommandLine& line, const Request& request) {
   if (request.setup.options.errors)
     throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
         .of("errors", "true");
+  if (request.setup.options.checkpoint > 0 || request.setup.options.resume)
+    throw Error::request(
+        "--checkpoint and --resume: fold.law-alone takes no checkpoints; only the cloth does");
   Json keys = to_json(scene);
   keys.update(request.keys);
   Run run(line, request.setup.options, keys);

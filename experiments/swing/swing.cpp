@@ -134,7 +134,7 @@ int run_swing(const CommandLine& line) {
               width = static_cast<float>(setup.scene.cloth.width);
   std::optional<Cloth> clamped = clamp(setup.scene);
   Session session(line, setup, std::move(clamped));
-  if (session.only_explain()) return 0;
+  if (session.is_over()) return 0;
   if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;
@@ -151,6 +151,10 @@ int run_swing(const CommandLine& line) {
     times.push_back(m.time);
     swing.push_back(m.x[tip].x());
     return {m.x[tip].x(), m.x[tip].z() - m.x[0].z()};
+  };
+  question.visit = [&](Archive& archive) {
+    archive(times);
+    archive(swing);
   };
   question.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  tip at {:.4f}, {:.4f} m", m.time, m.x[tip].x(), m.x[tip].z());

@@ -36,6 +36,9 @@ class Bending {
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void accept(const Vec3<Real>* position);
 
+  // What outlives a step.  Not forces and trials: every step begins with evaluate() or commit().
+  void visit(Archive& archive);
+
   // Irons or edits the elements with chosen[i] != 0 at the last accepted state.
   void command(CommandKind kind, const std::vector<char>& chosen);
 
@@ -62,6 +65,7 @@ class Bending {
   typename LawLoop<Real, Device>::Trial trial_step() const;
 
  private:
+  void make_trials();
   OperatorView<Real> view() const;
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
 

@@ -7,17 +7,34 @@
 namespace hysteron {
 
 template <class Real, class Device>
+void Bending<Real, Device>::make_trials() {
+  const int packed = dimension_ * (dimension_ + 1) / 2;
+  trial_angle_ = Buffer<Real, Device>(device_, hinges_);
+  hinge_stiffness_ = Buffer<Real, Device>(device_, hinges_);
+  tangent_ = Buffer<Real, Device>(device_, static_cast<std::size_t>(elements_) * packed);
+  if (rate_.size() == 0) rate_ = Buffer<Real, Device>(device_, hinges_);
+  if (viscosity_ > 0) reference_ = Buffer<Real, Device>(device_, hinges_);
+  if (viscosity_ > 0) angle_before_ = Buffer<Real, Device>(device_, hinges_);
+}
+
+// The moments are there for measurements before the next step.
+template <class Real, class Device>
+void Bending<Real, Device>::visit(Archive& archive) {
+  bool tries = trial_angle_.size() > 0;
+  archive(tries);
+  if (tries && trial_angle_.size() == 0) make_trials();
+  hysteron::visit(archive, device_, angle_);
+  hysteron::visit(archive, device_, angle_before_);
+  hysteron::visit(archive, device_, viscous_);
+  hysteron::visit(archive, device_, taken_);
+  hysteron::visit(archive, device_, moment_area_);
+  law_->visit(archive, device_);
+}
+
+template <class Real, class Device>
 void Bending<Real, Device>::begin_step(const StepFormula& formula) {
   formula_ = formula;
-  const int packed = dimension_ * (dimension_ + 1) / 2;
-  if (trial_angle_.size() == 0) {
-    trial_angle_ = Buffer<Real, Device>(device_, hinges_);
-    hinge_stiffness_ = Buffer<Real, Device>(device_, hinges_);
-    tangent_ = Buffer<Real, Device>(device_, static_cast<std::size_t>(elements_) * packed);
-    if (rate_.size() == 0) rate_ = Buffer<Real, Device>(device_, hinges_);
-    if (viscosity_ > 0) reference_ = Buffer<Real, Device>(device_, hinges_);
-    if (viscosity_ > 0) angle_before_ = Buffer<Real, Device>(device_, hinges_);
-  }
+  if (trial_angle_.size() == 0) make_trials();
   if (viscosity_ <= 0) return;
   const Real now = static_cast<Real>(1 + formula.extrapolation),
              extrapolation = static_cast<Real>(formula.extrapolation);

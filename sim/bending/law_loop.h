@@ -9,7 +9,7 @@
 #include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
 #include "sim/bending/laws/law_parameters.h"
-#include "sim/device/device.h"
+#include "sim/device/archive_buffer.h"
 
 namespace hysteron {
 
@@ -75,6 +75,7 @@ class LawLoop {
   virtual double largest_stiffness() const = 0;  // bound on dM/dK [N m]
   virtual bool has_history() const = 0;
   virtual std::size_t history_bytes() const = 0;
+  virtual void visit(Archive& archive, Device& device) = 0;  // history and losses
   virtual const double* dissipated() const = 0;  // per element [J]; null where the law loses nothing
 };
 

@@ -152,6 +152,10 @@ class LawLoopOf : public LawLoop<Real, Device> {
   double largest_stiffness() const override { return static_cast<double>(law_.largest_stiffness()); }
   bool has_history() const override { return Law::kHistory > 0; }
   std::size_t history_bytes() const override { return history_.bytes(); }
+  void visit(Archive& archive, Device& device) override {
+    hysteron::visit(archive, device, history_);
+    hysteron::visit(archive, device, dissipated_);
+  }
   const double* dissipated() const override { return dissipated_.data(); }
 
  private:

@@ -41,6 +41,21 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
   set_ = obstacles_during<Real>(obstacle_, fabric_friction_, start, end);
+  moved_from_ = start;
+  moved_to_ = end;
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::visit(Archive& archive) {
+  archive(moved_from_);
+  archive(moved_to_);
+  if (archive.loads()) move(moved_from_, moved_to_);
+  hysteron::visit(archive, device_, slip_);
+  hysteron::visit(archive, device_, touching_);
+  hysteron::visit(archive, device_, spared_);
+  hysteron::visit(archive, device_, stored_);
+  hysteron::visit(archive, device_, loss_);
+  hysteron::visit(archive, device_, work_);
 }
 
 template <class Real, class Device>

@@ -10,6 +10,7 @@
 
 #include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
 
@@ -67,6 +68,9 @@ class Contact {
   void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
   std::vector<char> spared() const { return spared_.download(); }
 
+  // What outlives a step: the stops, what they touch, losses, and where the obstacles were placed.
+  void visit(Archive& archive);
+
   double stored_energy(const Vec3<Real>* position);  // [J]
   ContactLoss losses() const;                        // since the start
   std::size_t bytes() const;
@@ -78,6 +82,7 @@ class Contact {
   ContactModel<Real> model_;
   int vertices_;
   ObstacleSet<Real> set_;
+  double moved_from_ = 0, moved_to_ = 0;  // for which it is [s]
   Buffer<Real, Device> area_;
   Buffer<Vec3<Real>, Device> slip_;  // E [m]
   Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free

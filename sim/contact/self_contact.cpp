@@ -108,8 +108,14 @@ void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* d
   reach_ = reach;
   pairs_.find(x, direction, step_length, held, reach);
   ready_ = pending_ = true;
-  const int count = pairs_.count();
   carry_over();
+  index_corners();
+}
+
+// Which pairs each vertex is in, and room for what they say.
+template <class Real, class Device>
+void SelfContact<Real, Device>::index_corners() {
+  const int count = pairs_.count();
   slot_.reserve(4 * static_cast<std::size_t>(count));
   energy_.reserve(count);
   int* key = rows_.key.reserve(4 * static_cast<std::size_t>(count));
@@ -120,6 +126,20 @@ void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* d
       });
   group(device_, pairs_.scratch(), key, 4 * count, vertices_, rows_.start.data(),
         rows_.item.reserve(4 * static_cast<std::size_t>(count)));
+}
+
+template <class Real, class Device>
+void SelfContact<Real, Device>::visit(Archive& archive) {
+  pairs_.visit(archive);
+  hysteron::visit(archive, device_, friction_.reserve(pairs_.count()), pairs_.count());
+  archive(ready_);
+  archive(pending_);
+  archive(reach_);
+  archive(stored_);
+  archive(loss_);
+  hysteron::visit(archive, device_, center_);
+  hysteron::visit(archive, clock_);
+  if (archive.loads()) index_corners();
 }
 
 // Friction of the pairs that stay in the list.

@@ -69,6 +69,10 @@ class SelfContact {
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
+  // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
+  // and their stops.
+  void visit(Archive& archive);
+
   // For messages: the forces on vertices where evaluate() was called last [N], and the pair that limited the
   // step of the last prepare().
   std::vector<Vec3<Real>> forces() const;
@@ -83,6 +87,7 @@ class SelfContact {
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
                Real reach);
   void carry_over();
+  void index_corners();
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);

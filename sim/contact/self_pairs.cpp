@@ -193,6 +193,13 @@ void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direct
 }
 
 template <class Real, class Device>
+void SelfPairs<Real, Device>::visit(Archive& archive) {
+  count_ = static_cast<int>(archive.size(count_));
+  hysteron::visit(archive, device_, start_);
+  hysteron::visit(archive, device_, pair_.reserve(count_), count_);
+}
+
+template <class Real, class Device>
 std::size_t SelfPairs<Real, Device>::bytes() const {
   return rest_.bytes() + face_.bytes() + edge_.bytes() + vertex_area_.bytes() + edge_area_.bytes() +
          triangle_tree_.bytes() + edge_tree_.bytes() + kept_.bytes() + 3 * start_.bytes() + pair_.bytes() +

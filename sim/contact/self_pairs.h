@@ -3,6 +3,7 @@
 
 #include "sim/contact/box_tree.h"
 #include "sim/device/algorithms.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
@@ -39,6 +40,8 @@ class SelfPairs {
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
   // many rows, and old_pairs() are those of the list before.
   void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach);
+  // The list; boxes and the list before are made anew by find().
+  void visit(Archive& archive);
   Vec3<Real> mean_of(const Vec3<Real>* direction);
   int count() const { return count_; }
   int rows() const { return rows_; }

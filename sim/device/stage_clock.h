@@ -6,6 +6,7 @@
 #include <chrono>
 #include <vector>
 
+#include "sim/base/archive.h"
 #include "sim/device/device.h"
 
 namespace hysteron {
@@ -28,6 +29,9 @@ class StageClock<Cpu> {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   StageSeconds seconds() { return seconds_; }
+  void add(const StageSeconds& seconds) {
+    for (int s = 0; s < kStages; ++s) seconds_[s] += seconds[s];
+  }
 
  private:
   std::chrono::steady_clock::time_point start_;
@@ -51,6 +55,9 @@ class StageClock<Cuda> {
   StageSeconds seconds() {
     collect();
     return seconds_;
+  }
+  void add(const StageSeconds& seconds) {
+    for (int s = 0; s < kStages; ++s) seconds_[s] += seconds[s];
   }
 
  private:
@@ -79,5 +86,14 @@ class StageClock<Cuda> {
   StageSeconds seconds_{};
 };
 #endif
+
+// A run that goes on goes on counting.
+template <class Device>
+void visit(Archive& archive, StageClock<Device>& clock) {
+  StageSeconds seconds{};
+  if (!archive.loads()) seconds = clock.seconds();
+  archive(seconds);
+  if (archive.loads()) clock.add(seconds);
+}
 
 }  // namespace hysteron

@@ -23,6 +23,8 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     preconditioned.preconditioner = &multigrid_;
     return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
   }
+  // The levels are made anew for every system.
+  void visit(Archive& archive) override { pcg_.visit(archive); }
   std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
 
  private:

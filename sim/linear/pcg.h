@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "sim/base/archive.h"
 #include "sim/linear/block_rows.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/linear/preconditioner.h"
@@ -47,6 +48,8 @@ class Pcg {
   // downwards and as long as if that were its magnitude; then it has not converged.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
+  // How many iterations the last solve took, on which a GPU's next batches depend.
+  void visit(Archive& archive) { archive(last_iterations_); }
   std::size_t bytes() const;
 
   enum Done { kNotYet, kConverged, kIndefinite };

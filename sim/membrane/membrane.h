@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/base/step_formula.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/membrane/green_lagrange.h"
 #include "sim/mesh/cloth_mesh.h"
@@ -58,6 +59,9 @@ class Membrane {
   // Viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
   Real viscous_factor() const;
   void add_viscous_loss();  // of the step that evaluate() saw last
+
+  // What outlives a step: losses alone, since stresses follow from positions.
+  void visit(Archive& archive) { hysteron::visit(archive, device_, viscous_); }
 
   double stored_energy(const Vec3<Real>* position);              // [J]
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry

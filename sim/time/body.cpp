@@ -107,6 +107,25 @@ void Body<Real, Device>::carry_out_commands(double start, double end) {
 }
 
 template <class Real, class Device>
+void Body<Real, Device>::visit(Archive& archive) {
+  hysteron::visit(archive, *device, x);
+  hysteron::visit(archive, *device, v);
+  hysteron::visit(archive, *device, held);
+  hysteron::visit(archive, *device, ledger);
+  hysteron::visit(archive, clock);
+  archive(counts);
+  archive(jumped);
+  archive(initial_);
+  archive(next_obstacle_);
+  archive(met_);
+  hands.visit(archive, *device);
+  membrane.visit(archive);
+  bending.visit(archive);
+  if (contact) contact->visit(archive);
+  if (self_contact) self_contact->visit(archive);
+}
+
+template <class Real, class Device>
 bool Body<Real, Device>::is_finite() {
   const Vec3<Real>*at = x.data(), *moving = v.data();
   double* size = size_.data();

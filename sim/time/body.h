@@ -65,6 +65,9 @@ struct Body {
   // Commands that are due in a step, on the state accepted last.
   void carry_out_commands(double start, double end);
 
+  // All that outlives a step; the rest follows from the scene, or is made anew in every step.
+  void visit(Archive& archive);
+
   Ledger energies();  // at this moment
   Ledger balance();   // since the start
   std::size_t state_bytes() const;

@@ -11,6 +11,7 @@ class ExplicitEuler : public TimeIntegrator<Real, Device> {
   ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
   void become_static() override { refuse_statics(body_.scene); }
+  void visit(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function

@@ -123,6 +123,19 @@ HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double 
 }
 
 template <class Real, class Device>
+void Hands<Real, Device>::visit(Archive& archive, Device& device) {
+  archive(next_);
+  archive(work_);
+  hysteron::visit(archive, device, start_);
+  hysteron::visit(archive, device, pin_);
+  if (!limited_) return;
+  archive(largest_lag_);
+  archive(slack_stages_);
+  hysteron::visit(archive, device, place_);
+  hysteron::visit(archive, device, strength_);
+}
+
+template <class Real, class Device>
 void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   if (!moving_) return;
   const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/device/algorithms.h"
-#include "sim/device/device.h"
+#include "sim/device/archive_buffer.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/back_end.h"
 #include "sim/time/grips.h"
@@ -48,7 +48,9 @@ class Hands {
   void note_lag(Body<Real, Device>& body);
   long slack_stages() const { return slack_stages_; }
   double largest_lag() const { return largest_lag_; }  // [m]
-  double work() const { return work_; }                // done on the cloth by taking hold and letting go [J]
+  // What outlives a step; where things were at t = 0 does not change.
+  void visit(Archive& archive, Device& device);
+  double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
   std::size_t bytes() const;
 
  private:

@@ -16,6 +16,11 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void step(double start) override;
   void become_static() override;
   std::vector<Vec3<Real>> handle_forces() override;
+  void visit(Archive& archive) override {
+    archive(part_);
+    archive(tolerance_);
+    solver_.visit(archive);
+  }
   std::size_t bytes() const override { return solver_.bytes(); }
 
  protected:

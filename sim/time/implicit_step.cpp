@@ -93,6 +93,17 @@ std::size_t ImplicitStep<Real, Device>::bytes() const {
 }
 
 template <class Real, class Device>
+void ImplicitStep<Real, Device>::visit(Archive& archive) {
+  archive(knows_acceleration_);
+  archive(last_h_);
+  hysteron::visit(archive, device_, acceleration_);
+  hysteron::visit(archive, device_, x_before_);
+  hysteron::visit(archive, device_, v_before_);
+  potential_.visit(archive);
+  solver_->visit(archive);
+}
+
+template <class Real, class Device>
 StepFormula ImplicitStep<Real, Device>::rates_of(double h) const {
   if (static_) return StepFormula::statics(h);
   const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;

@@ -63,6 +63,8 @@ class ImplicitStep {
   // mean square by mass [m].  It is of the order error_order() in the step.
   double local_error(const VertexState<Real>& state);
   double error_order() const { return formula_.extrapolation > 0 || formula_.carried > 0 ? 3 : 2; }
+  // What outlives a step: motion before it, and the forces that handle_forces() tells of.
+  void visit(Archive& archive);
   // Forces of the handles on held vertices, of the step accepted last; zero on free ones [N].
   std::vector<Vec3<Real>> handle_forces(const VertexState<Real>& state) const;
   // Where solve() has ended without success.

@@ -66,6 +66,7 @@ class IncrementalPotential {
   // and with friction that slides more easily (sliding_stop.h).  Bending's part is Gauss-Newton's, without
   // the second derivatives of angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
+  void visit(Archive& archive) { hysteron::visit(archive, device_, gradient_); }
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   double load();  // norm of the weight of all free vertices [N]
   bool has_friction() const { return contact_ || self_contact_; }

@@ -149,6 +149,12 @@ LinearisedSolve<Real, Device>::LinearisedSolve(Body<Real, Device>& body)
       size_(*body.device, 1) {}
 
 template <class Real, class Device>
+void LinearisedSolve<Real, Device>::visit(Archive& archive) {
+  pcg_.visit(archive);
+  hysteron::visit(archive, *body_.device, change_);
+}
+
+template <class Real, class Device>
 void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
   constexpr int kNewtonWithObstacles = 2;
   const int newton = body_.contact ? kNewtonWithObstacles : 1;

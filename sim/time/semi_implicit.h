@@ -15,6 +15,8 @@ class LinearisedSolve {
   // From where the explicit forces left the cloth, over h.  `impulse`: of explicit forces that act in this
   // stage too [N s]; null where they have acted before.
   void solve(Real h, const Vec3<Real>* impulse);
+  // The last stage's velocity change, from which the next solve starts.
+  void visit(Archive& archive);
   double change_size();  // root mean square of the last stage's velocity change, by mass [m/s]
   std::size_t bytes() const { return pcg_.bytes() + change_.bytes() + correction_.bytes() + rhs_.bytes(); }
 
@@ -38,6 +40,10 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
   void become_static() override { refuse_statics(body_.scene); }
+  void visit(Archive& archive) override {
+    archive(part_);
+    solve_.visit(archive);
+  }
   std::size_t bytes() const override { return solve_.bytes() + impulse_.bytes(); }
 
   // Bending and external forces over h, and the cloth moved on by its velocity: where the solve linearises.
@@ -62,6 +68,7 @@ class ChapterSteps : public TimeIntegrator<Real, Device> {
       : body_(body), substeps_(limits.substeps), solve_(body) {}
   void step(double start) override;
   void become_static() override { refuse_statics(body_.scene); }
+  void visit(Archive& archive) override { solve_.visit(archive); }
   std::size_t bytes() const override { return solve_.bytes(); }
 
   void substep(Real dt);  // public because nvcc allows no device lambda in a private member function

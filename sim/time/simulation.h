@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/device/gl_positions.h"
@@ -40,6 +41,11 @@ class Simulation {
   // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
   // Error::request for integrators that are not implicit in all forces.
   virtual void become_static() = 0;
+  // All that outlives a step, bit for bit, as bytes that only this program reads; a simulation of the same
+  // scene and cloth, on a device of the same kind, in the same precision and not yet static, goes on from
+  // them as this one does.
+  virtual std::string save() = 0;
+  virtual void load(std::string_view state) = 0;
   virtual void wait() = 0;          // until the device has done what advance() ordered
   virtual double time() const = 0;  // [s]
   virtual long steps() const = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
 #include "sim/time/explicit_euler.h"
 #include "sim/time/implicit_integrator.h"
@@ -18,12 +19,6 @@ std::vector<Eigen::Vector3d> in_doubles(const std::vector<Vec3<Real>>& values) {
   std::vector<Eigen::Vector3d> result;
   for (const auto& value : values) result.push_back(value.template cast<double>());
   return result;
-}
-
-std::uint64_t fnv1a(const void* memory, std::size_t bytes, std::uint64_t hash) {
-  const unsigned char* p = static_cast<const unsigned char*>(memory);
-  for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ p[i]) * 1099511628211ull;
-  return hash;
 }
 
 }  // namespace
@@ -66,6 +61,27 @@ void Stepper<Real, Device>::advance(int steps) {
 }
 
 template <class Real, class Device>
+void Stepper<Real, Device>::visit(Archive& archive) {
+  archive(steps_);
+  body_.visit(archive);
+  integrator_->visit(archive);
+}
+
+template <class Real, class Device>
+std::string Stepper<Real, Device>::save() {
+  Archive archive;
+  visit(archive);
+  return archive.take();
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::load(std::string_view state) {
+  Archive archive(state);
+  visit(archive);
+  if (!archive.at_end()) throw Error::request("the state is of another simulation");
+}
+
+template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
   return in_doubles(body_.x.download());
 }
@@ -89,8 +105,7 @@ std::unique_ptr<GlPositions> Stepper<Real, Device>::share_positions(unsigned gl_
 template <class Real, class Device>
 std::uint64_t Stepper<Real, Device>::state_hash() {
   const auto x = body_.x.download(), v = body_.v.download();
-  std::uint64_t hash = 14695981039346656037ull;
-  hash = fnv1a(x.data(), x.size() * sizeof(Vec3<Real>), hash);
+  const std::uint64_t hash = fnv1a(x.data(), x.size() * sizeof(Vec3<Real>));
   return fnv1a(v.data(), v.size() * sizeof(Vec3<Real>), hash);
 }
 

@@ -13,6 +13,8 @@ class Stepper : public Simulation {
 
   void advance(int steps) override;
   void become_static() override { integrator_->become_static(); }
+  std::string save() override;
+  void load(std::string_view state) override;
   void wait() override { body_.device->synchronize(); }
   double time() const override { return static_cast<double>(steps_) * body_.scene.step; }
   long steps() const override { return steps_; }
@@ -48,6 +50,7 @@ class Stepper : public Simulation {
   int cuda_device() const override { return body_.device->cuda_device(); }
 
  private:
+  void visit(Archive& archive);
   double per_step(long count) const {
     return steps_ ? static_cast<double>(count) / static_cast<double>(steps_) : 0;
   }

@@ -19,6 +19,7 @@ class TimeIntegrator {
   virtual void become_static() = 0;
   // Of the step accepted last, on each vertex [N]; empty where they are not known.
   virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
+  virtual void visit(Archive& archive) = 0;  // what outlives a step, without the body
   virtual std::size_t bytes() const = 0;
 };
 

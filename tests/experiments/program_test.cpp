@@ -131,10 +131,10 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
-TEST(Program, OffersToResumeComparisonsOnly) {
+TEST(Program, OffersToResumeWhatSimulates) {
   for (const Experiment& experiment : experiments())
     EXPECT_EQ(program(std::string(experiment.name) + " --help").out.find("--resume") != std::string::npos,
-              experiment.name == std::string("compare"))
+              experiment.simulates)
         << experiment.name;
 }
 

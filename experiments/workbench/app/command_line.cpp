@@ -92,10 +92,6 @@ void refuse_unknown(const Command& command) {
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const std::string experiment = command.experiment->name;
-  if (word == "--resume" && command.experiment->simulates)
-    throw Error::request("--resume is not built yet for single runs; compare has it")
-        .of("resume", "")
-        .in(experiment);
   if (!word.starts_with('-')) throw Error::request("unexpected argument \"" + word + "\"").in(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);

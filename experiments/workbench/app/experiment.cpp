@@ -1,6 +1,8 @@
 #include "experiments/workbench/app/experiment.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/workbench/app/headlines.h"
 #include "sim/base/comma_list.h"
@@ -20,6 +22,19 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
   return text;
 }
 
+namespace {
+
+// Without those that change no file of a run, or whose outcome is in the scene.
+std::string choices_of(Keys keys) {
+  static const std::set<std::string> kOthers = {"scene",       "out",        "quick",  "explain",
+                                                "quiet",       "json",       "errors", "errors.draws",
+                                                "errors.jobs", "checkpoint", "resume"};
+  std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
+  return to_json(keys).dump();
+}
+
+}  // namespace
+
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
              const std::function<void(Setup&)>& quick) {
   Keys extra = bind_options(setup.options);
@@ -34,6 +49,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   check_scene(setup.scene);
   check_options(setup.options);
   if (setup.options.errors) check_errors(line.experiment);
+  setup.choices = choices_of(extra);
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
   return setup;
 }

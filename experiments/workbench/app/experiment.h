@@ -45,6 +45,7 @@ const Experiment& experiment_named(const std::string& name);
 struct Setup {
   Scene scene;
   Options options;
+  std::string choices = "{}";  // resolved keys of the run and its experiment that decide what it writes, JSON
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

@@ -29,6 +29,8 @@ struct Options {
   bool errors = false;                               // errors       of headlines, by repeating the run
   int errors_draws = 2;                              // errors.draws other meshes
   int errors_jobs = 0;                               // errors.jobs  repeats at a time, 0: as many as fit
+  double checkpoint = 0;                             // checkpoint   [s] of wall clock between two; 0: none
+  bool resume = false;                               // resume       go on from OUT/checkpoint
   bool quick = false;                                // quick      a small version of the same question
   bool explain = false;                              // explain    print what the scene includes, and stop
   bool quiet = false;                                // quiet      no progress on stderr

@@ -8,6 +8,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
 #include "render/plot.h"
+#include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -68,14 +69,18 @@ std::string program_version() {
   return std::string(kVersion) + " (commit " + kGitCommit + (kGitDirty ? ", modified)" : ")");
 }
 
-Run::Run(const CommandLine& line, const Setup& setup) : Run(line, setup.options, to_json(setup.scene)) {}
+Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
+    : Run(line, setup.options, to_json(setup.scene), kept) {}
 
-Run::Run(const CommandLine& line, const Options& options, const Json& keys)
-    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line),
+Run::Run(const CommandLine& line, const Options& options, const Json& keys,
+         const std::vector<std::string>& kept)
+    : folder_(options.out.empty() ? "out/" + line.experiment : options.out, line, kept),
       json_(options.json),
       quiet_(options.quiet),
       manifest_(first_entries(line, keys)) {
   remember_first(folder(), json_);
+  manifest_.files = kept;
+  for (const std::string& name : kept) is_new(name);
   write_manifest(false);
 }
 
@@ -93,12 +98,14 @@ const fs::path& Run::first_folder() { return first_run().folder; }
 
 fs::path Run::path(const std::string& name) {
   if (std::count(manifest_.files.begin(), manifest_.files.end(), name)) return folder() / name;
-  const fs::path file = folder_.place_for(name), relative = name;
+  const fs::path file = folder_.place_for(name);
   manifest_.files.push_back(name);
-  const bool is_new =
-      known_.insert(is_numbered(relative) ? relative.parent_path() / relative.extension() : relative).second;
-  if (is_new && !finished_) write_manifest(false);
+  if (is_new(name) && !finished_) write_manifest(false);
   return file;
+}
+
+bool Run::is_new(const fs::path& name) {
+  return known_.insert(is_numbered(name) ? name.parent_path() / name.extension() : name).second;
 }
 
 void Run::forget(const std::string& name) {
@@ -113,6 +120,21 @@ void Run::note(const std::string& key, const Json& value) {
 void Run::begun_at(std::chrono::steady_clock::time_point time) {
   add_seconds("setup", std::chrono::duration<double>(start_ - time).count());
   start_ = time;
+}
+
+void Run::visit(Archive& archive) {
+  archive(manifest_.files);
+  archive(manifest_.started);
+  archive(manifest_.command);
+  using Seconds = std::chrono::duration<double>;
+  double elapsed = Seconds(std::chrono::steady_clock::now() - start_).count();
+  std::vector<std::pair<std::string, double>> seconds(seconds_.begin(), seconds_.end());
+  archive(elapsed);
+  archive(seconds);
+  if (!archive.loads()) return;
+  for (const std::string& name : manifest_.files) is_new(name);
+  start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(Seconds(elapsed));
+  for (const auto& [stage, spent] : seconds) add_seconds(stage, spent);
 }
 
 void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage] += seconds; }

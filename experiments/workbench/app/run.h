@@ -7,14 +7,18 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/app/run_folder.h"
 
-namespace hysteron::render {
+namespace hysteron {
+class Archive;
+namespace render {
 struct Plot;
 }
+}  // namespace hysteron
 
 namespace hysteron::experiments {
 
@@ -28,9 +32,11 @@ class Run {
  public:
   // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::request,
   // Error::machine.
-  Run(const CommandLine& line, const Setup& setup);
+  // `kept`: files of a run that was interrupted and goes on as this one; visit() tells of the rest.
+  Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept = {});
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
-  Run(const CommandLine& line, const Options& options, const Json& keys);
+  Run(const CommandLine& line, const Options& options, const Json& keys,
+      const std::vector<std::string>& kept = {});
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -84,6 +90,10 @@ class Run {
   // A line of progress on stderr, unless --quiet.
   void progress(const std::string& line) const;
 
+  // What is known of the run and was found before an instant at which it may be interrupted: files first.
+  // Results are not: they are found anew.
+  void visit(Archive& archive);
+
   // Writes what is known so far, as of a run that is not complete: work that follows may be interrupted.
   // Throws Error::machine.
   void keep() const { write_manifest(false); }
@@ -93,6 +103,8 @@ class Run {
  private:
   Json to_write(bool complete) const;
   void write_manifest(bool complete) const;
+  // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
+  bool is_new(const std::filesystem::path& name);
 
   RunFolder folder_;
   bool json_, quiet_, finished_ = false;

@@ -81,7 +81,8 @@ std::string half_written(const std::string& name) {
 }
 
 // An interrupted run lists the first file of a sequence only.
-void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& listed) {
+void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& listed,
+                        const std::set<fs::path>& kept) {
   std::set<fs::path> names(listed.begin(), listed.end()), folders = {""}, sequences;
   names.insert(kManifest);
   for (const fs::path& name : listed) {
@@ -100,17 +101,18 @@ void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& lis
     for (const fs::path& name : found) {
       const std::string target = half_written(name.filename().string());
       const bool left = target.empty() ? is_numbered(name) && of_the_run(name) : of_the_run(inner / target);
-      if (left && is_plain(folder / name)) fs::remove(folder / name, ignored);
+      if (left && !kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
     }
   }
 }
 
-void remove_run(const std::optional<Manifest>& manifest, const fs::path& folder) {
+void remove_run(const std::optional<Manifest>& manifest, const fs::path& folder,
+                const std::set<fs::path>& kept) {
   const std::vector<fs::path> names = files_of(manifest, folder);
   std::error_code ignored;
   for (const fs::path& name : names)
-    if (is_plain(folder / name)) fs::remove(folder / name, ignored);
-  if (manifest && !manifest->complete) remove_interrupted(folder, names);
+    if (!kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
+  if (manifest && !manifest->complete) remove_interrupted(folder, names, kept);
   for (const fs::path& name : names)
     if (name.has_parent_path() && fs::is_empty(folder / name.parent_path(), ignored))
       fs::remove(folder / name.parent_path(), ignored);
@@ -156,10 +158,11 @@ FolderLock::FolderLock(const fs::path& folder)
 
 FolderLock::~FolderLock() { ::close(handle_); }
 
-RunFolder::RunFolder(const fs::path& path, const CommandLine& line) : path_(made(path)), lock_(path) {
+RunFolder::RunFolder(const fs::path& path, const CommandLine& line, const std::vector<std::string>& kept)
+    : path_(made(path)), lock_(path) {
   const std::optional<Manifest> before = run_before(path_);
   refuse_inputs(line, path_, files_of(before, path_));
-  remove_run(before, path_);
+  remove_run(before, path_, {kept.begin(), kept.end()});
 }
 
 fs::path RunFolder::place_for(const std::string& name) const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/workbench/app/experiment.h"
 
@@ -29,7 +30,9 @@ class RunFolder {
   // if it was interrupted, the rest of its sequences and files half written.  Throws Error::machine;
   // Error::request where another run is in the folder, where its manifest.json is not a run's, and where the
   // line names one of those files as an input.
-  RunFolder(const std::filesystem::path& path, const CommandLine& line);
+  // `kept`: files of that run which are not removed, since this one goes on from them.
+  RunFolder(const std::filesystem::path& path, const CommandLine& line,
+            const std::vector<std::string>& kept = {});
 
   const std::filesystem::path& path() const { return path_; }
   // Where to write the file of that name; its own folder is made.  Throws Error::request where something

@@ -43,9 +43,13 @@ bool from_a_file(const Scene& scene) { return scene.cloth.shape == "file" || sce
 SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
   std::vector<Flag> own = repeat.changes;
   // A scene's file may say otherwise.
-  own.insert(
-      own.end(),
-      {{"errors", "false"}, {"json", "false"}, {"no-images", "true"}, {"look", "cloth"}, {"export", "none"}});
+  own.insert(own.end(), {{"errors", "false"},
+                         {"json", "false"},
+                         {"no-images", "true"},
+                         {"look", "cloth"},
+                         {"export", "none"},
+                         {"checkpoint", "0"},
+                         {"resume", "false"}});
   return column_of(repeat.name, line, own, run.folder() / "errors");
 }
 

@@ -42,6 +42,8 @@ int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
   if (variants.size() == 1) return once(line), 0;
   VariantPage page = page_of(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
+  if (page.setup.options.checkpoint > 0 || page.setup.options.resume)
+    throw Error::request("--checkpoint and --resume are of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
   std::vector<SweepColumn> columns;
   for (const Variant& variant : variants)

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "sim/base/archive.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 
@@ -158,6 +159,29 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
       [&](SceneRenderer& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
 }
 
+void Pictures::visit(Archive& archive, Run& run) {
+  scene_renderer_.wait();
+  if (!archive.loads()) writer_.finish();
+  archive(frames_);
+  archive(waited_seconds_);
+  archive(render_seconds_);
+  double encode = encode_seconds_ + writer_.encode_seconds();
+  archive(encode);
+  if (!run.manifest().frames) run.manifest().frames.emplace();
+  std::vector<Frames::Instant>& instants = run.manifest().frames->instants;
+  instants.resize(archive.size(instants.size()));
+  for (Frames::Instant& instant : instants) {
+    archive(instant.time);
+    archive(instant.phase);
+    archive(instant.difference_rms);
+  }
+  if (!archive.loads()) return;
+  encode_seconds_ = encode;
+  for (int i = 0; i < frames_; ++i)
+    thumbnails_.push_back({thumbnail(render::read_png(run.folder() / fmt::format("frames/{:04}.png", i))),
+                           when(instants[i].time)});
+}
+
 void Pictures::finish(Run& run, const std::string& title) {
   scene_renderer_.wait();
   writer_.finish();
@@ -170,7 +194,7 @@ void Pictures::finish(Run& run, const std::string& title) {
   run.manifest().renderer = renderer();
   run.manifest().positions = positions_way();
   run.add_seconds("render", render_seconds_);
-  run.add_seconds("encode", writer_.encode_seconds());
+  run.add_seconds("encode", encode_seconds_ + writer_.encode_seconds());
   run.add_seconds("waited", waited_seconds_);
 }
 

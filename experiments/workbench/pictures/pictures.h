@@ -43,6 +43,8 @@ class Pictures {
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
+  // Waits for the files so far.  A run that goes on reads its thumbnails from them.  Throws Error::machine.
+  void visit(Archive& archive, Run& run);
   // Waits for the files and writes sheet.png.
   void finish(Run& run, const std::string& title);
 
@@ -71,6 +73,7 @@ class Pictures {
   std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
   int frames_ = 0;
+  double encode_seconds_ = 0;  // before the run was interrupted
   double waited_seconds_ = 0;  // of the simulation, for its pictures
   // The studio's thread writes these while a picture is drawn.
   std::vector<render::SheetEntry> thumbnails_;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "sim/base/archive.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 
@@ -45,8 +46,19 @@ void Record::finish() {
   finished_ = true;
 }
 
+void Record::visit(Archive& archive) {
+  const std::string head = text_;
+  archive(text_);
+  if (!archive.loads()) return;
+  if (!text_.starts_with(head)) throw Error::request(file_.string() + " had other columns");
+  const std::string rows = text_.substr(head.size());
+  text_ = head;
+  write(rows);
+}
+
 void Record::write(const std::string& row) {
   errno = 0;
+  text_ += row;
   stream_ << row << std::flush;
   if (stream_) return;
   whole_ = false;

@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace hysteron {
+class Archive;
+}
+
 namespace hysteron::experiments {
 
 // CSV with named columns and units in the header, "time [s]".  Every row is flushed, so that a run can be
@@ -22,6 +26,8 @@ class Record {
   // One number per column, with 17 significant digits.
   void row(const std::vector<double>& values);
   void finish();
+  // Rows so far, which a run that goes on begins with.  Throws Error::request where columns differ.
+  void visit(Archive& archive);
 
  private:
   void write(const std::string& row);
@@ -29,6 +35,7 @@ class Record {
   std::filesystem::path file_, growing_;
   std::ofstream stream_;
   std::size_t columns_;
+  std::string text_;   // written so far
   bool whole_ = true;  // every row so far is on disk
   bool finished_ = false;
 };

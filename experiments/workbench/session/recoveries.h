@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "sim/base/archive.h"
 #include "sim/scene/scene.h"
 #include "sim/time/simulation.h"
 
@@ -21,6 +22,10 @@ class Recoveries {
   void see(Simulation& simulation);
   // `moment`: `dimension` components per element [N].
   void see(const std::vector<double>& moment, int dimension);
+  void visit(Archive& archive) {
+    archive(before_);
+    archive(peak_);
+  }
   // Elements by case: elastic (never past Ma), partial, full slip.
   std::array<long, 3> cases() const;
 

@@ -99,7 +99,9 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     explain(cloth_, *simulation_);
     return;
   }
-  run_ = std::make_unique<Run>(line, setup);
+  if (setup.options.resume) look_back();
+  if (is_complete_) return;
+  run_ = std::make_unique<Run>(line, setup, kept_files());
   run_->begun_at(begun_);
   Manifest& manifest = run_->manifest();
   manifest.device = simulation_->device();
@@ -178,8 +180,6 @@ void Session::note_integrator(const Ledger& ledger) {
                   100 * share, step, 100 * kMost));
 }
 
-bool Session::only_explain() const { return setup_.options.explain; }
-
 void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
   const std::string& format = setup_.options.export_format;
   if (format == "none") return;
@@ -237,6 +237,37 @@ std::string Session::opening_words() const {
          " steps on " + simulation_->device();
 }
 
+// All instants; those before a checkpoint have been recorded.  Returns whether the question is settled.
+bool Session::go_through(const Question& question, Record& series) {
+  const int stride = steps_per_frame(setup_);
+  const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
+  std::optional<Interrupts> interrupts;
+  if (takes_checkpoints(question)) interrupts.emplace();
+  const bool goes_on = go_on(question, series);
+  std::vector<Eigen::Vector3d> before = simulation_->positions();
+  const auto start = std::chrono::steady_clock::now();
+  const long first_step = simulation_->steps();
+  const auto look = [&] {
+    const std::vector<Eigen::Vector3d> x = simulation_->positions();
+    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                 speed = fastest(x, before, stride * setup_.scene.step);
+    const long left = steps - first_step;
+    const Snapshot instant =
+        record(question, series, x, speed,
+               time_left(simulation_->steps() - first_step, left, spent, !!question.settled));
+    before = x;
+    return question.settled && question.settled(instant);
+  };
+  if (!goes_on) look();
+  bool settled = false;
+  while (!settled && simulation_->steps() < steps) {
+    if (interrupts) pause(question, series, *interrupts);
+    simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
+    settled = look();
+  }
+  return settled;
+}
+
 bool Session::simulate(const Question& question) {
   run_->progress(opening_words());
   if (!setup_.options.no_images) {
@@ -250,23 +281,7 @@ bool Session::simulate(const Question& question) {
   Record series(run_->path("metrics.csv"), columns);
   run_->manifest().series = question.columns;
 
-  const int stride = steps_per_frame(setup_);
-  const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
-  std::vector<Eigen::Vector3d> before = simulation_->positions();
-  bool settled = false;
-  const auto start = std::chrono::steady_clock::now();
-  const long first_step = simulation_->steps();
-  for (int frame = 0;; ++frame) {
-    const std::vector<Eigen::Vector3d> x = simulation_->positions();
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Snapshot instant =
-        record(question, series, x, fastest(x, before, stride * setup_.scene.step),
-               time_left(simulation_->steps() - first_step, steps - first_step, spent, !!question.settled));
-    settled = frame > 0 && question.settled && question.settled(instant);
-    if (settled || simulation_->steps() >= steps) break;
-    simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
-    before = x;
-  }
+  bool settled = go_through(question, series);
   if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
   series.finish();
   return settled;
@@ -303,6 +318,7 @@ void Session::finish(const std::string& title) {
   note_recovery(*run_, *simulation_, setup_.scene, recoveries_);
   run_->path("report.html");
   if (setup_.options.errors) measure_errors(*run_, line_, setup_);
+  drop_checkpoint();
   run_->finish();
   write_report(run_->folder());
 }

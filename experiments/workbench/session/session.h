@@ -9,6 +9,7 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/pictures.h"
+#include "experiments/workbench/session/interrupts.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "render/camera.h"
@@ -34,6 +35,8 @@ struct Question {
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
+  // What the experiment has collected in measure() and its like, for checkpoints; empty: it takes none.
+  std::function<void(Archive&)> visit;
 };
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
@@ -44,7 +47,8 @@ class Session {
   // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
   Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
 
-  bool only_explain() const;  // --explain: it is printed already
+  // There is nothing to simulate: --explain, which is printed already, or --resume of a complete run.
+  bool is_over() const { return setup_.options.explain || is_complete_; }
   Run& run() { return *run_; }
   const Cloth& cloth() const { return cloth_; }
   const Scene& scene() const { return setup_.scene; }
@@ -63,7 +67,17 @@ class Session {
   // An instant of the series: its row, pictures and checks.
   Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                   double fastest, const std::string& left);
+  bool go_through(const Question& question, Record& series);
   bool find_rest(const Question& question, Record& series);
+  // resuming.cpp
+  void look_back();
+  std::vector<std::string> kept_files() const;
+  bool takes_checkpoints(const Question& question) const;
+  void visit(Archive& archive, const Question& question, Record& series);
+  bool go_on(const Question& question, Record& series);
+  void take_checkpoint(const Question& question, Record& series);
+  void pause(const Question& question, Record& series, const Interrupts& interrupts);
+  void drop_checkpoint();
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);
   std::string opening_words() const;
@@ -86,6 +100,10 @@ class Session {
   Recoveries recoveries_;
   long intersections_ = 0;  // pairs of triangles, of all recorded instants
   double folded_ = 0;       // largest share of sharply folded edges
+  bool is_complete_ = false;
+  std::string state_;               // of the checkpoint to go on from; empty: none, or gone on
+  std::vector<double> resumed_at_;  // [s]
+  std::chrono::steady_clock::time_point checkpoint_taken_ = begun_;  // or begun
 };
 
 }  // namespace hysteron::experiments

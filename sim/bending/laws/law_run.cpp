@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/base/archive.h"
 #include "sim/bending/laws/every_group.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
@@ -16,6 +17,7 @@ struct LawWalk::State {
   virtual double residual() const = 0;
   virtual double friction_moment() const = 0;
   virtual double permanent_set() const = 0;
+  virtual void visit(Archive& archive) = 0;
 };
 
 namespace {
@@ -29,6 +31,11 @@ struct Drive final : LawWalk::State {
 
   explicit Drive(const L& chosen) : law(chosen) {}
   std::unique_ptr<State> copy() const override { return std::make_unique<Drive>(*this); }
+
+  void visit(Archive& archive) override {
+    archive.bytes(&history, sizeof history);
+    archive(dissipated);
+  }
 
   double tangent(const LawRow& row) {
     set_step_time(law, row.seconds);
@@ -112,5 +119,6 @@ LawPoint LawWalk::to(const LawRow& row) { return state_->to(row); }
 double LawWalk::residual() const { return state_->residual(); }
 double LawWalk::friction_moment() const { return state_->friction_moment(); }
 double LawWalk::permanent_set() const { return state_->permanent_set(); }
+void LawWalk::visit(Archive& archive) { state_->visit(archive); }
 
 }  // namespace hysteron

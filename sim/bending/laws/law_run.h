@@ -9,6 +9,8 @@
 
 namespace hysteron {
 
+class Archive;
+
 struct LawRequest {
   std::string name = "prandtl";  // one of law_catalogue()
   VirginCurve curve;
@@ -54,6 +56,8 @@ class LawWalk {
   double residual() const;         // curvature at which the moment is zero now [1/m]
   double friction_moment() const;  // M0 that fatigue has left [N]; NaN for a law without fatigue
   double permanent_set() const;    // K_p of fatigue [1/m]; 0 for a law without fatigue
+
+  void visit(Archive& archive);  // its memory, for one that goes on from there
 
   struct State;  // of some law
 

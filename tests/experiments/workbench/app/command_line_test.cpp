@@ -98,11 +98,6 @@ TEST(CommandLine, RefusesUnknownWordsAndNamesTheNearest) {
   EXPECT_EQ(refusal({"drape", "--zzzzzzzz"}), "drape: unknown option --zzzzzzzz; see hysteron drape --help");
 }
 
-TEST(CommandLine, SaysThatASingleRunCannotBeResumedYet) {
-  EXPECT_EQ(refusal({"drape", "--resume"}),
-            "drape: --resume is not built yet for single runs; compare has it");
-}
-
 TEST(CommandLine, RefusesToWriteToNowhere) {
   EXPECT_EQ(refusal({"drape", "--out", ""}), "drape: --out is empty: name where to write");
 }

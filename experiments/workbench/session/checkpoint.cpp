@@ -1,0 +1,115 @@
+// Magic with the format's number, size and hash of the rest, owner, state.
+#include "experiments/workbench/session/checkpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/base/archive.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/fnv1a.h"
+#include "sim/base/whole_file.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "hysteron checkpoint ", kFormat = "1\n";
+constexpr std::size_t kMost = std::size_t{1} << 40;
+constexpr const char* kAnew = "; without --resume the run begins anew";
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw Error::request("cannot resume from " + file.string() + ": " + why + kAnew)
+      .of("resume", file.string());
+}
+
+void visit(Archive& archive, CheckpointOwner& owner) {
+  for (std::string* text : {&owner.program, &owner.experiment, &owner.device, &owner.scene, &owner.choices})
+    archive(*text);
+  archive(owner.cloth);
+}
+
+struct Seal {
+  std::uint64_t size = 0, hash = 0;
+};
+
+Seal seal_of(std::string_view body) { return {body.size(), fnv1a(body.data(), body.size())}; }
+
+// What stands behind magic and seal.
+std::string_view checked_body(const fs::path& file, std::string_view all) {
+  if (all.substr(0, kMagic.size()) != kMagic.substr(0, all.size())) refuse(file, "it is no checkpoint");
+  const std::size_t head = kMagic.size() + kFormat.size();
+  if (all.size() < head) refuse(file, "it is cut off");
+  const std::string_view format = all.substr(kMagic.size(), kFormat.size());
+  if (format != kFormat) refuse(file, "it has the format of another version of hysteron");
+  if (all.size() < head + sizeof(Seal)) refuse(file, "it is cut off");
+  Seal seal;
+  Archive(all.substr(head, sizeof seal))(seal);
+  const std::string_view body = all.substr(head + sizeof seal);
+  if (body.size() < seal.size) refuse(file, "it is cut off");
+  if (body.size() > seal.size || seal_of(body).hash != seal.hash) refuse(file, "it is damaged");
+  return body;
+}
+
+void refuse_another(const fs::path& file, const CheckpointOwner& there, const CheckpointOwner& here) {
+  const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
+    if (a != b) refuse(file, "its " + std::string(what) + " is " + a + ", not " + b);
+  };
+  compare("program", there.program, here.program);
+  compare("experiment", there.experiment, here.experiment);
+  std::string keys = differing_keys(there.scene, here.scene);
+  const std::string choices = differing_keys(there.choices, here.choices);
+  if (!keys.empty() && !choices.empty()) keys += ", ";
+  keys += choices;
+  if (!keys.empty()) refuse(file, "other values of " + keys);
+  compare("device", there.device, here.device);
+  if (there.cloth != here.cloth) refuse(file, "its cloth has another mesh");
+}
+
+}  // namespace
+
+std::string differing_keys(const std::string& json, const std::string& other) {
+  constexpr int kShown = 6;
+  using nlohmann::json_pointer;
+  const auto a = nlohmann::ordered_json::parse(json).flatten(),
+             b = nlohmann::ordered_json::parse(other).flatten();
+  std::string names;
+  int count = 0;
+  const auto add = [&](const std::string& pointer) {
+    if (++count > kShown) return;
+    std::string path = pointer.substr(1);
+    for (char& c : path)
+      if (c == '/') c = '.';
+    names += (names.empty() ? "" : ", ") + path;
+  };
+  for (const auto& [key, value] : a.items())
+    if (!b.contains(key) || b[key] != value) add(key);
+  for (const auto& [key, value] : b.items())
+    if (!a.contains(key)) add(key);
+  if (count > kShown) names += " and " + std::to_string(count - kShown) + " more";
+  return names;
+}
+
+void write_checkpoint(const fs::path& file, CheckpointOwner owner, const std::string& state) {
+  Archive archive;
+  visit(archive, owner);
+  const std::string body = archive.take() + state;
+  const Seal seal = seal_of(body);
+  AtomicFile target(file.string());
+  target.stream() << kMagic << kFormat;
+  target.stream().write(reinterpret_cast<const char*>(&seal), sizeof seal);
+  target.stream() << body;
+  target.commit();
+}
+
+std::optional<std::string> read_checkpoint(const fs::path& file, const CheckpointOwner& owner) {
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(file, ignored))) return {};
+  const std::string all = whole_file(file, "cannot resume from " + file.string(), kMost);
+  const std::string_view body = checked_body(file, all);
+  Archive archive(body);
+  CheckpointOwner there;
+  visit(archive, there);
+  refuse_another(file, there, owner);
+  return std::string(archive.rest());
+}
+
+}  // namespace hysteron::experiments

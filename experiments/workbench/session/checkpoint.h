@@ -1,0 +1,30 @@
+// OUT/checkpoint: a simulated run at one of its recorded instants, from which the same command goes on
+// (--resume).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace hysteron::experiments {
+
+// What must be the same where a run goes on.
+struct CheckpointOwner {
+  std::string program, experiment, device;
+  std::string scene;        // resolved, JSON
+  std::string choices;      // keys of the run and the experiment that decide what is written, JSON
+  std::uint64_t cloth = 0;  // hash of triangles and start: meshes may come from files
+};
+
+// "step, fabric.b2": paths of the keys whose values differ; at most a few of them, and how many more.
+std::string differing_keys(const std::string& json, const std::string& other);
+
+// Replaces the file atomically.  Throws Error::machine.
+void write_checkpoint(const std::filesystem::path& file, CheckpointOwner owner, const std::string& state);
+
+// The state that was written; nothing where there is no file.  Throws Error::request, in one line, for a file
+// that is not one of this program's, is cut off or damaged, or whose owner is another: what differs is named.
+std::optional<std::string> read_checkpoint(const std::filesystem::path& file, const CheckpointOwner& owner);
+
+}  // namespace hysteron::experiments

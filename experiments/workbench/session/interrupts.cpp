@@ -1,0 +1,50 @@
+#include "experiments/workbench/session/interrupts.h"
+
+#include <ctime>
+
+namespace hysteron::experiments {
+namespace {
+
+volatile std::sig_atomic_t g_seen = 0;
+timespec g_when;  // the first one came; read by the handler alone
+
+// Calls only what a handler may call.
+void keep(int signal) {
+  constexpr double kOneAndTheSame = 0.5;  // [s]
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (g_seen == 0) {
+    g_seen = signal;
+    g_when = now;
+    return;
+  }
+  const double since = static_cast<double>(now.tv_sec - g_when.tv_sec) +
+                       1e-9 * static_cast<double>(now.tv_nsec - g_when.tv_nsec);
+  if (since < kOneAndTheSame) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+Interrupts::Interrupts() {
+  g_seen = 0;
+  struct sigaction kept {};
+  kept.sa_handler = keep;
+  kept.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM}) sigaddset(&kept.sa_mask, signal);  // one after the other
+  sigaction(SIGINT, &kept, &interrupt_before_);
+  sigaction(SIGTERM, &kept, &terminate_before_);
+}
+
+Interrupts::~Interrupts() {
+  sigaction(SIGINT, &interrupt_before_, nullptr);
+  sigaction(SIGTERM, &terminate_before_, nullptr);
+}
+
+std::string Interrupts::seen() const {
+  if (g_seen == 0) return "";
+  return g_seen == SIGINT ? "SIGINT" : "SIGTERM";
+}
+
+}  // namespace hysteron::experiments

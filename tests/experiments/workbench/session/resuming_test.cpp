@@ -1,0 +1,264 @@
+// Runs that are ended at any moment and go on (--checkpoint, --resume): what they write in the end is what
+// one that was left alone writes.
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const std::string kSwing = "swing --quick --no-images --threads 1 --device cpu --fps 240";
+const std::string kCrumple =
+    "crumple --quick --no-images --threads 1 --device cpu --fps 240 --triangles 100 --seconds 0.3";
+
+std::string in(const fs::path& out) { return " --out " + out.string(); }
+
+Json manifest_in(const fs::path& out) { return Json::parse(text_of(out / "manifest.json")); }
+
+// Starts the program, which gets a signal after some milliseconds.  Its wait status.
+int signalled(const std::string& arguments, int signal, int milliseconds, const fs::path& err) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string line = "exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>" + err.string();
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+// Starts the program, which is terminated as soon as it has written one more checkpoint.  Its exit code.
+int after_a_checkpoint(const std::string& arguments, const fs::path& out) {
+  const fs::path file = out / "checkpoint";
+  std::error_code none;
+  const auto before = fs::last_write_time(file, none);
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", ("exec " HYSTERON_PROGRAM " " + arguments + " >/dev/null 2>&1").c_str(),
+          nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  for (bool asked = false; waitpid(child, &status, WNOHANG) == 0;) {
+    if (!asked && fs::exists(file, none) && fs::last_write_time(file, none) != before) {
+      kill(child, SIGTERM);
+      asked = true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+// All files but those that tell of wall clock, and of the command.
+std::map<std::string, std::string> results_in(const fs::path& out) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    const std::string name = fs::relative(entry.path(), out).string();
+    if (entry.is_regular_file() && name != "manifest.json" && name != "report.html" && name != "README.md")
+      files[name] = text_of(entry.path());
+  }
+  return files;
+}
+
+void expect_same_results(const fs::path& a, const fs::path& b) {
+  const auto one = results_in(a), other = results_in(b);
+  for (const auto& [name, text] : one) {
+    ASSERT_TRUE(other.contains(name)) << name;
+    EXPECT_TRUE(other.at(name) == text) << name;
+  }
+  for (const auto& [name, text] : other) EXPECT_TRUE(one.contains(name)) << name;
+  const Json first = manifest_in(a), second = manifest_in(b);
+  for (const char* key :
+       {"state_hash", "metrics", "energy", "files", "steps", "series", "frames", "complete"})
+    EXPECT_EQ(first.value(key, Json()), second.value(key, Json())) << key;
+  EXPECT_EQ(first["complete"], true);
+}
+
+// Kills the run again and again and lets it go on; how often it went on from a checkpoint.
+std::size_t interrupt(const std::string& arguments, const fs::path& out, int signal, int kills, int longest) {
+  std::mt19937 random(7);
+  int status = -1;
+  for (int k = 0; k < kills && status != 0; ++k) {
+    status = signalled(arguments + " --resume" + in(out), signal,
+                       std::uniform_int_distribution(5, longest)(random), out.string() + ".err");
+    const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 3, done = status == 0;
+    EXPECT_TRUE(WIFSIGNALED(status) || ended || done) << text_of(out.string() + ".err");
+    if (ended) {
+      EXPECT_EQ(manifest_in(out)["complete"], false);
+      EXPECT_TRUE(fs::exists(out / "checkpoint"));
+      EXPECT_NE(text_of(out.string() + ".err").find("the same command with --resume goes on"),
+                std::string::npos);
+    }
+  }
+  const Outcome last = program(arguments + " --resume" + in(out));
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_FALSE(fs::exists(out / "checkpoint"));
+  return manifest_in(out).value("resumed_at_s", Json::array()).size();
+}
+
+TEST(Resuming, ASwingThatIsTerminatedEndsInTheSameBits) {
+  const Folder folder;
+  ASSERT_EQ(program(kSwing + in(folder.path() / "whole")).exit_code, 0);
+  EXPECT_GT(interrupt(kSwing + " --checkpoint 1000", folder.path() / "parts", SIGTERM, 10, 120), 2u);
+  expect_same_results(folder.path() / "whole", folder.path() / "parts");
+}
+
+TEST(Resuming, ACrumpleThatIsInterruptedEndsInTheSameBits) {
+  const Folder folder;
+  ASSERT_EQ(program(kCrumple + in(folder.path() / "whole")).exit_code, 0);
+  EXPECT_GT(interrupt(kCrumple + " --checkpoint 1000", folder.path() / "parts", SIGINT, 8, 250), 2u);
+  expect_same_results(folder.path() / "whole", folder.path() / "parts");
+}
+
+// Every experiment with what it collects on the way, each with a checkpoint at every instant.
+class ResumingEvery : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Experiments, ResumingEvery,
+                         testing::Values("drape --triangles 150 --seconds 0.2 --fps 120",
+                                         "crease --triangles 60 --step 0.02",
+                                         "fold --triangles 60 --fold.cycles 2", "buckle --triangles 60"),
+                         [](const auto& line) {
+                           return std::string(line.param).substr(0, std::string(line.param).find(' '));
+                         });
+
+TEST_P(ResumingEvery, EndsInTheSameBits) {
+  const Folder folder;
+  const fs::path parts = folder.path() / "parts";
+  const std::string line = std::string(GetParam()) + " --quick --no-images --threads 1 --device cpu";
+  const Outcome whole = program(line + in(folder.path() / "whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  for (int k = 0; k < 2; ++k)
+    ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6 --resume" + in(parts), parts), 3);
+  const Outcome last = program(line + " --resume" + in(parts));
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(manifest_in(parts)["resumed_at_s"].size(), 2u);
+  expect_same_results(folder.path() / "whole", parts);
+}
+
+// Which leaves no time for last words, and half-written files.
+TEST(Resuming, ASwingThatIsKilledEndsInTheSameBits) {
+  const Folder folder;
+  ASSERT_EQ(program(kSwing + in(folder.path() / "whole")).exit_code, 0);
+  EXPECT_GT(interrupt(kSwing + " --checkpoint 1e-6", folder.path() / "parts", SIGKILL, 10, 120), 2u);
+  expect_same_results(folder.path() / "whole", folder.path() / "parts");
+}
+
+TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
+  const Folder folder;
+  const std::string line =
+      "swing --quick --threads 1 --device cpu --fps 60 --size 96x64 --look cloth,curvature --export obj";
+  ASSERT_EQ(program(line + in(folder.path() / "whole")).exit_code, 0);
+  EXPECT_GT(interrupt(line + " --checkpoint 1e-6", folder.path() / "parts", SIGTERM, 6, 700), 1u);
+  expect_same_results(folder.path() / "whole", folder.path() / "parts");
+}
+
+TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out", err = folder.path() / "err";
+  const std::string line = kSwing + " --triangles 1000 --checkpoint 1000" + in(out);
+  EXPECT_EQ(
+      WEXITSTATUS(std::system(
+          ("timeout -s TERM 0.4 " HYSTERON_PROGRAM " " + line + " >/dev/null 2>" + err.string()).c_str())),
+      124);  // of `timeout`, which signals the process and its group
+  EXPECT_TRUE(fs::exists(out / "checkpoint")) << text_of(err);
+  EXPECT_EQ(manifest_in(out)["complete"], false);
+}
+
+TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome first = program(kSwing + " --resume" + in(out));
+  EXPECT_EQ(first.exit_code, 0);
+  EXPECT_NE(first.err.find("no checkpoint in " + out.string() + ": from the start"), std::string::npos);
+  const std::string manifest = text_of(out / "manifest.json");
+  const Outcome again = program(kSwing + " --resume --threads 2" + in(out));
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.err, out.string() + " is complete\n");
+  EXPECT_EQ(program(kSwing + " --resume --json" + in(out)).out, manifest);
+  const Outcome other = program(kSwing + " --resume --law linear" + in(out));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("has a complete run of other values (law"), std::string::npos) << other.err;
+  EXPECT_EQ(text_of(out / "manifest.json"), manifest);
+}
+
+// One folder with a checkpoint for all of them: a refusal changes nothing in it.
+class RefusedCheckpoint : public testing::Test {
+ protected:
+  RefusedCheckpoint() {
+    signalled(kLine + in(out_), SIGTERM, 250, folder_.path() / "err");
+    good_ = text_of(out_ / "checkpoint");
+  }
+  void expect_refusal(const std::string& why, const std::string& more = "") {
+    const Outcome outcome = program(kLine + more + " --resume" + in(out_));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "hysteron swing: cannot resume from " + (out_ / "checkpoint").string() + ": " +
+                               why + "; without --resume the run begins anew\n");
+  }
+  void put(const std::string& text) const { std::ofstream(out_ / "checkpoint", std::ios::binary) << text; }
+
+  const std::string kLine = kSwing + " --triangles 1000 --checkpoint 1e-6";
+  const Folder folder_;
+  const fs::path out_ = folder_.path() / "out";
+  std::string good_;
+};
+
+TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
+  ASSERT_GT(good_.size(), 100000u) << text_of(folder_.path() / "err");
+  expect_refusal("other values of fabric.b2", " --fabric.b2 2e-6");
+  expect_refusal("other values of fps", " --fps 60");
+  put("");
+  expect_refusal("it is cut off");
+  for (const std::size_t size : {std::size_t{10}, std::size_t{25}, std::size_t{1000}, good_.size() - 1}) {
+    put(good_.substr(0, size));
+    expect_refusal("it is cut off");
+  }
+  put("time [s]\n" + good_);
+  expect_refusal("it is no checkpoint");
+  put(good_ + "x");
+  expect_refusal("it is damaged");
+  std::string flipped = good_;
+  for (const std::size_t at : {std::size_t{50}, good_.size() / 2, good_.size() - 1}) {
+    flipped[at] ^= 16;
+    put(flipped);
+    expect_refusal("it is damaged");
+    flipped[at] ^= 16;
+  }
+  std::string future = good_;
+  future[std::string("hysteron checkpoint ").size()] = '2';
+  put(future);
+  expect_refusal("it has the format of another version of hysteron");
+  put(good_);  // and a file half written beside it is not looked at
+  std::ofstream(out_ / "checkpoint.part-1-0") << "half";
+  const Outcome outcome = program(kLine + " --resume" + in(out_));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(out_ / "checkpoint.part-1-0"));
+}
+
+TEST(Resuming, IsRefusedWhereSeveralRunsAreAskedFor) {
+  const Folder folder;
+  const Outcome outcome = program(kCrumple + " --law linear,prandtl --resume" + in(folder.path() / "out"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(
+      outcome.err,
+      "hysteron crumple: --checkpoint and --resume are of single runs: name one law, fabric, integrator\n");
+}
+
+// A run that begins anew does not go on later from what another has left.
+TEST(Resuming, ARunThatBeginsAnewRemovesTheCheckpoint) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  signalled(kSwing + " --triangles 1000 --checkpoint 1e-6" + in(out), SIGKILL, 250, folder.path() / "err");
+  ASSERT_TRUE(fs::exists(out / "checkpoint"));
+  EXPECT_EQ(program(kSwing + in(out)).exit_code, 0);
+  EXPECT_FALSE(fs::exists(out / "checkpoint"));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
