@@ -169,6 +169,23 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
       124);  // of `timeout`, which signals the process and its group
   EXPECT_TRUE(fs::exists(out / "checkpoint")) << text_of(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
+  // Seconds before the next instant.
+  const std::string slow = "swing --no-images --quiet --threads 1 --device cpu --triangles 6000 --fps 1";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c",
+          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + in(folder.path() / "slow")).c_str(),
+          nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_EQ(waitpid(child, &status, WNOHANG), 0);
+  kill(child, SIGTERM);
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
 }
 
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
