@@ -120,13 +120,12 @@ TEST(Resuming, ACrumpleThatIsInterruptedEndsInTheSameBits) {
 
 // Every experiment with what it collects on the way, each with a checkpoint at every instant.
 class ResumingEvery : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Experiments, ResumingEvery,
-                         testing::Values("drape --triangles 150 --seconds 0.2 --fps 120",
-                                         "crease --triangles 60 --step 0.02",
-                                         "fold --triangles 60 --fold.cycles 2", "buckle --triangles 60"),
-                         [](const auto& line) {
-                           return std::string(line.param).substr(0, std::string(line.param).find(' '));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Experiments, ResumingEvery,
+    testing::Values("drape --triangles 150 --seconds 0.2 --fps 120",
+                    "crease --triangles 60 --crease.fold pleat --crease.lift 0.2 --crease.recovery 0.1",
+                    "fold --triangles 60 --fold.cycles 2", "buckle --triangles 60"),
+    [](const auto& line) { return std::string(line.param).substr(0, std::string(line.param).find(' ')); });
 
 TEST_P(ResumingEvery, EndsInTheSameBits) {
   const Folder folder;
@@ -169,6 +168,23 @@ TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
       124);  // of `timeout`, which signals the process and its group
   EXPECT_TRUE(fs::exists(out / "checkpoint")) << text_of(err);
   EXPECT_EQ(manifest_in(out)["complete"], false);
+  // Seconds before the next instant.
+  const std::string slow = "swing --no-images --quiet --threads 1 --device cpu --triangles 6000 --fps 1";
+  const pid_t child = fork();
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c",
+          ("exec " HYSTERON_PROGRAM " " + slow + " --checkpoint 1000" + in(folder.path() / "slow")).c_str(),
+          nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_EQ(waitpid(child, &status, WNOHANG), 0);
+  kill(child, SIGTERM);
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
 }
 
 TEST(Resuming, ACompleteRunIsNotRepeatedAndOneWithoutCheckpointBeginsAnew) {
