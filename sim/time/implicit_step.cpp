@@ -154,8 +154,9 @@ std::vector<Vec3<Real>> ImplicitStep<Real, Device>::handle_forces(const VertexSt
   device_download(device_, place.data(), state.grips.place, place.size() * sizeof(Vec3<Real>));
   device_download(device_, strength.data(), state.grips.strength, strength.size() * sizeof(Real));
   const Grips<Real> grips{place.data(), strength.data(), state.grips.give};
-  const std::vector<Vec3<Real>> end = end_.download();
-  for (int i = 0; i < vertices_; ++i) force[i] += grips.force(i, end[i]);
+  std::vector<Vec3<Real>> x(vertices_);
+  device_download(device_, x.data(), state.x, x.size() * sizeof(Vec3<Real>));
+  for (int i = 0; i < vertices_; ++i) force[i] += grips.force(i, x[i]);
   return force;
 }
 
