@@ -13,6 +13,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -62,6 +63,14 @@ RidgeMetrics wrinkles_of(Session& session, const C& choice) {
           root_mean_square(curvature_size(simulation.curvature(), d)), root_mean_square(size)};
 }
 
+// Where the cloth reaches that hangs from its only pin in the end.
+Eigen::Vector3d lowest_hanging(const Scene& scene, const Cloth& cloth) {
+  const Eigen::Vector3d& held = cloth.start[cloth.pin_vertices[0].front()];
+  double reach = 0;
+  for (const Eigen::Vector3d& x : cloth.start) reach = std::max(reach, (x - held).norm());
+  return placement(scene.pin[0].motion, scene.seconds)(held) + reach * scene.gravity.stableNormalized();
+}
+
 // Of the cloth at the start and of where hands take it.
 render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   render::Box box;
@@ -76,6 +85,7 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
     for (const Keyframe& key : scene.pin[p].motion.keys)
       for (int i : cloth.pin_vertices[p]) include(cloth.start[i] + key.position);
   }
+  if (scene.pin.size() == 1 && scene.pin[0].from == 0) include(lowest_hanging(scene, cloth));
   return box;
 }
 
