@@ -1,4 +1,5 @@
-// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone.
+// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone;
+// with --hard: of steps that Newton's method finds hard.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,11 +8,15 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
+#include "experiments/bench/table.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
+#include "sim/base/comma_list.h"
 #include "sim/scene/cloth.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -29,11 +34,18 @@ constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", 
 struct BenchOptions {
   bool laws = false;
   double elements = 1e6;
+  bool hard = false;
+  std::string hard_scenes = "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press";
+  int hard_steps = 20, hard_triangles = 800;
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
     {"laws", at<&BenchOptions::laws>, "", any(), "", "the laws alone: error on random histories, time and memory per element"},
     {"elements", at<&BenchOptions::elements>, "", between(1, 1e8), "", "of --laws"},
+    {"hard", at<&BenchOptions::hard>, "", any(), "", "scenes to their end; then their hardest steps again with other choices of the solver's, of which table.csv tells"},
+    {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes or TOML files, separated by commas"},
+    {"hard-steps", at<&BenchOptions::hard_steps>, "", between(1, 1000), "", "of --hard: how many steps of each scene"},
+    {"hard-triangles", at<&BenchOptions::hard_triangles>, "", between(1, 1e6), "", "of --hard"},
 };
 // clang-format on
 
@@ -44,6 +56,7 @@ void take(const Case& c, Scene& scene) {
   if (scene.law == "prandtl") scene.param["memory"] = c.memory;
 }
 constexpr double kQuickElements = 10001;
+constexpr int kQuickHardSteps = 3, kQuickHardTriangles = 200;
 constexpr int kBatches = 7;  // the median of their times is reported
 
 Setup defaults() {
@@ -163,12 +176,56 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
   return 0;
 }
 
+Scene hard_scene(const std::string& name, const Setup& setup, int triangles) {
+  Scene scene = default_scene();
+  apply_scene_file(scene, name, {});
+  scene.device = setup.scene.device;
+  scene.threads = setup.scene.threads;
+  scene.precision = setup.scene.precision;
+  scene.triangles = triangles;
+  check_scene(scene);
+  return scene;
+}
+
+int bench_hard_steps(const CommandLine& line, const Setup& setup, BenchOptions own) {
+  Options options = setup.options;
+  options.json = false;  // of its rows, not of the manifest
+  Run run(line, options, to_json(bind(kRows, own)));
+  std::vector<HardScene> scenes;
+  for (const std::string& name : split(own.hard_scenes)) {
+    run.progress("looking for hard steps of " + name);
+    scenes.push_back(find_hard_steps(name, hard_scene(name, setup, own.hard_triangles), own.hard_steps));
+    if (!scenes.back().broken_off.empty()) run.progress("warning: " + scenes.back().broken_off);
+  }
+  const std::vector<Metrics> rows = hard_step_table(
+      scenes, solver_variants(), [&](const std::string& done) { run.progress("taken again: " + done); });
+  write_table(run, rows);
+  run.finish();
+  if (setup.options.json) {
+    print_json(rows);
+    return 0;
+  }
+  fmt::print("newton  linear length unbalanced halved ended residual ms/step variant\n");
+  for (const Metrics& row : rows)
+    if (row["scene"].text() == "all")
+      fmt::print("{:6.0f} {:7.0f} {:6.2f} {:10.0f} {:6.0f} {:5.0f} {:8.1e} {:7.1f} {}\n",
+                 row.number("newton_iterations"), row.number("linear_iterations"),
+                 row.number("mean_step_length"), row.number("unbalanced"), row.number("halved"),
+                 row.number("broken_off"), row.number("largest_residual"), row.number("ms_median"),
+                 row["variant"].text());
+  return 0;
+}
+
 int run_bench(const CommandLine& line) {
   BenchOptions own;
-  const Setup setup = set_up(line, defaults(), bind(kRows, own),
-                             [&](Setup&) { own.elements = std::min(own.elements, kQuickElements); });
+  const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
+    own.elements = std::min(own.elements, kQuickElements);
+    own.hard_steps = std::min(own.hard_steps, kQuickHardSteps);
+    own.hard_triangles = std::min(own.hard_triangles, kQuickHardTriangles);
+  });
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
+  if (own.hard) return bench_hard_steps(line, setup, own);
   if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
   std::vector<Metrics> rows;
   const Cloth cloth = make_cloth(setup.scene);

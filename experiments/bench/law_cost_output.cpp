@@ -1,26 +1,13 @@
 // What laws cost, as a table and bars.
 #include "experiments/bench/law_cost.h"
+#include "experiments/bench/table.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "render/plot.h"
-#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr double kBarWidth = 0.38;
-
-void write_table(Run& run, const std::vector<Metrics>& rows) {
-  std::vector<CsvField> head;
-  for (const auto& [key, value] : rows.front()) head.push_back(key);
-  CsvFile file(run.path("table.csv"), head);
-  for (const Metrics& row : rows) {
-    std::vector<CsvField> fields;
-    for (const auto& [key, value] : row)
-      fields.push_back(value.is_text() ? CsvField(value.text()) : CsvField(value.number()));
-    file.row(fields);
-  }
-  file.commit();
-}
 
 // A law's number on an element, in the order in which laws come.
 std::vector<double> column(const std::vector<Metrics>& rows, const char* element, const char* key) {

@@ -54,13 +54,13 @@ class Contact {
            Mat3<Real>* diagonal);
   // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
-  // its energies() per vertex.  add_stiffness() is its positive semidefinite part (is_near the minimum:
+  // its energies() per vertex.  add_stiffness() is its positive semidefinite part (sliding_share:
   // sliding_stop.h).
   void lag(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // [J]
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal,
-                     bool is_near);
+                     Real sliding_share);
 
   // Accepts the positions: slips and losses.  Returns how many vertices are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);

@@ -56,7 +56,7 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
 
 template <class Real, class Device>
 void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before, Mat3<Real>* diagonal,
-                                          bool is_near) {
+                                          Real sliding_share) {
   const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
@@ -67,7 +67,7 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
         if (!(lagged[i].limit > 0)) return;
         const Vec3<Real> e = lagged_slip<Real>(lagged[i], x[i] - before[i]);
         const Real k = model.stop_stiffness(lagged[i].limit, area[i]);
-        diagonal[i] += sliding_stiffness<Real>(e, lagged[i].normal, k, lagged[i].limit / k, is_near);
+        diagonal[i] += sliding_stiffness<Real>(e, lagged[i].normal, k, lagged[i].limit / k, sliding_share);
       });
 }
 

@@ -227,7 +227,7 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
 }
 
 template <class Real, class Device>
-void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before, bool is_near) {
+void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_share) {
   clock_.begin(Stage::contact);
   pressing_count_ = find_pressing(x);
   const std::size_t entries = 4 * static_cast<std::size_t>(pressing_count_);
@@ -252,7 +252,7 @@ void SelfContact<Real, Device>::linearise(const Vec3<Real>* x, const Vec3<Real>*
         }
         if (!(f.limit > 0)) return;
         const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
-        s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, is_near);
+        s.block += sliding_stiffness<Real>(e, f.normal, f.limit / model.slip, model.slip, sliding_share);
       });
   group(device_, pairs_.scratch(), key, 4 * pressing_count_, vertices_, stiffness_rows_.start.data(),
         stiffness_rows_.item.reserve(entries));

@@ -63,8 +63,8 @@ class SelfContact {
   void evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // of pairs() pairs [J]
   int pairs() const { return pairs_.count(); }
-  // is_near the minimum: sliding_stop.h.
-  void linearise(const Vec3<Real>* x, const Vec3<Real>* before, bool is_near);
+  // sliding_share: sliding_stop.h.
+  void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_share);
   GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);

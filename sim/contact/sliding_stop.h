@@ -12,17 +12,13 @@
 
 namespace hysteron {
 
-// Share of e e'/|e|^2 that is taken out: far from the minimum, and near it.
-inline constexpr double kSlidingFar = 0, kSlidingNear = 0.75;
-
-// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m].
+// Of a stop of stiffness k [N/m] that slides from |e| = `most` on [m]; `share` of e e'/|e|^2 is taken out.
 template <class Real>
 HYST_HD Mat3<Real> sliding_stiffness(const Vec3<Real>& e, const Vec3<Real>& normal, Real k, Real most,
-                                     bool is_near) {
+                                     Real share) {
   Mat3<Real> tangent = Mat3<Real>::Identity() - normal * normal.transpose();
   const Real length = e.norm();
   if (length > most) {
-    const Real share = static_cast<Real>(is_near ? kSlidingNear : kSlidingFar);
     tangent = most / length * (tangent - share * (e / length) * (e / length).transpose());
   }
   return k * tangent;

@@ -15,6 +15,7 @@
 #include "sim/bending/laws/law.h"
 #include "sim/scene/method.h"
 #include "sim/scene/obstacle_kind.h"
+#include "sim/scene/solver_tuning.h"
 
 namespace hysteron {
 
@@ -155,6 +156,7 @@ struct Scene {
   int newton_iterations = 0;
   double tolerance = 0;
   Preconditioning linear_solver = Preconditioning::multigrid;
+  SolverTuning tuning = {};  // no key
   double ramp = 0;
   double unload = 0;
   DeviceChoice device = DeviceChoice::automatic;

@@ -23,6 +23,8 @@ struct StepCounts {
   long unbalanced = 0;          // parts taken before Newton's method had converged
   long deep = 0;                // parts with a vertex deeper than the cloth's thickness in an obstacle
   long newton = 0, linear = 0;  // iterations
+  double step_lengths = 0;      // sum over Newton's iterations, 1 for a full step
+  double last_residual = 0;     // unbalanced force over load where Newton's method ended last
 };
 
 template <class Real>

@@ -35,9 +35,9 @@ struct Grips {
     return strength[i] * (r > give ? r - give / 2 : r * r / (2 * give));
   }
   // As that of friction that slides (sliding_stop.h) [N/m].
-  HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, bool is_near) const {
+  HYST_HD Mat3<Real> stiffness(int i, const Vec3<Real>& x, Real share) const {
     if (!any_at(i)) return Mat3<Real>::Zero();
-    return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / give, give, is_near);
+    return sliding_stiffness<Real>(x - place[i], Vec3<Real>::Zero(), strength[i] / give, give, share);
   }
 };
 

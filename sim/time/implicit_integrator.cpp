@@ -68,6 +68,8 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
   body_.counts.unbalanced += outcome.unbalanced;
+  body_.counts.step_lengths += outcome.step_lengths;
+  body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
 }
 

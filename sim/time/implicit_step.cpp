@@ -24,6 +24,7 @@ double sum_of(const Buffer<Real, Device>& values) {
 template <class Real>
 NewtonLimits newton_limits(const Scene& scene, bool statics) {
   NewtonLimits limits;
+  limits.tuning = scene.tuning;
   limits.residual = scene.newton_residual;
   // Single precision resolves positions of a metre to 6e-8 m.
   constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
@@ -65,7 +66,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       total_mass_(sum_of(mass)),
       membrane_(membrane),
       bending_(bending),
-      potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_),
+      potential_(device, matrix, membrane, bending, contact, self_contact, mass, bending_lags_, scene.tuning),
       solver_(std::move(solver)),
       newton_(device, vertices_, potential_, *solver_, newton_limits<Real>(scene, static_)),
       size_(device, 1),

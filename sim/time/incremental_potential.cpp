@@ -5,12 +5,10 @@
 namespace hysteron {
 
 template <class Real, class Device>
-IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix,
-                                                         Membrane<Real, Device>& membrane,
-                                                         Bending<Real, Device>& bending,
-                                                         Contact<Real, Device>* contact,
-                                                         SelfContact<Real, Device>* self_contact,
-                                                         const Buffer<Real, Device>& mass, bool bending_lags)
+IncrementalPotential<Real, Device>::IncrementalPotential(
+    Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
+    Bending<Real, Device>& bending, Contact<Real, Device>* contact, SelfContact<Real, Device>* self_contact,
+    const Buffer<Real, Device>& mass, bool bending_lags, const SolverTuning& tuning)
     : device_(device),
       matrix_(matrix),
       membrane_(membrane),
@@ -19,6 +17,7 @@ IncrementalPotential<Real, Device>::IncrementalPotential(Device& device, BlockRo
       self_contact_(self_contact),
       mass_(mass),
       bending_lags_(bending_lags),
+      tuning_(tuning),
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
       rest_diagonal_(device, vertices_),
@@ -163,18 +162,19 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   const Real beta_dt = static_cast<Real>(start_.formula.beta_dt);
   const Real inertia = 1 / (beta_dt * beta_dt) + start_.drag / beta_dt + shift;
   const Real* mass = mass_.data();
+  const Real sliding_share = static_cast<Real>(full ? tuning_.sliding_near : tuning_.sliding_far);
   const Grips<Real> grips = start_.grips;
   Mat3<Real>* rest = rest_diagonal_.data();
   for_each(
       device_, "potential: masses", vertices_, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
-        if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], full);
+        if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], sliding_share);
         rest[i].setZero();
       });
-  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, full);
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, sliding_share);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
-    self_contact_->linearise(x, start_.now, full);
+    self_contact_->linearise(x, start_.now, sliding_share);
     self_contact_->add_stiffness_diagonal(rest);
   }
   LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}};

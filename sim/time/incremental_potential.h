@@ -16,6 +16,7 @@
 #include "sim/contact/self_contact.h"
 #include "sim/linear/pcg.h"
 #include "sim/membrane/membrane.h"
+#include "sim/scene/solver_tuning.h"
 #include "sim/time/grips.h"
 
 namespace hysteron {
@@ -49,7 +50,7 @@ class IncrementalPotential {
   IncrementalPotential(Device& device, BlockRows<Real, Device>& matrix, Membrane<Real, Device>& membrane,
                        Bending<Real, Device>& bending, Contact<Real, Device>* contact,
                        SelfContact<Real, Device>* self_contact, const Buffer<Real, Device>& mass,
-                       bool bending_lags);
+                       bool bending_lags, const SolverTuning& tuning = {});
 
   void begin(const StepStart<Real>& start);
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
@@ -93,6 +94,7 @@ class IncrementalPotential {
   SelfContact<Real, Device>* self_contact_;
   const Buffer<Real, Device>& mass_;
   bool bending_lags_;
+  SolverTuning tuning_;
   int vertices_;
   StepStart<Real> start_{};
   Buffer<Vec3<Real>, Device> gradient_;

@@ -9,7 +9,6 @@ namespace hysteron {
 namespace {
 constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step must reach (Armijo 1966)
 constexpr int kMostHalvings = 30;
-constexpr int kFrictionRounds = 20;  // iterations that friction's limits follow; then they stay
 // What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
@@ -44,8 +43,8 @@ Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<
 template <class Real, class Device>
 NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
                                              double total_mass, double beta_dt) {
-  constexpr double kLoosest = 0.1, kTightest = 1e-5;
-  constexpr double kNear = 0.1;  // share of the first unbalanced force below which the full stiffness is used
+  constexpr double kTightest = 1e-5;
+  const SolverTuning& tuning = limits_.tuning;
   NewtonOutcome outcome;
   const double weight = potential_.load();
   potential_.lag_friction(x);
@@ -53,9 +52,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   const double first = value.residual;
   // What a step may meet costs the more the longer it is: the next direction is looked along as far as a few
   // times the last step.
-  constexpr double kLonger = 4;
   double farthest = std::numeric_limits<double>::infinity();  // [m]
-  double forcing = kLoosest, shift = limits_.first_shift, rounding = 0;
+  double forcing = tuning.loosest_solve, shift = limits_.first_shift, rounding = 0;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
     outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
@@ -68,7 +66,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
       break;
     }
     const LinearSystem<Real, Device> system =
-        potential_.linearise(x, static_cast<Real>(shift), value.residual < kNear * first);
+        potential_.linearise(x, static_cast<Real>(shift), value.residual < tuning.full_stiffness * first);
     outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
     const bool is_free = std::hypot(weight, value.reaction) == 0;
     const Correction correction = measure_correction(system, x, mass, held, is_free);
@@ -81,7 +79,8 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     const double blurred =
         std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
     const double step_length = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
-    if (potential_.has_self_contact()) farthest = kLonger * step_length * length;
+    if (potential_.has_self_contact()) farthest = tuning.longer * step_length * length;
+    outcome.step_lengths += step_length;
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (step_length == 0) {
@@ -94,11 +93,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     outcome.converged =
         balanced && shift <= limits_.least_shift && (unmoved || length / beta_dt <= limits_.velocity);
     shift = std::max(limits_.least_shift, step_length == 1 ? shift / 8 : shift * 2);
-    if (potential_.has_friction() && outcome.iterations < kFrictionRounds) {
+    if (potential_.has_friction() && outcome.iterations < tuning.friction_rounds) {
       potential_.lag_friction(x);
       value = potential_.evaluate(x, nullptr);
     }
-    forcing = std::min(kLoosest, 0.9 * std::pow(value.residual / before, 2));
+    forcing = std::min(tuning.loosest_solve, 0.9 * std::pow(value.residual / before, 2));
   }
   return outcome;
 }

@@ -18,6 +18,7 @@ struct NewtonLimits {
   // Statics: the masses times a shift are added to the stiffness, which may be singular on the way; the shift
   // falls with every full step and rises with every shortened one [1/s^2].
   double first_shift = 0, least_shift = 0;
+  SolverTuning tuning = {};
 };
 
 struct NewtonOutcome {
@@ -26,8 +27,9 @@ struct NewtonOutcome {
   bool blocked = false;     // the handles' own motion leads the cloth through itself
   int iterations = 0;
   long linear_iterations = 0;
-  double residual = 0;  // [N]
-  double load = 0;      // weight and reactions, or inertia if that is larger [N]
+  double step_lengths = 0;  // sum over the iterations, 1 for a full step
+  double residual = 0;      // [N]
+  double load = 0;          // weight and reactions, or inertia if that is larger [N]
 };
 
 template <class Real, class Device>

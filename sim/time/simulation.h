@@ -31,6 +31,14 @@ struct StepLimits {
   double substep = 0;        // he = hi/alpha [s]
 };
 
+// Of all implicit solves since the start.
+struct SolverCounts {
+  long newton = 0, linear = 0;  // iterations
+  long unbalanced = 0, retried = 0;
+  double step_lengths = 0;   // sum over Newton's iterations, 1 for a full step
+  double last_residual = 0;  // unbalanced force over load where Newton's method ended last
+};
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -75,6 +83,7 @@ class Simulation {
   virtual long parts_taken() const = 0;          // into which steps were divided, by retries or a tolerance
   virtual long retried_steps() const = 0;        // that were taken again in smaller parts
   virtual long unbalanced_steps() const = 0;     // parts taken before Newton's method had converged
+  virtual SolverCounts solver_counts() const = 0;
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;

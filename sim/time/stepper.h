@@ -42,6 +42,10 @@ class Stepper : public Simulation {
   long deep_steps() const override { return body_.counts.deep; }
   long slack_hand_steps() const override { return body_.hands.slack_stages(); }
   double hand_lag() const override { return body_.hands.largest_lag(); }
+  SolverCounts solver_counts() const override {
+    const StepCounts& c = body_.counts;
+    return {c.newton, c.linear, c.unbalanced, c.retried, c.step_lengths, c.last_residual};
+  }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return body_.device->bytes; }

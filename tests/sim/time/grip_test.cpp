@@ -41,10 +41,10 @@ TEST(Grip, PullsByTheDerivativeOfItsEnergyToSecondOrder) {
   }
 }
 
-TEST(Grip, HasThreeQuartersOfItsStiffnessTakenOutAlongTheWayNearTheMinimum) {
+TEST(Grip, LosesAShareOfItsStiffnessAlongTheWay) {
   const OneGrip one;
   const Vector3d n(0.6, 0, 0.8), x = one.place + 5e-4 * n;
-  const Matrix3d far = one.grips.stiffness(0, x, false), near = one.grips.stiffness(0, x, true);
+  const Matrix3d far = one.grips.stiffness(0, x, 0), near = one.grips.stiffness(0, x, 0.75);
   const Vector3d across(0, 1, 0);
   const double h = 1e-8;  // across the way both are the derivative of the force
   const Vector3d change = (one.grips.force(0, x - h * across) - one.grips.force(0, x + h * across)) / (2 * h);
@@ -60,8 +60,8 @@ TEST(Grip, LiesBelowTheParabolaOfItsStiffness) {
   const auto draw = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
   for (int k = 0; k < 1000; ++k) {
     const Vector3d x = one.place + 3e-4 * draw(), d = 5e-4 * draw();
-    const double bound = one.grips.energy(0, x) - one.grips.force(0, x).dot(d) +
-                         d.dot(one.grips.stiffness(0, x, false) * d) / 2;
+    const double bound =
+        one.grips.energy(0, x) - one.grips.force(0, x).dot(d) + d.dot(one.grips.stiffness(0, x, 0) * d) / 2;
     EXPECT_LE(one.grips.energy(0, x + d), bound + 1e-15);
   }
 }
