@@ -79,6 +79,20 @@ void refuse_near(const Scene& scene, const Cloth& cloth) {
                        " such pairs in all): move its parts apart, or take a thinner fabric");
 }
 
+// Of elements smaller than layers are apart, hundreds would be near each other, and hardly any would be seen
+// as layers: what is that near at rest is not in contact.
+void refuse_thick(const Scene& scene, const ClothMesh& mesh) {
+  double sum = 0;
+  for (const Edge& e : mesh.edge) sum += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
+  const double mean = sum / static_cast<double>(mesh.edge.size());
+  if (scene.fabric.thickness <= mean) return;
+  const auto origin = scene.origin.find("fabric.thickness");
+  throw Error::request("self-contact: fabric.thickness = " + millimetres(scene.fabric.thickness) + " (" +
+                       (origin == scene.origin.end() ? "default" : origin->second) +
+                       ") must be <= " + millimetres(mean) +
+                       ", the mesh's mean edge: take a thinner fabric, fewer triangles or a larger cloth");
+}
+
 void refuse_immersed(const Scene& scene, const Cloth& cloth) {
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, 0, 0);
   const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0));
@@ -94,6 +108,7 @@ void refuse_immersed(const Scene& scene, const Cloth& cloth) {
 
 void check_start(const Scene& scene, const Cloth& cloth) {
   if (scene.self_contact) {
+    refuse_thick(scene, cloth.mesh);
     refuse_crossing(cloth);
     refuse_near(scene, cloth);
   }

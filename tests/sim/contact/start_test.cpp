@@ -27,6 +27,20 @@ void expect_naming(const Failure& failure, const std::vector<std::string>& parts
     EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
 }
 
+TEST(Start, OfLayersThickerThanEdgesAreLongIsRefused) {
+  Trial trial = test::two_sheets(1e-3, 60);
+  double sum = 0;
+  for (const Edge& e : trial.cloth.mesh.edge)
+    sum += (trial.cloth.mesh.rest[e.p3] - trial.cloth.mesh.rest[e.p2]).norm();
+  const double mean = sum / static_cast<double>(trial.cloth.mesh.edge.size());
+  for (double thickness : {1.01 * mean, 100.0}) {
+    trial.scene.fabric.thickness = thickness;
+    const Failure failure = start_of(trial);
+    EXPECT_EQ(failure.exit_code, 2);
+    expect_naming(failure, {"fabric.thickness = ", " mm (default) must be <= ", "the mesh's mean edge"});
+  }
+}
+
 TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
   Trial trial = test::two_sheets(1e-3, 60);
   for (int i : test::upper_vertices(trial))
