@@ -1,5 +1,6 @@
 #include "sim/contact/start_checks.h"
 
+#include <Eigen/Geometry>
 #include <cstdio>
 
 #include "sim/base/error.h"
@@ -79,18 +80,17 @@ void refuse_near(const Scene& scene, const Cloth& cloth) {
                        " such pairs in all): move its parts apart, or take a thinner fabric");
 }
 
-// Of elements smaller than layers are apart, hundreds would be near each other, and hardly any would be seen
-// as layers: what is that near at rest is not in contact.
+// Cloth thicker than it is long has no layers: all of it is near at rest, and looked at in vain.
 void refuse_thick(const Scene& scene, const ClothMesh& mesh) {
-  double sum = 0;
-  for (const Edge& e : mesh.edge) sum += (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
-  const double mean = sum / static_cast<double>(mesh.edge.size());
-  if (scene.fabric.thickness <= mean) return;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
+  const double extent = box.diagonal().norm();
+  if (scene.fabric.thickness < extent) return;
   const auto origin = scene.origin.find("fabric.thickness");
   throw Error::request("self-contact: fabric.thickness = " + millimetres(scene.fabric.thickness) + " (" +
-                       (origin == scene.origin.end() ? "default" : origin->second) +
-                       ") must be <= " + millimetres(mean) +
-                       ", the mesh's mean edge: take a thinner fabric, fewer triangles or a larger cloth");
+                       (origin == scene.origin.end() ? "default" : origin->second) + ") must be < " +
+                       millimetres(extent) +
+                       ", the cloth's diagonal: take a thinner fabric or a larger cloth");
 }
 
 void refuse_immersed(const Scene& scene, const Cloth& cloth) {

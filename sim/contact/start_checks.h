@@ -6,9 +6,9 @@
 namespace hysteron {
 
 // Error::request, which names triangles, vertices, obstacles and distances, if
-// - with `self-contact` layers are thicker than the mesh's edges are long in the mean, the cloth passes
-//   through itself, or parts that are not held throughout are as near as no step may bring them
-//   (least_distance(), self_touch.h): no way would be free;
+// - with `self-contact` the cloth is thicker than its diagonal is long, passes through itself, or has parts
+//   that are not held throughout as near as no step may bring them (least_distance(), self_touch.h): no way
+//   would be free;
 // - a vertex that no pin holds starts deeper than the cloth's thickness in an obstacle (`hollow`: outside).
 // Only vertices are looked at against obstacles, then and later: one that is small enough to stand between
 // the vertices of a triangle is not felt.

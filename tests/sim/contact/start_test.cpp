@@ -27,18 +27,18 @@ void expect_naming(const Failure& failure, const std::vector<std::string>& parts
     EXPECT_NE(failure.message.find(part), std::string::npos) << failure.message << "\n  lacks " << part;
 }
 
-TEST(Start, OfLayersThickerThanEdgesAreLongIsRefused) {
-  Trial trial = test::two_sheets(1e-3, 60);
-  double sum = 0;
-  for (const Edge& e : trial.cloth.mesh.edge)
-    sum += (trial.cloth.mesh.rest[e.p3] - trial.cloth.mesh.rest[e.p2]).norm();
-  const double mean = sum / static_cast<double>(trial.cloth.mesh.edge.size());
-  for (double thickness : {1.01 * mean, 100.0}) {
-    trial.scene.fabric.thickness = thickness;
-    const Failure failure = start_of(trial);
+TEST(Start, OfClothThickerThanItIsLongIsRefused) {
+  Scene scene = test::free_square(60);
+  scene.self_contact = true;
+  const double diagonal = std::sqrt(2.0) * scene.cloth.length;
+  for (double thickness : {1.001 * diagonal, 100.0}) {
+    scene.fabric.thickness = thickness;
+    const Failure failure = start_of(Trial(scene));
     EXPECT_EQ(failure.exit_code, 2);
-    expect_naming(failure, {"fabric.thickness = ", " mm (default) must be <= ", "the mesh's mean edge"});
+    expect_naming(failure, {"fabric.thickness = ", " mm (default) must be < 282.8 mm, the cloth's diagonal"});
   }
+  scene.fabric.thickness = 0.99 * diagonal;
+  EXPECT_EQ(start_of(Trial(scene)).message, "");
 }
 
 TEST(Start, ThatPassesThroughItselfIsRefusedWithTheTriangles) {
