@@ -118,16 +118,9 @@ TEST(Press, OfTwoLayersBeyondTheirThicknessEndsTheRunWithPlaceAndTime) {
 TEST(Hands, ThatMoveTheClothThroughItselfEndTheRunWithThePlaceAndTheTime) {
   constexpr double kGap = 5e-3, kWay = 1e-2;  // [m]
   Trial trial = test::two_sheets(kGap, 60);
-  const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
   Pin hand;
   hand.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, -kWay}, 0}};
-  trial.scene.pin.push_back(hand);
-  trial.cloth.pin_vertices.push_back({});
-  for (int i = lower; i < trial.cloth.mesh.vertices(); ++i) {
-    if (trial.cloth.mesh.rest[i].x() > 1 + 0.7 * test::kUpperSide) continue;
-    trial.cloth.pin[i] = 1;
-    trial.cloth.pin_vertices[1].push_back(i);
-  }
+  test::hold_upper(trial, hand, 0.7 * test::kUpperSide);
   const Failure failure = press(trial, *trial.simulation());
   expect_naming(failure, {"pins move the cloth through itself, ", "edge "});
   double time = 0;

@@ -44,4 +44,15 @@ inline std::vector<int> upper_vertices(const Trial& trial) {
   return result;
 }
 
+// The upper sheet, or its part up to `most_x` [m] from its own edge, gets a hand of its own.
+inline void hold_upper(Trial& trial, const Pin& hand, double most_x) {
+  trial.scene.pin.push_back(hand);
+  trial.cloth.pin_vertices.emplace_back();
+  for (int i : upper_vertices(trial)) {
+    if (trial.cloth.mesh.rest[i].x() > 1 + most_x) continue;
+    trial.cloth.pin[i] = 1;
+    trial.cloth.pin_vertices[1].push_back(i);
+  }
+}
+
 }  // namespace hysteron::test

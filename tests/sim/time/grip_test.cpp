@@ -154,17 +154,10 @@ TEST(HandsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
 TEST(HandsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   constexpr double kGap = 5e-3, kWay = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
   Trial trial = test::two_sheets(kGap, 60);
-  const int lower = static_cast<int>(trial.cloth.pin_vertices[0].size());
   Pin hand;
   hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kWay}, 0}};
   hand.strength = kStrength;
-  trial.scene.pin.push_back(hand);
-  trial.cloth.pin_vertices.push_back({});
-  for (int i = lower; i < trial.cloth.mesh.vertices(); ++i) {
-    if (trial.cloth.mesh.rest[i].x() > 1 + 0.7 * test::kUpperSide) continue;
-    trial.cloth.pin[i] = 1;
-    trial.cloth.pin_vertices[1].push_back(i);
-  }
+  test::hold_upper(trial, hand, 0.7 * test::kUpperSide);
   const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
   EXPECT_EQ(simulation->unbalanced_steps(), 0);
   EXPECT_GT(simulation->slack_hand_steps(), 0);
@@ -188,12 +181,7 @@ TEST(HandsOfLimitedStrength, AgainstEachOtherDoNotTear) {
   Pin hand;
   hand.motion.keys = {{0, {0, 0, 0}, 0}, {kTime, {0, 0, -kGap}, 0}};
   hand.strength = 1;
-  trial.scene.pin.push_back(hand);
-  trial.cloth.pin_vertices.push_back({});
-  for (int i = lower; i < vertices; ++i) {
-    trial.cloth.pin[i] = 1;
-    trial.cloth.pin_vertices[1].push_back(i);
-  }
+  test::hold_upper(trial, hand, 1);  // all of it
   const auto simulation = trial.after(static_cast<int>(std::lround(1.5 * kTime / trial.scene.step)));
   const auto x = simulation->positions();
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
