@@ -31,7 +31,7 @@ Setup defaults() {
   Setup setup;
   Scene& scene = setup.scene = default_scene();
   scene.integrator = Integrator::quasi_static;
-  scene.step = 1.0 / 60;
+  scene.step = 1.0 / 120;
   scene.self_contact = true;
   scene.cloth.length = 0.04;
   scene.cloth.width = 0.015;

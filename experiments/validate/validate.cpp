@@ -21,7 +21,7 @@ namespace {
 struct ValidateFlags {
   std::string fabrics = "cotton-broad,wool-tropical,polyester-tropical,polyester-faille";
   std::string laws = "prandtl,linear", device = "cpu";
-  double triangles = 6000, step = 1.0 / 120, seconds = 4;
+  double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5, seconds = 4;
   Options options;
 };
 
@@ -33,6 +33,7 @@ const KeyRow<F> kRows[] = {
     {"device", at<&F::device>, "", any(), "cpu | cuda", "of the drapes"},
     {"triangles", at<&F::triangles>, "", between(100, 1e6), "", "of the disc; four times as many to measure the mesh's share of the error"},
     {"step", at<&F::step>, "s", positive(), "", "halved to measure the step's share of the error"},
+    {"tolerance", at<&F::tolerance>, "m", at_least(0), "", "of the parts of a step, as --tolerance of drape; an eighth of it with half the step"},
     {"seconds", at<&F::seconds>, "s", positive(), "", "longest simulated time of a drape"},
 };
 // clang-format on
@@ -43,7 +44,7 @@ Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.op
 struct Drape {
   std::string fabric, law, release, varied;  // varied: "" | mesh | step
   int triangles = 0;
-  double step = 0;
+  double step = 0, tolerance = 0;
   Metrics metrics{};
   double seconds = 0;
 
@@ -72,13 +73,13 @@ std::vector<Drape> planned(const F& flags) {
   for (const std::string& fabric : split(flags.fabrics)) {
     for (const std::string& law : split(flags.laws))
       for (const char* release : {"lowered", "dropped"}) {
-        plan.push_back({fabric, law, release, "", triangles, flags.step});
+        plan.push_back({fabric, law, release, "", triangles, flags.step, flags.tolerance});
         if (flags.options.quick) break;
       }
     if (flags.options.quick) continue;
     const std::string law = split(flags.laws).front();
-    plan.push_back({fabric, law, "lowered", "mesh", 4 * triangles, flags.step});
-    plan.push_back({fabric, law, "lowered", "step", triangles, flags.step / 2});
+    plan.push_back({fabric, law, "lowered", "mesh", 4 * triangles, flags.step, flags.tolerance});
+    plan.push_back({fabric, law, "lowered", "step", triangles, flags.step / 2, flags.tolerance / 8});
   }
   return plan;
 }
@@ -90,6 +91,7 @@ void run_drape(Drape& drape, const F& flags, Run& run) {
                                        {"drape.release", drape.release},
                                        {"triangles", std::to_string(drape.triangles)},
                                        {"step", number_field(drape.step)},
+                                       {"tolerance", number_field(drape.tolerance)},
                                        {"seconds", number_field(flags.seconds)},
                                        {"device", flags.device}},
                                       flags, run, drape.name());

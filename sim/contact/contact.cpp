@@ -36,7 +36,8 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       loss_(device, vertices_),
       work_(device, vertices_),
       energy_(device, vertices_),
-      inside_(device, 1) {}
+      inside_(device, 1),
+      force_(device, scene.integrator == Integrator::quasi_static ? vertices_ : 0) {}
 
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
@@ -56,6 +57,7 @@ void Contact<Real, Device>::visit(Archive& archive) {
   hysteron::visit(archive, device_, stored_);
   hysteron::visit(archive, device_, loss_);
   hysteron::visit(archive, device_, work_);
+  hysteron::visit(archive, device_, force_);
 }
 
 template <class Real, class Device>
@@ -88,10 +90,16 @@ int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before,
   int* touching = touching_.data();
   double *stored = stored_.data(), *loss = loss_.data(), *work = work_.data(), *inside = inside_.data();
   const char* spared = spared_.data();
+  Vec3<Real>* force = force_.size() > 0 ? force_.data() : nullptr;
   for_each_sum<1>(
       device_, "contact history", vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         const Touch<Real> t = touch(set, model, x[i], area[i]);
+        if (force) {
+          const Vec3<Real> moved = motion_of(set, touching[i] - 1, x[i]), half = Real(0.5) * force[i];
+          work[i] += static_cast<double>(half.dot(moved));
+          force[i].setZero();
+        }
         if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
           loss[i] += stored[i];
           stored[i] = 0;
@@ -105,7 +113,9 @@ int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before,
         const Vec3<Real> stretched = s.share * s.trial;
         const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
         loss[i] += stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slipped[i]));
-        work[i] += static_cast<double>((t.normal_force - s.stiffness * stretched).dot(t.obstacle_motion));
+        const Vec3<Real> pressed = t.normal_force - s.stiffness * stretched;
+        work[i] += (force ? 0.5 : 1.0) * static_cast<double>(pressed.dot(t.obstacle_motion));
+        if (force) force[i] = pressed;
         stored[i] = kept;
         slipped[i] = stretched;
       },
@@ -136,7 +146,7 @@ ContactLoss Contact<Real, Device>::losses() const {
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
   return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
-         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes();
+         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() + force_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

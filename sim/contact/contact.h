@@ -62,7 +62,8 @@ class Contact {
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal,
                      Real sliding_share);
 
-  // Accepts the positions: slips and losses.  Returns how many vertices are in a solid.
+  // Accepts the positions: slips, losses and the obstacles' work, which in quasi-static scenes is that of the
+  // mean of the forces before and after.  Returns how many vertices are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
   // Vertices that may be there while they are held: they were when they or the obstacle came.
   void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
@@ -89,6 +90,7 @@ class Contact {
   Buffer<char, Device> spared_;
   Buffer<double, Device> stored_;  // in it [J]
   Buffer<double, Device> loss_, work_, energy_, inside_;
+  Buffer<Vec3<Real>, Device> force_;  // at the positions accepted last; of quasi-static scenes [N]
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
 };
 

@@ -5,6 +5,20 @@
 
 namespace hysteron {
 
+// Way of a point of an obstacle at x over the step [m].
+template <class Real>
+HYST_HD Vec3<Real> motion_over_step(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
+  return x - (obstacle.back_rotation * x + obstacle.back_translation);
+}
+
+// That of the scene's obstacle `index`; zero where it is not there.
+template <class Real>
+HYST_HD Vec3<Real> motion_of(const ObstacleSet<Real>& set, int index, const Vec3<Real>& x) {
+  for (int o = 0; o < set.count; ++o)
+    if (set.item[o].index == index) return motion_over_step(set.item[o], x);
+  return Vec3<Real>::Zero();
+}
+
 // Everything about one vertex in contact.
 template <class Real>
 struct Touch {
@@ -38,7 +52,7 @@ HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const Cont
       t.friction = obstacle.friction;
       t.normal = n;
       t.index = obstacle.index;
-      t.obstacle_motion = x - (obstacle.back_rotation * x + obstacle.back_translation);
+      t.obstacle_motion = motion_over_step(obstacle, x);
     }
   }
   return t;

@@ -4,6 +4,8 @@
 //   m a.d - m (|v_{n+1}|^2 - |v_n|^2)/2,   in backward Euler m |dv|^2/2,
 // the integrator has taken away; so it has, of each energy, the gap between its change and the work of its
 // forces at x_{n+1}: W_n - W_{n+1} - W'_{n+1}.(x_n - x_{n+1}).
+// Quasi-static scenes go through equilibria: there the work is that of the mean of the forces at both ends,
+// whose gap is of third order in a smooth step.  What is left are jumps from one equilibrium to another.
 #include "sim/time/implicit_step.h"
 
 #include <algorithm>
@@ -77,7 +79,8 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       acceleration_(device, vertices_),
       x_before_(device, two_step_ ? vertices_ : 0),
       v_before_(device, two_step_ ? vertices_ : 0),
-      displacement_(device, self_contact ? vertices_ : 0) {}
+      displacement_(device, self_contact ? vertices_ : 0),
+      forces_(device, static_ ? vertices_ : 0) {}
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
@@ -90,7 +93,7 @@ void ImplicitStep<Real, Device>::become_static(const Scene& scene) {
 template <class Real, class Device>
 std::size_t ImplicitStep<Real, Device>::bytes() const {
   return potential_.bytes() + solver_->bytes() + newton_.bytes() + 5 * end_.bytes() + 2 * x_before_.bytes() +
-         displacement_.bytes();
+         displacement_.bytes() + forces_.bytes();
 }
 
 template <class Real, class Device>
@@ -100,6 +103,8 @@ void ImplicitStep<Real, Device>::visit(Archive& archive) {
   hysteron::visit(archive, device_, acceleration_);
   hysteron::visit(archive, device_, x_before_);
   hysteron::visit(archive, device_, v_before_);
+  archive(knows_forces_);
+  hysteron::visit(archive, device_, forces_);
   potential_.visit(archive);
   solver_->visit(archive);
 }
@@ -299,8 +304,7 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
   knows_acceleration_ = true;
 }
 
-// Work of the forces at the end of the step over the way there.  Membrane and contact: what is left of the
-// gradient.
+// Work of the forces over the way to the end of the step.  Membrane and contact: what is left of the gradient.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
@@ -313,32 +317,36 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   const Real* mass = state.mass;
   const Vec3<Real>* handle_displacement = state.handle_displacement;
   const Grips<Real> grips = state.grips;
+  const bool knows_forces = knows_forces_, along_arc = handle_displacement && !knows_forces;
+  knows_forces_ = forces_.size() > 0;
+  VertexForces<Real>* kept = knows_forces_ ? forces_.data() : nullptr;
   for_each(
       device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
-        const Vec3<Real> d = end[i] - x[i], bend = bending.at(i), weight = mass[i] * g;
-        const Vec3<Real> way = held[i] && handle_displacement ? handle_displacement[i] : d;
+        const Vec3<Real> d = end[i] - x[i], weight = mass[i] * g;
+        const Vec3<Real> way = held[i] && along_arc ? handle_displacement[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
         const Vec3<Real> inertial = mass[i] * inertia * (end[i] - predicted[i]);
-        const Vec3<Real> support = -mass[i] * carried;  // of the hand that lets the cloth down
-        const Vec3<Real> grip = grips.force(i, end[i]);
-        const Vec3<Real> rest = inertial - air - weight - support - grip - bend - gradient[i];
+        VertexForces<Real> now{bending.at(i), grips.force(i, end[i]) - mass[i] * carried, {}};
+        now.rest = inertial - air - weight - now.hands - now.bending - gradient[i];
+        const VertexForces<Real> of = knows_forces ? now.mean(kept[i]) : now;
+        if (kept) kept[i] = now;
         VertexLedger& sum = ledger[i];
-        sum.bending_work += static_cast<double>(bend.dot(way));
+        sum.bending_work += static_cast<double>(of.bending.dot(way));
         sum.gravity_work += static_cast<double>(weight.dot(d));
-        sum.implicit_work += static_cast<double>(rest.dot(way));
-        sum.handle_work += static_cast<double>((support + grip).dot(d));
+        sum.implicit_work += static_cast<double>(of.rest.dot(way));
+        sum.handle_work += static_cast<double>(of.hands.dot(d));
         if (held[i]) {
-          sum.handle_work -= static_cast<double>((weight + support).dot(d) + (bend + rest).dot(way));
+          sum.handle_work -= static_cast<double>((weight + of.hands).dot(d) + (of.bending + of.rest).dot(way));
           return;
         }
         // What Newton's method has left unbalanced acts like one more force on the masses.
         sum.unbalanced -= static_cast<double>(gradient[i].dot(d));
         sum.air -= static_cast<double>(air.dot(d));
-        // Statics take the velocities of a motion before them.
+        // Statics take the velocities of a motion before them; what they let go of drives nothing.
         const Vec3<Real> moved =
             rate > 0 ? Vec3<Real>(drift[i] + rate * (end[i] - predicted[i])) : Vec3<Real>(Vec3<Real>::Zero());
-        sum.inertia +=
-            static_cast<double>(inertial.dot(d) - mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
+        sum.inertia += static_cast<double>((inertial + of.sum() - now.sum()).dot(d) -
+                                           mass[i] / 2 * (moved.squaredNorm() - v[i].squaredNorm()));
       });
 }
 

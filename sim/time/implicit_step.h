@@ -31,6 +31,18 @@ struct VertexState {
   Grips<Real> grips = {};
 };
 
+// What acts on a vertex beside its weight and air [N].
+template <class Real>
+struct VertexForces {
+  Vec3<Real> bending, hands, rest;  // hands: weak ones, and the one that lets the cloth down
+
+  HYST_HD Vec3<Real> sum() const { return bending + hands + rest; }
+  HYST_HD VertexForces mean(const VertexForces& other) const {
+    const Real half = Real(0.5);
+    return {half * (bending + other.bending), half * (hands + other.hands), half * (rest + other.rest)};
+  }
+};
+
 // The vertex that is farthest from equilibrium.
 struct Unbalanced {
   int vertex = -1;
@@ -109,6 +121,8 @@ class ImplicitStep {
   Buffer<Vec3<Real>, Device> acceleration_;
   Buffer<Vec3<Real>, Device> x_before_, v_before_;  // of the step or stage before; bdf2 and tr-bdf2
   Buffer<Vec3<Real>, Device> displacement_;         // to a guess; with self-contact only
+  bool knows_forces_ = false;
+  Buffer<VertexForces<Real>, Device> forces_;  // at the state accepted last; of quasi-static scenes
 };
 
 }  // namespace hysteron

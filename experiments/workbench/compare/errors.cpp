@@ -96,6 +96,15 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
   file.commit();
 }
 
+// Parts of adaptive steps, too: the error that they keep is of third order, with `implicit` of second.
+std::vector<Flag> half_the_step(const Scene& scene) {
+  std::vector<Flag> changes = {{"step", number_text(scene.step / 2)}};
+  if (scene.tolerance > 0)
+    changes.push_back(
+        {"tolerance", number_text(scene.tolerance / (scene.integrator == Integrator::implicit ? 4 : 8))});
+  return changes;
+}
+
 }  // namespace
 
 std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
@@ -105,7 +114,7 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
   const bool meshed = !from_a_file(scene);
   // The longest first: they run side by side.
   if (meshed) repeats.push_back({"mesh", {{"triangles", std::to_string(kFiner * scene.triangles)}}});
-  if (!headlines.equilibria) repeats.push_back({"step", {{"step", number_text(scene.step / 2)}}});
+  if (!headlines.equilibria) repeats.push_back({"step", half_the_step(scene)});
   for (int draw = 1; meshed && draw <= draws; ++draw)
     repeats.push_back({"draw-" + std::to_string(draw),
                        headlines.own_mesh ? drawn_number(scene, draw) : drawn_mesh(scene, draw)});

@@ -59,6 +59,15 @@ TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
   EXPECT_EQ(words({repeats_of("drape", scene, "dropped", 1).back()}), "path: drape.release=lowered");
 }
 
+TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
+  Scene scene = scene_on("random", "disc");
+  scene.tolerance = 8e-5;
+  scene.integrator = Integrator::tr_bdf2;
+  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=1e-05");
+  scene.integrator = Integrator::implicit;
+  EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=2e-05");
+}
+
 TEST(Repeats, OfAClothFromAFileHaveNoOtherMesh) {
   EXPECT_EQ(words(repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2)), "step: step=0.005");
   const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
