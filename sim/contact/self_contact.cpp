@@ -107,9 +107,9 @@ void SelfContact<Real, Device>::rebuild(const Vec3<Real>* x, const Vec3<Real>* d
                                         const char* held, Real reach) {
   reach_ = reach;
   pairs_.find(x, direction, step_length, held, reach);
-  ready_ = pending_ = true;
   carry_over();
   index_corners();
+  ready_ = pending_ = true;
 }
 
 // Which pairs each vertex is in, and room for what they say.
@@ -142,7 +142,7 @@ void SelfContact<Real, Device>::visit(Archive& archive) {
   if (archive.loads()) index_corners();
 }
 
-// Friction of the pairs that stay in the list.
+// Friction of the pairs that stay in the list, or follow on neighbours.
 template <class Real, class Device>
 void SelfContact<Real, Device>::carry_over() {
   friction_.swap(old_friction_);
@@ -150,13 +150,21 @@ void SelfContact<Real, Device>::carry_over() {
   const PairFriction<Real>* old = old_friction_.data();
   const SelfPair<Real>*pairs = pairs_.pairs(), *old_pairs = pairs_.old_pairs();
   const int *start = pairs_.start(), *old_start = pairs_.old_start();
+  const int *corner_start = rows_.start.data(), *corner = rows_.item.data();  // of the list before
+  const bool has_old = ready_;
   for_each(
       device_, "self-contact: carry over", pairs_.rows(), HYST_KERNEL(int row) {
         for (int p = start[row]; p < start[row + 1]; ++p) {
-          PairFriction<Real> kept{Vec3<Real>::Zero(), Vec3<Real>::Zero(), Vec<Real, 4>::Zero(), 0};
+          int same = -1;
           for (int q = old_start[row]; q < old_start[row + 1]; ++q)
-            if (old_pairs[q].other == pairs[p].other) kept = old[q];
-          friction[p] = kept;
+            if (old_pairs[q].other == pairs[p].other) same = q;
+          if (same >= 0) {
+            friction[p] = old[same];
+          } else {
+            const Vec3<Real> slip = has_old ? inherited_slip(pairs[p], old_pairs, old, corner_start, corner)
+                                            : Vec3<Real>(Vec3<Real>::Zero());
+            friction[p] = {slip, Vec3<Real>::Zero(), Vec<Real, 4>::Zero(), 0};
+          }
         }
       });
 }
@@ -321,7 +329,21 @@ void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* be
   const std::vector<double> total = sum_.download();
   loss_ += stored_ + total[0] - total[1];
   stored_ = total[1];
+  hand_over();
   clock_.end(Stage::contact);
+}
+
+// To pairs that do not bear yet.
+template <class Real, class Device>
+void SelfContact<Real, Device>::hand_over() {
+  const SelfPair<Real>* pairs = pairs_.pairs();
+  const int *start = rows_.start.data(), *item = rows_.item.data();
+  PairFriction<Real>* friction = friction_.data();
+  for_each(
+      device_, "self-contact: hand over", pairs_.count(), HYST_KERNEL(int p) {
+        if (!(friction[p].limit > 0))
+          friction[p].slip = inherited_slip(pairs[p], pairs, friction, start, item);
+      });
 }
 
 template <class Real, class Device>

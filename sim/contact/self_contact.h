@@ -7,7 +7,8 @@
 // Barrier: layers feel each other from a distance of the thickness on and never come nearer than half of it;
 // compression.h has its stiffness.
 // Friction: a Prandtl stop per pair as against obstacles (contact.h), which slides after an elastic slip of
-// 1 % of the thickness; its force limit is that of the last iterate that lag() saw.
+// 1 % of the thickness; its force limit is that of the last iterate that lag() saw.  A pair that begins to
+// bear takes over the stretch of its neighbours' stops.
 // Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.
 #pragma once
 
@@ -87,6 +88,7 @@ class SelfContact {
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
                Real reach);
   void carry_over();
+  void hand_over();
   void index_corners();
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);

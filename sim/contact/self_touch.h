@@ -64,13 +64,61 @@ HYST_HD Vec3<Real> barrier_gradient(const SelfTouch<Real>& touch, int k) {
   return gradient;
 }
 
+// What a stop is stretched by turns with the tangent plane and keeps its length.
+template <class Real>
+HYST_HD Vec3<Real> turned_into_plane(const Vec3<Real>& slip, const Vec3<Real>& normal) {
+  using std::sqrt;
+  const Vec3<Real> flat = slip - normal * normal.dot(slip);
+  const Real left = flat.squaredNorm(), all = slip.squaredNorm();
+  return 4 * left > all ? Vec3<Real>(sqrt(all / left) * flat) : flat;
+}
+
 // Tangential displacement since the stop was at rest.
 template <class Real>
 HYST_HD Vec3<Real> pair_slip(const SelfPair<Real>& pair, const PairFriction<Real>& friction,
                              const Vec3<Real>* position, const Vec3<Real>* before) {
-  Vec3<Real> e = friction.slip;
-  for (int k = 0; k < 4; ++k) e += friction.weight[k] * (position[pair.v[k]] - before[pair.v[k]]);
-  return e - friction.normal * friction.normal.dot(e);
+  Vec3<Real> moved = Vec3<Real>::Zero();
+  for (int k = 0; k < 4; ++k) moved += friction.weight[k] * (position[pair.v[k]] - before[pair.v[k]]);
+  return turned_into_plane(friction.slip, friction.normal) + moved -
+         friction.normal * friction.normal.dot(moved);
+}
+
+// Whether figures of p and q share vertices, first with first and second with second.
+template <class Real>
+HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bool crosswise) {
+  const int p_split = p.is_edges() ? 2 : 1, q_split = q.is_edges() ? 2 : 1;
+  bool first = false, second = false;
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < 4; ++l) {
+      if (p.v[k] != q.v[l] || ((k < p_split) == (l < q_split)) == crosswise) continue;
+      (k < p_split ? first : second) = true;
+    }
+  return first && second;
+}
+
+// Stretch of the stop with which a pair begins to bear: that of the neighbours which bear, the mean by their
+// limits.  A layer that is held, or slides, across an edge of another feels nothing of it.  `rows` are the
+// others' by their vertices.
+template <class Real>
+HYST_HD HYST_NOINLINE Vec3<Real> inherited_slip(const SelfPair<Real>& pair, const SelfPair<Real>* others,
+                                                const PairFriction<Real>* friction, const int* start,
+                                                const int* item) {
+  Vec3<Real> sum = Vec3<Real>::Zero();
+  Real limits = 0, lengths = 0;
+  for (int k = 0; k < (pair.is_edges() ? 2 : 1); ++k)
+    for (int j = start[pair.v[k]]; j < start[pair.v[k] + 1]; ++j) {
+      const int q = item[j] / 4;
+      const Real limit = friction[q].limit;
+      if (!(limit > 0)) continue;
+      const bool same = are_neighbours(pair, others[q], false);
+      if (!same && !are_neighbours(pair, others[q], true)) continue;
+      sum += (same ? limit : -limit) * friction[q].slip;
+      limits += limit;
+      lengths += limit * friction[q].slip.norm();
+    }
+  const Real length = sum.norm();  // less than `lengths` where their planes differ
+  return length > lengths / 2 ? Vec3<Real>(lengths / (limits * length) * sum)
+                              : Vec3<Real>(Vec3<Real>::Zero());
 }
 
 }  // namespace hysteron
