@@ -30,8 +30,8 @@ struct SelfPair {
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
 // triangles and of edges that cross add up to that of the contact, half by each (on average over directions).
-// Pairs beside these are in reach as well: by test 1.3 to 1.5 times the area where edges are 6 thicknesses
-// long.
+// Pairs beside these are in reach as well; for them all areas are less, so that the pressure of flat layers
+// is that of the barrier within 10 % where edges are 4 to 25 thicknesses long.
 template <class Real, class Device>
 class SelfPairs {
  public:
