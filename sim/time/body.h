@@ -19,12 +19,15 @@ namespace hysteron {
 // Counts since the start.
 struct StepCounts {
   long parts = 0;               // into which steps were divided
+  long stages = 0;              // accepted in motion: one a part, two of tr-bdf2
   long retried = 0;             // taken again in smaller parts
   long unbalanced = 0;          // parts taken before Newton's method had converged
   long deep = 0;                // parts with a vertex deeper than the cloth's thickness in an obstacle
   long newton = 0, linear = 0;  // iterations
   double step_lengths = 0;      // sum over Newton's iterations, 1 for a full step
   double last_residual = 0;     // unbalanced force over load where Newton's method ended last
+  // Over what was accepted: the largest of that; of stages in motion what it makes of free masses [m/s].
+  double largest_residual = 0, largest_velocity = 0, velocities = 0;
 };
 
 template <class Real>

@@ -69,12 +69,20 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   body_.counts.linear += outcome.linear_iterations;
   body_.counts.unbalanced += outcome.unbalanced;
   body_.counts.step_lengths += outcome.step_lengths;
+  left_ = outcome;
   body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::accept(double end) {
+  StepCounts& counts = body_.counts;
+  counts.largest_residual = std::max(counts.largest_residual, counts.last_residual);
+  if (!solver_.is_static()) {
+    ++counts.stages;
+    counts.velocities += left_.velocity;
+    counts.largest_velocity = std::max(counts.largest_velocity, left_.velocity);
+  }
   body_.clock.begin(Stage::history);
   solver_.accept(vertices_of(body_), body_.ledger.data());
   body_.clock.end(Stage::history);

@@ -38,8 +38,9 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   double load_share(double time) const;
 
   ImplicitStep<Real, Device> solver_;
-  double tolerance_;  // 0: steps as given
-  double part_ = 0;   // of adaptive steps: the coming one [s]
+  double tolerance_;    // 0: steps as given
+  NewtonOutcome left_;  // of the attempt last made
+  double part_ = 0;     // of adaptive steps: the coming one [s]
 };
 
 // Bending explicit with its substeps, the rest solved to the end: layers are kept apart by the line search.

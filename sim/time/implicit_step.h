@@ -63,6 +63,7 @@ class ImplicitStep {
   // Looks for the positions after h [s]; changes nothing that lasts.  `share` of the weight acts at the end.
   // The first stage of tr-bdf2 is its trapezoidal one.
   NewtonOutcome solve(const VertexState<Real>& state, double h, double share, bool is_first_stage = false);
+  bool is_static() const { return static_; }
   bool has_two_stages() const { return two_stage_; }  // tr-bdf2
   // Forces have jumped: the acceleration that was is not the one to go on with.
   void forget_acceleration() { knows_acceleration_ = false; }

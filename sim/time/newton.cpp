@@ -56,10 +56,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
   double forcing = tuning.loosest_solve, shift = limits_.first_shift, rounding = 0;
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
+    outcome.velocity = value.residual * beta_dt * std::sqrt(vertices_) / total_mass;
     outcome.load = std::max(std::hypot(weight, value.reaction), value.inertia);
     // What is unbalanced is small beside the load, rounding, or would hardly move the cloth within the step.
     outcome.converged |= value.residual <= std::max(limits_.residual * outcome.load, rounding) ||
-                         value.residual * beta_dt * std::sqrt(vertices_) / total_mass <= limits_.velocity;
+                         outcome.velocity <= limits_.velocity;
     if (outcome.converged || !std::isfinite(value.energy)) break;
     if (outcome.iterations == limits_.iterations) {
       outcome.converged = outcome.unbalanced = limits_.take_unconverged;

@@ -30,6 +30,7 @@ struct NewtonOutcome {
   double step_lengths = 0;  // sum over the iterations, 1 for a full step
   double residual = 0;      // [N]
   double load = 0;          // weight and reactions, or inertia if that is larger [N]
+  double velocity = 0;      // what the residual makes of free masses in the step, root mean square [m/s]
 };
 
 template <class Real, class Device>

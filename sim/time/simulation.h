@@ -37,6 +37,10 @@ struct SolverCounts {
   long unbalanced = 0, retried = 0;
   double step_lengths = 0;   // sum over Newton's iterations, 1 for a full step
   double last_residual = 0;  // unbalanced force over load where Newton's method ended last
+  // What Newton's method has left at the ends of stages: the largest unbalanced force over load, and the
+  // velocity that it would give free masses within the stage, the largest and the mean, each a root mean
+  // square over the cloth [m/s].
+  double largest_residual = 0, largest_velocity = 0, mean_velocity = 0;
 };
 
 class Simulation {

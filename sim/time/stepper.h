@@ -44,7 +44,9 @@ class Stepper : public Simulation {
   double hand_lag() const override { return body_.hands.largest_lag(); }
   SolverCounts solver_counts() const override {
     const StepCounts& c = body_.counts;
-    return {c.newton, c.linear, c.unbalanced, c.retried, c.step_lengths, c.last_residual};
+    const double mean = c.stages > 0 ? c.velocities / static_cast<double>(c.stages) : 0;
+    return {c.newton,        c.linear,           c.unbalanced,       c.retried, c.step_lengths,
+            c.last_residual, c.largest_residual, c.largest_velocity, mean};
   }
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;

@@ -164,9 +164,22 @@ void Session::note_slack_hands() {
   run_->metric("hand_lag_m", simulation_->hand_lag());
 }
 
+// How much was left unbalanced, in the units of --newton-residual and --newton-velocity.
+void Session::note_convergence() {
+  run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
+  const SolverCounts counts = simulation_->solver_counts();
+  if (setup_.scene.is_implicit()) {
+    run_->metric("newton_residual_largest", counts.largest_residual);
+    run_->metric("newton_velocity_largest_m_per_s", counts.largest_velocity);
+    run_->metric("newton_velocity_mean_m_per_s", counts.mean_velocity);
+  }
+  if (setup_.scene.newton_iterations > 0 || counts.unbalanced > 0)
+    run_->metric("unbalanced_steps_count", counts.unbalanced);
+}
+
 // The step that would do is an estimate: the share is taken to fall as the step does.  Of statics the share
-// is what jumps from one equilibrium to the next set free, whatever the step; of cloth that dissipates
-// nothing itself it is all.
+// is what jumps from one equilibrium to the next set free, whatever the step, and what the mean of the forces
+// misses, of second order in it; of cloth that dissipates nothing itself it is all.
 void Session::note_integrator(const Ledger& ledger) {
   constexpr double kMost = 0.25;
   const double share = ledger.integrator_share();
@@ -303,9 +316,7 @@ void Session::finish(const std::string& title) {
   note_integrator(ledger);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
-    run_->metric("newton_iterations_per_step", simulation_->newton_iterations());
-    if (setup_.scene.newton_iterations > 0 || simulation_->unbalanced_steps() > 0)
-      run_->metric("unbalanced_steps_count", simulation_->unbalanced_steps());
+    note_convergence();
   }
   if (setup_.scene.is_implicit() || setup_.scene.self_contact || setup_.scene.tolerance > 0) {
     run_->metric("parts_count", simulation_->parts_taken());

@@ -86,6 +86,7 @@ class Session {
   void note_integrator(const Ledger& ledger);
   void note_deep_contact();
   void note_slack_hands();
+  void note_convergence();
   void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
