@@ -1,0 +1,175 @@
+// Obstacles and cloth that would pass through each other in one step do not: thin ones, fast ones, and ones that
+// turn or close.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "sim/base/enum_names.h"
+#include "sim/contact/sweep.h"
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kStep = 1.0 / 60;
+constexpr double kHalf = 5e-4;  // of a plate of 1 mm [m]
+constexpr double kSide = 0.1;   // of the cloth [m]
+constexpr double kClosed = 1e-9;
+
+// A square in the plane z = 0 around the origin, without weight.
+Scene sheet(const std::string& integrator, int triangles = 100) {
+  Scene scene = test::free_square(triangles);
+  scene.cloth.length = kSide;
+  scene.cloth.position = {-kSide / 2, -kSide / 2, 0};
+  scene.law = "prandtl";
+  scene.integrator = value_named<Integrator>(integrator);
+  scene.self_contact = scene.integrator == Integrator::semi_implicit;  // else its solve has no line search
+  scene.solver_tolerance = 1e-6;
+  scene.step = kStep;
+  scene.gravity.setZero();
+  return scene;
+}
+
+Obstacle plate_at(const Vector3d& center) {
+  Obstacle plate;
+  plate.kind = ObstacleKind::box;
+  plate.size = {0.5, 0.5, kHalf};
+  plate.rim = 0;
+  plate.center = center;
+  return plate;
+}
+
+// What is least over the vertices of the cloth's height over a point that moves along.
+double lowest_over(Simulation& simulation, double height) {
+  double least = 1e30;
+  for (const Vector3d& x : simulation.positions()) least = std::min(least, x.z() - height);
+  return least;
+}
+
+class Sweep : public ::testing::TestWithParam<const char*> {};
+std::string name_of_case(const ::testing::TestParamInfo<const char*>& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Integrators, Sweep,
+                         ::testing::Values("implicit", "bdf2", "tr-bdf2", "quasi-static", "semi-implicit"),
+                         name_of_case);
+
+// Two keys a way L and a time T apart are 1.5 L/T apart in speed in their middle: 5 m/s there, 83 mm a step.
+TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {
+  constexpr double kWay = 0.5, kSeconds = 0.15;
+  Scene scene = sheet(GetParam());
+  scene.gravity = {0, 0, -9.81};
+  Obstacle plate = plate_at({0, 0, -kWay / 2});
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+  scene.obstacle = {plate};
+  const Trial trial(scene);
+  const auto simulation = trial.simulation();
+  simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
+  EXPECT_GT(lowest_over(*simulation, kWay / 2 + kHalf), 0);
+  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+  EXPECT_GT(simulation->ledger().obstacle_work, 0);
+}
+
+// From 1.3 m, 5.05 m/s; 84 mm a step are 84 thicknesses of the plate.
+TEST_P(Sweep, ClothThatFallsAtFiveMetresASecondStaysOnAPlateOfAMillimetre) {
+  constexpr double kFall = 1.3;
+  Scene scene = sheet(GetParam());
+  scene.gravity = {0, 0, -9.81};
+  const bool statics = scene.integrator == Integrator::quasi_static;  // there cloth would fall without end
+  scene.obstacle = {plate_at({0, 0, statics ? -2 * Fabric{}.thickness : -kFall})};
+  const Trial trial(scene);
+  const auto simulation = trial.after(statics ? 3 : 40);
+  EXPECT_GT(lowest_over(*simulation, scene.obstacle[0].center.z() + kHalf), 0);
+  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+}
+
+// The blade of a fan: 60 degrees a step at its fastest, and cloth that is 20 cm from the axis.
+TEST_P(Sweep, TurningPlateTakesTheClothAlong) {
+  constexpr double kDegrees = 360, kSeconds = 0.15, kArm = 0.2;
+  Scene scene = sheet(GetParam());
+  scene.cloth.position.x() += kArm;
+  scene.gravity = {0, 0, -9.81};
+  Obstacle plate = plate_at({0, 0, -0.02});
+  plate.motion.axis = {0, 1, 0};
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, 0}, -kDegrees / 4}};
+  scene.obstacle = {plate};
+  const Trial trial(scene);
+  const auto simulation = trial.simulation();
+  simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
+  const Vector3d up = Eigen::AngleAxisd(-kDegrees / 4 * std::numbers::pi / 180, Vector3d::UnitY()) * Vector3d::UnitZ();
+  const Vector3d center(0, 0, -0.02);  // the motion turns about the origin
+  const Eigen::AngleAxisd turn(-kDegrees / 4 * std::numbers::pi / 180, Vector3d::UnitY());
+  for (const Vector3d& x : simulation->positions()) EXPECT_GT(up.dot(x - turn * center), kHalf);
+  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+}
+
+// A capsule of 1 mm radius, along y, rises through a row of vertices at 5 m/s: those that it meets are on top.
+TEST_P(Sweep, CapsuleOfAMillimetreTakesTheVerticesInItsPathAlong) {
+  constexpr double kWay = 0.5, kSeconds = 0.15, kRadius = 1e-3;
+  Scene scene = sheet(GetParam());
+  scene.gravity = {0, 0, -9.81};
+  const Trial flat(scene);
+  int middle = 0;
+  for (int i = 1; i < flat.cloth.mesh.vertices(); ++i)
+    if (flat.cloth.start[i].head<2>().norm() < flat.cloth.start[middle].head<2>().norm()) middle = i;
+  Obstacle capsule;
+  capsule.kind = ObstacleKind::capsule;
+  capsule.axis = {0, 1, 0};
+  capsule.radius = kRadius;
+  capsule.height = 0.3;
+  capsule.center = {flat.cloth.start[middle].x(), 0, -kWay / 2};
+  capsule.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+  scene.obstacle = {capsule};
+  const Trial trial(scene);
+  const auto simulation = trial.simulation();
+  simulation->advance(static_cast<int>(std::lround(kSeconds / kStep / 2)) + 1);
+  const auto set = obstacles_during<double>(scene.obstacle, 0.3, simulation->time(), simulation->time());
+  const Vector3d x = simulation->positions()[middle];
+  EXPECT_GT(x.z(), set.item[0].center.z());
+  EXPECT_GT(distance_to(set.item[0], x).value, 0);
+  EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+}
+
+// A point on its way to an obstacle stops half of the way to the middle, where the way meets it at all.
+TEST(FreeShare, EndsHalfwayToTheMiddleOfTheThinnestPart) {
+  const auto set = obstacles_during<double>({plate_at({0, 0, 0})}, 0.3, 0, 0);
+  const Obstacle3<double>& plate = set.item[0];
+  const Vector3d from(0.1, 0, 0.02), through(0, 0, -0.1);
+  const double share = free_share<double>(plate, from, through);
+  EXPECT_NEAR(from.z() - share * 0.1, -0 + kHalf / 2, kTouching * kHalf);
+  EXPECT_EQ(free_share<double>(plate, from, Vector3d(0.1, 0.1, 0)), 1);
+  EXPECT_EQ(free_share<double>(plate, from, Vector3d(0, 0, 0.1)), 1);
+  EXPECT_EQ(free_share<double>(plate, Vector3d(0.6, 0, 0.02), through), 1);  // beside it
+  // From half the depth a quarter of it is left, and the way out is free.
+  const Vector3d inside(0, 0, kHalf / 2);
+  EXPECT_NEAR(inside.z() - free_share<double>(plate, inside, through) * 0.1, kHalf / 4, kTouching * kHalf);
+  EXPECT_EQ(free_share<double>(plate, inside, Vector3d(0, 0, 0.1)), 1);
+}
+
+// What the obstacle carries along stays where it is in its frame, whatever turns, grows or moves.
+TEST(Carried, PointsKeepTheirDistanceInUnitsOfTheObstacle) {
+  Obstacle plate = plate_at({0.1, 0.2, 0.3});
+  plate.motion.axis = {0.6, 0, 0.8};
+  plate.motion.center = {0.3, -0.1, 0.2};
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {1, {0.4, 0.5, -0.6}, 50}};
+  plate.motion.keys[1].scale = 0.4;
+  const auto start = obstacles_during<double>({plate}, 0.3, 0.2, 0.2), end = obstacles_during<double>({plate}, 0.3, 0.2, 0.9);
+  const double scale = end.item[0].thinnest / start.item[0].thinnest;
+  EXPECT_LT(scale, 0.9);
+  for (const Vector3d& x : {Vector3d(0.1, 0.5, -0.2), Vector3d(1, 0.2, 0.3), Vector3d(-0.4, 0.1, 0.9)}) {
+    const double was = distance_to<double>(start.item[0], x).value,
+                 is = distance_to<double>(end.item[0], carried<double>(end.item[0], x)).value;
+    EXPECT_NEAR(is, scale * was, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
