@@ -56,7 +56,8 @@ Setup defaults() {
   // The coefficient is the same to 0.001 % as with 1e-6 and 1e-9 m/s; the step moves it a hundred times more.
   scene.newton_residual = 1e-3;
   scene.newton_velocity = 1e-5;
-  // Ten times that, and the integrator takes twice as much; a third, and the coefficient stays within 0.05 points.
+  // Ten times that, and the integrator takes twice as much; a third, and the coefficient stays within 0.05
+  // points.
   scene.tolerance = 1e-5;
   setup.options.camera_direction = {0.35, -1.0, 0.62};
   setup.options.camera_fov = 24;

@@ -148,8 +148,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
   return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
-         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() + force_.bytes() +
-         share_.bytes() + scratch_.bytes();
+         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() +
+         force_.bytes() + share_.bytes() + scratch_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -99,7 +99,7 @@ class Contact {
   Buffer<char, Device> spared_;
   Buffer<double, Device> stored_;  // in it [J]
   Buffer<double, Device> loss_, work_, energy_, inside_;
-  Buffer<Vec3<Real>, Device> force_;  // at the positions accepted last; of quasi-static scenes [N]
+  Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
   GrowingBuffer<Real, Device> share_;            // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;

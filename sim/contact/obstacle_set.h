@@ -20,7 +20,7 @@ struct Obstacle3 {
   Mat3<Real> back_rotation;  // world point of the obstacle at the step's end -> at its start
   Vec3<Real> back_translation;
   Real friction;
-  int index;  // in the scene
+  int index;      // in the scene
   Real thinnest;  // half of its thinnest part [m]; infinite: there is no other side
 
   HYST_HD bool is_thin() const { return thinnest < static_cast<Real>(1e30); }

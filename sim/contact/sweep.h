@@ -13,7 +13,8 @@
 namespace hysteron {
 
 inline constexpr int kMostAdvances = 100;  // then the rest of the segment counts as barred
-inline constexpr double kTouching = 0.02;  // of the least distance that matters: this near the path ends
+inline constexpr double kTouching =
+    0.02;  // of the distance at the start, or of the thinnest part: this near the path ends
 
 // Where x of the step's start would be at its end, had the obstacle carried it.
 template <class Real>
@@ -32,11 +33,14 @@ HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from
   const Real near = static_cast<Real>(kTouching) * (first < obstacle.thinnest ? first : obstacle.thinnest);
   Real gone = 0, free = first;
   for (int k = 0; k < kMostAdvances; ++k) {
-    const Real next = gone + (free > near ? free : near), reached = next < length ? next : length;
+    const Real safe = static_cast<Real>(1 - kTouching) * free, next = gone + (safe > near ? safe : near);
+    const bool at_end = !(next < length);
+    const Real reached = at_end ? length : next;
     free = distance_to<Real>(obstacle, from + reached / length * way).value + depth;
-    if (!(free > near) && !(free > 0 && reached == length)) return gone / length;
-    if (reached == length) return 1;
+    if (!(free > 0)) break;
+    if (at_end) return 1;
     gone = reached;
+    if (free < near) break;
   }
   return gone / length;
 }

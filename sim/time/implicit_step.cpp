@@ -306,7 +306,8 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
   knows_acceleration_ = true;
 }
 
-// Work of the forces over the way to the end of the step.  Membrane and contact: what is left of the gradient.
+// Work of the forces over the way to the end of the step.  Membrane and contact: what is left of the
+// gradient.
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedger* ledger) {
   const Real rate = static_cast<Real>(1 / formula_.beta_dt);  // 0 in statics
@@ -338,7 +339,8 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
         sum.implicit_work += static_cast<double>(of.rest.dot(way));
         sum.handle_work += static_cast<double>(of.hands.dot(d));
         if (held[i]) {
-          sum.handle_work -= static_cast<double>((weight + of.hands).dot(d) + (of.bending + of.rest).dot(way));
+          sum.handle_work -=
+              static_cast<double>((weight + of.hands).dot(d) + (of.bending + of.rest).dot(way));
           return;
         }
         // What Newton's method has left unbalanced acts like one more force on the masses.
