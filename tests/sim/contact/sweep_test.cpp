@@ -8,6 +8,7 @@
 
 #include "sim/base/enum_names.h"
 #include "sim/contact/sweep.h"
+#include "sim/mesh/intersections.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -113,6 +114,38 @@ TEST_P(SweepInMotion, TurningPlateTakesTheClothAlong) {
   const Eigen::AngleAxisd back(kDegrees * std::numbers::pi / 180, Vector3d::UnitY());
   for (const Vector3d& x : simulation->positions()) EXPECT_GT((back * x - plate.center).z(), kHalf);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
+}
+
+// The plate reaches all three layers in one step, and each may go no farther than the next one: steps in
+// parts.
+TEST(SweepOfLayers, PlateThatPassesThemInOneStepCarriesAllOfThemApart) {
+  constexpr double kWay = 0.5, kSeconds = 0.15;
+  for (const char* integrator : {"implicit", "tr-bdf2"}) {
+    Scene scene = sheet(integrator, 150);
+    scene.self_contact = true;
+    scene.cloth.length = kSide / 2;
+    scene.cloth.copies = 3;
+    scene.cloth.copy_offset = {0, 0, 5e-3};
+    Obstacle plate = plate_at({0, 0, -kWay / 2});
+    plate.motion.keys = {{0, {0, 0, 0}, 0}, {kSeconds, {0, 0, kWay}, 0}};
+    scene.obstacle = {plate};
+    const Trial trial(scene);
+    const auto simulation = trial.after(9);
+    EXPECT_GT(lowest_over(*simulation, kWay / 2 + kHalf), 0) << integrator;
+    EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty()) << integrator;
+    EXPECT_EQ(simulation->deep_steps(), 0) << integrator;
+    EXPECT_EQ(simulation->unbalanced_steps(), 0) << integrator;
+    EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << integrator;
+  }
+}
+
+TEST(SweepInSinglePrecision, CarriesTheClothBeforeAFastPlate) {
+  Scene scene = sheet("bdf2");
+  scene.precision = Precision::fp32;
+  Obstacle plate = plate_at({0, 0, -0.25});
+  plate.motion.keys = {{0, {0, 0, 0}, 0}, {0.15, {0, 0, 0.5}, 0}};
+  scene.obstacle = {plate};
+  EXPECT_GT(lowest_over(*Trial(scene).after(9), 0.25 + kHalf), 0);
 }
 
 // Four diameters a step; vertices are 12.5 mm apart.
