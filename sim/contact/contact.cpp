@@ -37,7 +37,9 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       work_(device, vertices_),
       energy_(device, vertices_),
       inside_(device, 1),
-      force_(device, scene.integrator == Integrator::quasi_static ? vertices_ : 0) {}
+      force_(device, scene.integrator == Integrator::quasi_static ? vertices_ : 0),
+      share_(device),
+      scratch_(device) {}
 
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
@@ -146,7 +148,8 @@ ContactLoss Contact<Real, Device>::losses() const {
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
   return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
-         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() + force_.bytes();
+         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() +
+         force_.bytes() + share_.bytes() + scratch_.bytes();
 }
 
 template class Contact<double, ThisDevice>;

@@ -10,6 +10,7 @@
 
 #include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
+#include "sim/device/algorithms.h"
 #include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
@@ -62,6 +63,14 @@ class Contact {
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal,
                      Real sliding_share);
 
+  // Free vertices do not pass through a solid that has another side, nor it through them
+  // (contact_sweep.cpp).  keep_out() ends each path of a step from `start` to `end` where it meets an
+  // obstacle that bars it, reaches() says whether none is barred, and feasible_step() how long a step along
+  // `direction` from x may be, up to `max_step`.
+  void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
+  bool reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
+  double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
+
   // Accepts the positions: slips, losses and the obstacles' work, which in quasi-static scenes is that of the
   // mean of the forces before and after.  Returns how many vertices are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
@@ -92,6 +101,8 @@ class Contact {
   Buffer<double, Device> loss_, work_, energy_, inside_;
   Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
+  GrowingBuffer<Real, Device> share_;            // of their ways that vertices may go; empty where all may
+  Scratch<Device> scratch_;
 };
 
 }  // namespace hysteron

@@ -31,6 +31,7 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     item.back_translation = (then.translation - back * now.translation).cast<Real>();
     item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction : o.friction);
     item.index = static_cast<int>(i);
+    item.thinnest = static_cast<Real>(now.scale * form_of(o).half_thickness);
   }
   return set;
 }

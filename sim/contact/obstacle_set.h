@@ -20,13 +20,22 @@ struct Obstacle3 {
   Mat3<Real> back_rotation;  // world point of the obstacle at the step's end -> at its start
   Vec3<Real> back_translation;
   Real friction;
-  int index;  // in the scene
+  int index;      // in the scene
+  Real thinnest;  // half of its thinnest part [m]; infinite: there is no other side
+
+  HYST_HD bool is_thin() const { return thinnest < static_cast<Real>(1e30); }
 };
 
 template <class Real>
 struct ObstacleSet {
   int count = 0;
   Obstacle3<Real> item[kMostObstacles];
+
+  bool has_thin() const {  // solids that have another side
+    for (int o = 0; o < count; ++o)
+      if (item[o].is_thin()) return true;
+    return false;
+  }
 };
 
 template <class Real>

@@ -187,7 +187,9 @@ Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
 template <class Real, class Device>
 double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state, bool accelerated) {
   guess(state, accelerated);
-  if (potential_.has_self_contact() && !keep_apart(state)) return std::numeric_limits<double>::infinity();
+  potential_.keep_out(end_.data());
+  const bool apart = !potential_.has_self_contact() || keep_apart(state);
+  if (!apart || !potential_.reaches(end_.data())) return std::numeric_limits<double>::infinity();
   potential_.lag_friction(end_.data());
   return potential_.evaluate(end_.data(), nullptr).energy;
 }
@@ -241,7 +243,7 @@ bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
   double shorter = 1;
   for (int k = 0; k < kMostShortenings; ++k) {
     shorten_guess(state, static_cast<Real>(shorter));
-    const double feasible = potential_.feasible_step(state.x, displacement_.data(), 1);
+    const double feasible = potential_.unfolded_step(state.x, displacement_.data(), 1);
     if (feasible >= 1) {
       potential_.took(end_.data());
       return true;

@@ -54,9 +54,14 @@ class IncrementalPotential {
 
   void begin(const StepStart<Real>& start);
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
-  // itself. evaluate() then serves points up to there; took() tells which of them was taken.
+  // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there; took() tells
+  // which of them was taken.
+  double unfolded_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   void took(const Vec3<Real>* x);
+  // Ends the paths of free vertices to `end` before the obstacles that bar them; whether none does.
+  void keep_out(Vec3<Real>* end);
+  bool reaches(const Vec3<Real>* end);
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
   void lag_friction(const Vec3<Real>* x);

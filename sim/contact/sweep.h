@@ -1,0 +1,82 @@
+// What a vertex may do beside a solid: not go through it.  A segment of its path is followed by the signed
+// distance, which never exceeds the way to the surface (sphere tracing, Hart 1996, "conservative advancement"
+// of a point).
+//
+// Solids give way by design, so that a vertex may be a little inside; past the middle of the thinnest part
+// the shell would push it out on the other side.  A segment therefore leads at most half of what is left to
+// the middle deeper.  Where the obstacle moves, the path is that beside it: it starts where the vertex would
+// be had the obstacle carried it along, and is straight in the obstacle's frame.
+#pragma once
+
+#include "sim/contact/obstacle_set.h"
+
+namespace hysteron {
+
+inline constexpr int kMostAdvances = 100;  // then the rest of the segment counts as barred
+inline constexpr double kTouching =
+    0.02;  // of the distance at the start, or of the thinnest part: this near the path ends
+
+// Where x of the step's start would be at its end, had the obstacle carried it.
+template <class Real>
+HYST_HD Vec3<Real> carried(const Obstacle3<Real>& obstacle, const Vec3<Real>& x) {
+  const Real scale2 = obstacle.back_rotation.col(0).squaredNorm();
+  return obstacle.back_rotation.transpose() * (x - obstacle.back_translation) / scale2;
+}
+
+// Share of `way` from `from`, at `distance` from the surface, before a point is `depth` below it.
+template <class Real>
+HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way,
+                         Real distance, Real depth) {
+  const Real length = way.norm(), first = distance + depth;
+  if (!(length > first)) return 1;
+  if (!(first > 0)) return 0;
+  const Real near = static_cast<Real>(kTouching) * (first < obstacle.thinnest ? first : obstacle.thinnest);
+  Real gone = 0, free = first;
+  for (int k = 0; k < kMostAdvances; ++k) {
+    const Real safe = static_cast<Real>(1 - kTouching) * free, next = gone + (safe > near ? safe : near);
+    const bool at_end = !(next < length);
+    const Real reached = at_end ? length : next;
+    free = distance_to<Real>(obstacle, from + reached / length * way).value + depth;
+    if (!(free > 0)) break;
+    if (at_end) return 1;
+    gone = reached;
+    if (free < near) break;
+  }
+  return gone / length;
+}
+
+// Share of `way` from `from` on which a point does not go through the obstacle.  One that is past the middle
+// already may go anywhere.
+template <class Real>
+HYST_HD Real free_share(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way) {
+  const Real distance = distance_to(obstacle, from).value, deep = distance < 0 ? -distance : Real(0);
+  if (!(deep < obstacle.thinnest)) return 1;
+  return share_above(obstacle, from, way, distance, (deep + obstacle.thinnest) / 2);
+}
+
+// Whether a vertex that was at `start` can be at `end` without having gone through an obstacle.
+template <class Real>
+HYST_HD bool reaches(const ObstacleSet<Real>& set, const Vec3<Real>& start, const Vec3<Real>& end) {
+  for (int o = 0; o < set.count; ++o) {
+    if (!set.item[o].is_thin()) continue;
+    const Vec3<Real> from = carried(set.item[o], start);
+    if (free_share<Real>(set.item[o], from, end - from) < 1) return false;
+  }
+  return true;
+}
+
+// `end`, or where the path there comes within `rest` of an obstacle that bars it.
+template <class Real>
+HYST_HD Vec3<Real> kept_out(const ObstacleSet<Real>& set, const Vec3<Real>& start, Vec3<Real> end,
+                            Real rest) {
+  for (int o = 0; o < set.count; ++o) {
+    const Obstacle3<Real>& obstacle = set.item[o];
+    if (!obstacle.is_thin()) continue;
+    const Vec3<Real> from = carried(obstacle, start), way = end - from;
+    if (free_share(obstacle, from, way) < 1)
+      end = from + share_above(obstacle, from, way, distance_to(obstacle, from).value, -rest) * way;
+  }
+  return end;
+}
+
+}  // namespace hysteron
