@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each may include those before it; the folder of the longest name counts.
-constexpr std::array kLayers = {"sim", "sim/identification", "render", "experiments"};
+constexpr std::array kLayers = {"sim", "sim/reference", "sim/identification", "render", "experiments"};
 
 using Folders = std::map<std::string, std::set<std::string>>;  // what each includes
 

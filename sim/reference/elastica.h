@@ -8,7 +8,7 @@
 
 #include "sim/bending/laws/law_run.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 
 // A strip clamped level at one end.
 struct HeavyStrip {
@@ -37,4 +37,4 @@ struct SaggingStrip {
 std::vector<SaggingStrip> sagging_strips(const HeavyStrip& strip, const std::vector<double>& loads,
                                          int steps = 50);
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron

@@ -7,7 +7,7 @@
 
 #include "sim/bending/laws/law_run.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 
 struct KesProtocol {
   double amplitude = 250;  // largest curvature [1/m]
@@ -64,4 +64,4 @@ struct KesTest {
 // Throws Error::request as run_law().
 KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol = {});
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron

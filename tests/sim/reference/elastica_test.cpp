@@ -1,11 +1,11 @@
 // The heavy elastica against published and closed forms.
-#include "experiments/specimens/elastica.h"
+#include "sim/reference/elastica.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace hysteron::experiments {
+namespace hysteron {
 namespace {
 
 HeavyStrip linear_strip(double gamma, double b = 1) {
@@ -85,4 +85,4 @@ TEST(Elastica, KeepsAResidualDroopWithFrictionAlone) {
 }
 
 }  // namespace
-}  // namespace hysteron::experiments
+}  // namespace hysteron

@@ -1,4 +1,4 @@
-#include "experiments/kes/kes.h"
+#include "sim/reference/kes.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/laws/recovery.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 namespace {
 
 using Family = MinorLoop::Family;
@@ -176,4 +176,4 @@ KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol) {
   return test;
 }
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron

@@ -2,7 +2,7 @@
 //   M(K(s)) = load * w * int_s^L (x(t) - x(s)) dt,   x' = cos theta, y' = sin theta, theta' = K, theta(0) =
 //   0.
 // Curvatures sit at the segments' middles; Newton's method over all of them with the whole Jacobian.
-#include "experiments/specimens/elastica.h"
+#include "sim/reference/elastica.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "sim/base/error.h"
 #include "sim/bending/law_loop.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 namespace {
 
 using Eigen::MatrixXd;
@@ -200,4 +200,4 @@ std::vector<SaggingStrip> sagging_strips(const HeavyStrip& strip, const std::vec
   return result;
 }
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron
