@@ -11,7 +11,7 @@ namespace hysteron {
 namespace {
 
 constexpr double kTogether = 1.1;        // ratio of thresholds that no noisy loop keeps apart
-constexpr double kClearlyBetter = 0.95;  // as in fit_curve.cpp: a cycle before the first row
+constexpr double kClearlyBetter = 0.95;  // as in curve.cpp: a cycle before the first row
 
 // Parameters: logarithms of b2, p_1 ... p_N over the slope, r_1 ... r_N over the largest curvature.
 struct StopsModel {

@@ -1,4 +1,4 @@
-#include "experiments/workbench/pictures/mesh_sequence.h"
+#include "sim/mesh/mesh_sequence.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
@@ -133,7 +133,6 @@ double texture_scale(const Surface& surface) {
 }  // namespace
 
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) {
-  if (words.empty()) throw Error::request("needs mesh files or folders: hysteron render FILES...");
   std::vector<MeshSequence> sequences;
   std::ptrdiff_t loose = -1;  // the sequence of single files
   for (const std::string& word : words) {
@@ -186,4 +185,4 @@ std::vector<float> thread_coordinates(const Surface& surface) {
   return thread;
 }
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron

@@ -7,7 +7,7 @@
 
 #include "sim/mesh/surface.h"
 
-namespace hysteron::experiments {
+namespace hysteron {
 
 struct MeshSequence {
   std::string name;
@@ -35,4 +35,4 @@ Surface read_frame(const std::filesystem::path& file, const FileAxes& axes);
 // along which the surface extends most, in alphabetical order: x and y of a cloth that lies flat.
 std::vector<float> thread_coordinates(const Surface& surface);
 
-}  // namespace hysteron::experiments
+}  // namespace hysteron
