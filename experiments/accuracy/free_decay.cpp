@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/swing/decay_shape.h"
 #include "sim/base/error.h"
+#include "sim/identification/decay_shape.h"
 
 namespace hysteron::experiments {
 namespace {

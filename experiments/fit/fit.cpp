@@ -4,14 +4,14 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/fit/curve.h"
-#include "experiments/fit/profile.h"
-#include "experiments/fit/published.h"
 #include "experiments/fit/report.h"
-#include "experiments/fit/stops.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
+#include "sim/identification/curve.h"
+#include "sim/identification/profile.h"
+#include "sim/identification/published.h"
+#include "sim/identification/stops.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -113,7 +113,7 @@ void rank(std::vector<Identification>& fits) {
 }
 
 Answer from_loop(const FitFlags& flags) {
-  const MomentSeries series = read_series(flags.loop, flags.ripple);
+  const MomentSeries series = read_series(flags.loop, flags.ripple, "fit");
   Answer answer{{}, {}, series.name};
   if (flags.stops > 0) {
     StopsIdentification found = identify_stops(series, flags.stops, flags.assume);
@@ -138,8 +138,9 @@ Answer from_virgin(const FitFlags& flags) {
     if (flags.virgin.b1.given() || flags.virgin.c1.given())
       throw Error::request("takes virgin.file or virgin.b1 with virgin.c1, not both")
           .of("virgin.file", flags.virgin_file);
-    return {
-        {identify_virgin(read_virgin(flags.virgin_file), flags.assume)}, {}, file_name(flags.virgin_file)};
+    return {{identify_virgin(read_virgin(flags.virgin_file, "fit"), flags.assume)},
+            {},
+            file_name(flags.virgin_file)};
   }
   if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
     throw Error::request("a virgin curve needs both --virgin.b1 and --virgin.c1").of("virgin.b1", "");
@@ -156,7 +157,7 @@ Answer from_profile(const FitFlags& flags) {
   if (std::isnan(flags.density))
     throw Error::request("a profile needs --fabric.density: the moments are those of the strip's weight")
         .of("fabric.density", "");
-  return {{identify_profile(read_profile(flags.profile), flags.density, flags.assume)},
+  return {{identify_profile(read_profile(flags.profile, "fit"), flags.density, flags.assume)},
           {},
           file_name(flags.profile)};
 }

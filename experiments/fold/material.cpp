@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/kes/kes.h"
+#include "sim/reference/kes.h"
 
 namespace hysteron::experiments {
 namespace {

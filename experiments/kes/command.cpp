@@ -4,13 +4,13 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/kes/kes.h"
 #include "experiments/kes/output.h"
 #include "experiments/kes/strip_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
+#include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/kes/kes.h"
 #include "experiments/kes/strip_output.h"
 #include "experiments/workbench/app/run.h"
+#include "sim/reference/kes.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron::experiments {

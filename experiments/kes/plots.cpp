@@ -15,7 +15,6 @@ constexpr const char* kReferenceColor = "#C8C8C8";
 constexpr const char* kMinorColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
 constexpr int kDrawnSteps = 50;    // points from zero to the amplitude
 constexpr double kSettled = 0.01;  // change of the area from cycle to cycle that counts as settled
-constexpr double kMilli = 1e3;     // moments are drawn in mN
 constexpr double kHeadroom = 1.7;  // of the axis over the largest moment of `prandtl`
 
 render::Series curve(const std::vector<double>& curvature, const std::vector<double>& moment, int steps,

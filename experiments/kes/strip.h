@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/kes/kes.h"
+#include "sim/reference/kes.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/motion.h"
 #include "sim/time/simulation.h"

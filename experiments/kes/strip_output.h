@@ -10,6 +10,8 @@
 
 namespace hysteron::experiments {
 
+inline constexpr double kMilli = 1e3;  // moments are drawn in mN
+
 // Of the strip at one curvature.
 struct StripPicture {
   render::Image image;

@@ -8,9 +8,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr const char* kLawColor = "#C8C8C8";
+constexpr const char* kLawAloneColor = "#C8C8C8";
 constexpr const char* kColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
-constexpr double kMilli = 1e3;                                                // moments are drawn in mN
 constexpr int kPlotWidth = 1100, kLoopHeight = 700, kDifferenceHeight = 400;  // [pixels]
 constexpr int kPictureWidth = 640, kGap = 16;                                 // at most
 
@@ -38,7 +37,7 @@ render::Plot loops(const StripTitle& title, const std::vector<const StripResult*
   plot.width = kPlotWidth, plot.height = kLoopHeight;
   plot.axes_at_zero = plot.key_inside = true;
   plot.series.push_back(series(*strips[0], strips[0]->test.law_moment, kMilli));
-  plot.series[0].label = "law alone", plot.series[0].color = kLawColor, plot.series[0].line_width = 7;
+  plot.series[0].label = "law alone", plot.series[0].color = kLawAloneColor, plot.series[0].line_width = 7;
   for (std::size_t i = 0; i < strips.size(); ++i) {
     plot.series.push_back(series(*strips[i], strips[i]->test.moment, kMilli));
     plot.series.back().label = "strip, " + strips[i]->mesh;

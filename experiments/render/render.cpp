@@ -13,12 +13,12 @@
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/mesh_pictures.h"
-#include "experiments/workbench/pictures/mesh_sequence.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
+#include "sim/mesh/mesh_sequence.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -148,6 +148,7 @@ void choose_instants(std::vector<Column>& columns) {
 
 std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& words) {
   std::vector<Column> columns;
+  if (words.empty()) throw Error::request("needs mesh files or folders: hysteron render FILES...");
   const std::vector<MeshSequence> sequences = mesh_sequences(words);
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     const auto value = [&](const char* key, const std::string& list) {

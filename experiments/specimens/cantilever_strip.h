@@ -2,7 +2,7 @@
 // the elastica says of it.
 #pragma once
 
-#include "experiments/specimens/elastica.h"
+#include "sim/reference/elastica.h"
 #include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/swing/decay_shape.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/session.h"
+#include "sim/identification/decay_shape.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -164,7 +164,7 @@ int run_swing(const CommandLine& line) {
   Run& run = session.run();
   const auto turns = turning_points(times, swing, kLeastTurn * setup.scene.cloth.length);
   const std::vector<Amplitude> amplitudes =
-      amplitudes_of(turning_points(times, swing, kLeastTurn * setup.scene.cloth.length, kRipple));
+      amplitudes_of(turning_points(times, swing, kLeastTurn * setup.scene.cloth.length, kSwingRipple));
   const Decay decay = decay_of(amplitudes, kSmallSwing * (setup.scene.cloth.length - kClamp));
   run.metric("turns", turns.size());
   note_decay(run, decay);

@@ -2,13 +2,13 @@
 
 #include <zlib.h>
 
-#include "experiments/fit/series.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/text_table.h"
 #include "render/image.h"
 #include "render/plot.h"
 #include "sim/base/csv.h"
+#include "sim/identification/series.h"
 #include "sim/mesh/builders.h"
 #include "sim/mesh/surface.h"
 #include "sim/scene/fabric_reader.h"
@@ -120,7 +120,7 @@ Format csv() {
           {[](const fs::path& file) {
              read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
            },
-           [](const fs::path& file) { experiments::read_series(file, 0.05); },
+           [](const fs::path& file) { read_series(file, 0.05, "fuzz"); },
            [](const fs::path& file) { read_words(file); },
            [](const fs::path& file) { render::series_from_csv(file, "curvature", "moment", ""); }, chart}};
 }

@@ -1,5 +1,5 @@
-// Folders include each other one way only: experiments -> render -> sim, and inside each of them no folder
-// one that includes it, directly or through others.
+// Folders include each other one way only: experiments -> render -> libraries beside the simulation -> the
+// rest of sim, and inside each of them no folder one that includes it, directly or through others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,17 @@ namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::array kLayers = {"sim", "render", "experiments"};  // each may include those before it
+// Each may include those before it; the folder of the longest name counts.
+constexpr std::array kLayers = {"sim", "sim/reference", "sim/identification", "render", "experiments"};
 
 using Folders = std::map<std::string, std::set<std::string>>;  // what each includes
 
-std::string layer_of(const std::string& folder) { return folder.substr(0, folder.find('/')); }
+std::string layer_of(const std::string& folder) {
+  std::string found;
+  for (const std::string layer : kLayers)
+    if ((folder + "/").starts_with(layer + "/") && layer.size() > found.size()) found = layer;
+  return found;
+}
 
 bool is_source(const fs::path& file) {
   static const std::set<std::string> kEndings = {".h", ".cpp", ".in"};
@@ -89,6 +95,8 @@ TEST(Includes, ThatRunBackAreFound) {
   write("sim/c/c.cpp", "sim/a/a.h");
   EXPECT_EQ(arrows_back(folders_of(root)),
             (std::vector<std::string>{"sim/a -> sim/b", "sim/b -> sim/c", "sim/c -> sim/a"}));
+  write("sim/c/c.cpp", "sim/identification/i.h");
+  EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> sim/identification"});
   write("sim/c/c.cpp", "render/a/a.h");
   EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> render/a"});
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/mesh_sequence.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/mesh/mesh_sequence.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -9,6 +9,7 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
+#include "sim/identification/decay_shape.h"
 #include "tests/experiments/folder.h"
 
 namespace hysteron::experiments {
@@ -210,6 +211,21 @@ TEST(Swing, HangsFromTheClampsLine) {
   ASSERT_GE(crossed.size(), 2);
   const double period = 2 * kPi / mode_frequency(fabric.b2, fabric.density, kFree);
   EXPECT_NEAR(2 * (crossed[1] - crossed[0]) / period, 1, 0.015);
+}
+
+// The energy balance of a friction whose loops grow as A^3, uniformly bent: Rayleigh's.
+TEST(DecayShape, OfTheFrictionOfAParabolaIsHyperbolic) {
+  const DecayingBend bend{{3e-5, 2e-5, 10}};
+  std::vector<Amplitude> amplitudes;
+  for (const double value : amplitudes_by_energy(bend, {1}, 2, 20)) {
+    const auto turn = static_cast<int>(amplitudes.size());
+    amplitudes.push_back({turn, 0.1 * turn, value});
+  }
+  constexpr double kAny = 1e9;  // amplitudes that are all small
+  const Decay decay = decay_of(amplitudes, kAny);
+  // The stored energy's slope falls by A/K0 (b1 - b2)/b1, 7 % of it here: p is a little above 2.
+  EXPECT_NEAR(*decay.exponent, 2, 0.1);
+  EXPECT_EQ(decay.shape, DecayShape::hyperbolic);
 }
 
 // Backward Euler takes (w h)^2/2 of the amplitude in each step, bdf2 about (w h)^4/4.

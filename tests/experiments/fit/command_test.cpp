@@ -9,9 +9,9 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
-#include "tests/experiments/fit/synthetic.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/base/refusal.h"
+#include "tests/sim/identification/synthetic.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "experiments/workbench/pictures/mesh_sequence.h"
 #include "render/compare.h"
 #include "render/image.h"
 #include "sim/base/error.h"
@@ -236,47 +235,6 @@ TEST(RenderedFiles, OptionsOutOfRangeAreRefused) {
             "no such file or folder: " + (folder.path() / "no.obj").string());
   EXPECT_EQ(refusal({good}, {{"look", "curvature"}, {"render.curvature", "file"}}),
             "mesh " + good + ": no property curvature of its vertices (--render.curvature file)");
-}
-
-TEST(MeshSequences, FoldersAreInNaturalOrderAndNamedApart) {
-  const Folder folder;
-  for (const char* name :
-       {"a/mesh/f10.obj", "a/mesh/f9.obj", "a/mesh/f0100.obj", "a/mesh/readme.txt", "b/a/x.PLY"})
-    write(folder.path() / name, "");
-  const auto sequences = mesh_sequences({(folder.path() / "a/").string(), (folder.path() / "a/mesh").string(),
-                                         (folder.path() / "b/a").string()});
-  ASSERT_EQ(sequences.size(), 3u);
-  EXPECT_EQ(sequences[0].name, "a");
-  EXPECT_EQ(sequences[1].name, "a-2");
-  EXPECT_EQ(sequences[2].name, "a-3");
-  std::vector<std::string> names;
-  for (const auto& file : sequences[0].files) names.push_back(file.filename());
-  EXPECT_EQ(names, (std::vector<std::string>{"f9.obj", "f10.obj", "f0100.obj"}));
-}
-
-TEST(MeshSequences, FilesAreOneSequenceInTheOrderGiven) {
-  const Folder folder;
-  const std::string a = write(folder.path() / "set/a.obj", ""), b = write(folder.path() / "set/b.obj", "");
-  const auto sequences = mesh_sequences({b, a});
-  ASSERT_EQ(sequences.size(), 1u);
-  EXPECT_EQ(sequences[0].name, "set");
-  EXPECT_EQ(sequences[0].files, (std::vector<fs::path>{b, a}));
-  EXPECT_EQ(mesh_sequences({a})[0].name, "a");
-}
-
-TEST(Threads, FollowTheTextureOrTheAxesAlongWhichTheSurfaceExtends) {
-  Surface upright;
-  upright.vertex = {{0, 0, 0}, {0.2, 0.01, 0}, {0, 0, 0.3}};
-  upright.face = {{0, 1, 2}};
-  EXPECT_EQ(thread_coordinates(upright), (std::vector<float>{0, 0, 0.2f, 0, 0, 0.3f}));
-  // A texture in lengths is taken as it is, one that runs from 0 to 1 is scaled to the surface's area.
-  Surface flat;
-  flat.vertex = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}};
-  flat.face = {{0, 1, 2}};
-  flat.pattern = {{0, 0}, {0.51, 0}, {0, 0.51}};
-  EXPECT_EQ(thread_coordinates(flat)[2], 0.51f);
-  flat.pattern = {{0, 0}, {1, 0}, {0, 1}};
-  EXPECT_EQ(thread_coordinates(flat), (std::vector<float>{0, 0, 0.5f, 0, 0, 0.5f}));
 }
 
 }  // namespace

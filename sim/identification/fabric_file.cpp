@@ -1,0 +1,73 @@
+#include "sim/identification/fabric_file.h"
+
+#include <cmath>
+
+#include "sim/base/atomic_file.h"
+#include "sim/scene/key_table.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+namespace {
+
+// A TOML basic string.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::string entry(const std::string& name, double value, const std::string& unit, const Estimate& from) {
+  std::string text = name + " = {value = " + number_text(value) + ", unit = " + quoted(unit);
+  if (std::isfinite(from.standard_error)) text += ", stderr = " + number_text(from.standard_error);
+  return text + ", source = " + quoted(from.source) + ", confidence = " + quoted(from.confidence) + "}\n";
+}
+
+std::string borrowed_from(const Fabric& fabric) {
+  return "not measured, not this fabric's: that of " + fabric.name + ", the program's default";
+}
+
+std::string given_or_default(const std::string& name, const std::optional<double>& given, double otherwise,
+                             const std::string& unit) {
+  const Estimate from{0, kNone, true,
+                      given ? "given by hand to the fit, --fabric." + name : borrowed_from(Fabric()),
+                      given ? "given" : "assumed"};
+  return entry(name, given.value_or(otherwise), unit, from);
+}
+
+}  // namespace
+
+std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
+  const Fabric usual;
+  std::vector<std::string> lines;
+  const auto warn = [&](const std::string& name, double value, const std::string& unit) {
+    lines.push_back("WARNING: " + name + " was not given: fabric.toml holds that of ANOTHER fabric, " +
+                    usual.name + ", " + number_text(value) + " " + unit + "; give --fabric." + name);
+  };
+  if (!notes.density) warn("density", usual.density, "kg/m^2");
+  if (!notes.thickness) warn("thickness", usual.thickness, "m");
+  return lines;
+}
+
+void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
+  const std::vector<std::string> open = found.undetermined();
+  std::string text = "# Written by hysteron fit.  The data " +
+                     (open.empty() ? "determine b1, b2 and k0" : "do not determine " + join(open, ", ")) +
+                     ".\n";
+  for (const std::string& statement : found.statements) text += "# - " + statement + "\n";
+  for (const std::string& warning : borrowed_warnings(notes)) text += "# - " + warning + "\n";
+  text +=
+      "name = " + quoted(notes.name) + "\ndescription = " + quoted("identified from " + notes.from) + "\n";
+  text += "\n[parameters]\n" + entry("b1", found.b1.value, "N m", found.b1) +
+          entry("b2", found.b2.value, "N m", found.b2) + entry("k0", found.k0.value, "1/m", found.k0);
+  const Fabric usual;
+  text += given_or_default("density", notes.density, usual.density, "kg/m^2") +
+          given_or_default("thickness", notes.thickness, usual.thickness, "m");
+  AtomicFile target(file.string());
+  target.stream() << text;
+  target.commit();
+}
+
+}  // namespace hysteron

@@ -1,0 +1,26 @@
+// An identified fabric as a file.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/identification/identification.h"
+
+namespace hysteron {
+
+// What a fabric's file holds besides the fitted numbers.
+struct FabricNotes {
+  std::string name;                          // of the fabric
+  std::string from;                          // one line: what it was identified from
+  std::optional<double> density, thickness;  // [kg/m^2], [m]; none: another fabric's, marked as assumed
+};
+
+// A line for each number of the fabric's file that is another fabric's, because none was given.
+std::vector<std::string> borrowed_warnings(const FabricNotes& notes);
+
+// A file for read_fabric(); standard errors as `stderr` beside the values.
+void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes);
+
+}  // namespace hysteron

@@ -1,0 +1,54 @@
+// What a fit finds: a fabric's three numbers, how well the data fix each, and what was assumed instead.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/bending/laws/law.h"
+
+namespace hysteron {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// b1, b2 [N m] or k0 [1/m].
+struct Estimate {
+  double value = 0;
+  double standard_error = kNone;  // kNone: not fixed by the data, or these carry no errors
+  bool determined = true;         // the data fix it within a factor of kWidestFactor
+  std::string source;             // for the fabric's file
+  std::string confidence = "fitted";
+};
+
+struct Identification {
+  std::string law;  // that the numbers were identified with
+  Estimate b1, b2, k0;
+  std::vector<double> curvature, moment, model;         // data [1/m], [N], and the law's moments there [N]
+  int iterations = 0;                                   // of the solver; 0: closed form
+  std::vector<std::pair<std::string, double>> further;  // more metrics, names with units
+  std::vector<std::string> statements;                  // plain sentences on what the data say and do not say
+
+  VirginCurve curve() const { return {b1.value, b2.value, k0.value}; }
+  std::vector<std::string> undetermined() const;
+  double residual_rms() const;    // [N]
+  double largest_moment() const;  // [N]
+};
+
+// Four digits, for sentences.
+std::string rounded(double x);
+
+// A quantity whose 95 % interval spans more than this factor is called undetermined.
+inline constexpr double kWidestFactor = 3;
+
+// What stands in where the data cannot decide.
+struct Assumptions {
+  double ratio = 0.5;  // b2/b1: the four fabrics of assets/fabrics with KES pairs have 0.32 to 0.58
+  double k0 = 50;      // [1/m] largest that leaves the window of KES-FB2, 0.5 to 1.5 per cm, straight
+
+  std::string ratio_source() const;
+  std::string k0_source() const;
+};
+
+}  // namespace hysteron

@@ -1,0 +1,84 @@
+// The only file that includes Ceres: it costs seconds to compile.
+#include "sim/identification/least_squares.h"
+
+#include <ceres/ceres.h>
+
+namespace hysteron {
+namespace {
+
+// Of a parameter of order one: central differences then lose about 1e-8 to truncation and 1e-12 to rounding.
+constexpr double kDifference = 1e-4;
+constexpr int kMostIterations = 500;
+
+Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Eigen::VectorXd& at) {
+  Eigen::MatrixXd jacobian;
+  for (int j = 0; j < at.size(); ++j) {
+    Eigen::VectorXd above = at, below = at;
+    above[j] += kDifference;
+    below[j] -= kDifference;
+    const Eigen::VectorXd column = (residuals(above) - residuals(below)) / (2 * kDifference);
+    if (j == 0) jacobian.resize(column.size(), at.size());
+    jacobian.col(j) = column;
+  }
+  return jacobian;
+}
+
+class Cost : public ceres::CostFunction {
+ public:
+  Cost(const Residuals& residuals, int rows, int parameters) : residuals_(residuals) {
+    set_num_residuals(rows);
+    mutable_parameter_block_sizes()->push_back(parameters);
+  }
+
+  bool Evaluate(double const* const* blocks, double* values, double** jacobians) const override {
+    const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(blocks[0], parameter_block_sizes()[0]);
+    const Eigen::VectorXd residuals = residuals_(at);
+    if (!residuals.allFinite()) return false;
+    Eigen::Map<Eigen::VectorXd>(values, num_residuals()) = residuals;
+    if (jacobians && jacobians[0]) {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      const Eigen::MatrixXd jacobian = jacobian_of(residuals_, at);
+      if (!jacobian.allFinite()) return false;
+      if (at.size() == 1) {
+        Eigen::Map<Eigen::VectorXd>(jacobians[0], num_residuals()) = jacobian.col(0);
+      } else {
+        Eigen::Map<RowMajor>(jacobians[0], num_residuals(), at.size()) = jacobian;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Residuals& residuals_;
+};
+
+}  // namespace
+
+LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
+                      const Eigen::VectorXd& high) {
+  LeastSquares result;
+  result.parameters = start.cwiseMax(low).cwiseMin(high);
+  const int size = static_cast<int>(start.size()), rows = static_cast<int>(residuals(start).size());
+  ceres::Problem problem;
+  problem.AddResidualBlock(new Cost(residuals, rows, size), nullptr, result.parameters.data());
+  for (int j = 0; j < size; ++j) {
+    problem.SetParameterLowerBound(result.parameters.data(), j, low[j]);
+    problem.SetParameterUpperBound(result.parameters.data(), j, high[j]);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = kMostIterations;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-10;
+  options.gradient_tolerance = 1e-14;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  result.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.residuals = residuals(result.parameters);
+  result.jacobian = jacobian_of(residuals, result.parameters);
+  return result;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,55 @@
+// Moment and curvature from the profile of a sagging cantilever (Clapp, Peng, Ghosh & Eischen 1990, "Indirect
+// measurement of the moment-curvature relationship for fabrics", Textile Research Journal 60(9)).
+//
+//      clamp                      y up, gravity down; s along the strip, 0 at the clamp, L at the free end
+//   =====o----.                   M(s) = w int_s^L (x(t) - x(s)) dt     w: weight per area
+//             `-.                 K(s) = -d(slope angle)/ds
+//                `\.
+//                  \  s = L
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/identification/identification.h"
+
+namespace hysteron {
+
+struct Profile {
+  std::string name;                     // of the file, without its folder
+  std::vector<Eigen::Vector2d> points;  // centre line from the clamp to the free end [m]
+};
+
+// Columns `x [m]`, `y [m]`.  Throws Error::machine, and Error::request for fewer than 12 points, points that
+// go back (a cantilever under its own weight runs on or down), an end that is not below the clamp, and
+// lengths that no test has.
+Profile read_profile(const std::filesystem::path& file, const std::string& reader);
+
+// A smooth centre line: its curvature is a polynomial that is zero at the free end with its slope, as moment
+// and shear are: K L = (1 - s/L)^2 sum_j c_j T_j(2 s/L - 1), T_j of Chebyshev.
+struct SmoothProfile {
+  Eigen::VectorXd parameters;  // x, y [m], angle [rad] at the clamp, length [m], c_0, c_1, ...
+  double scatter = 0;          // standard deviation of the points across the line [m]
+  int iterations = 0;
+
+  int terms() const { return static_cast<int>(parameters.size()) - 4; }
+};
+
+// With as many terms as Akaike's criterion (1974) asks for.
+SmoothProfile smooth(const Profile& profile);
+
+struct MomentTable {
+  std::vector<double> curvature, moment;  // from the free end to the clamp [1/m], [N]
+};
+// `weight` per area [N/m^2].
+MomentTable moment_table(const SmoothProfile& line, double weight);
+
+// The virgin curve: first through that table, then, because a smooth line rounds bends off and its errors
+// hang together, so that a strip with this virgin curve hangs nearest to the points.  Data and residuals are
+// the table's.  Throws Error::request if the profile does not bend down, or shows a stiffness that no fabric
+// has.
+Identification identify_profile(const Profile& profile, double density, const Assumptions& assumptions);
+
+}  // namespace hysteron

@@ -1,0 +1,42 @@
+// A fabric from the few numbers that a publication prints.
+#pragma once
+
+#include <filesystem>
+
+#include "sim/identification/identification.h"
+
+namespace hysteron {
+
+// A number with its standard error, kNone if none is known.
+struct Measured {
+  double value = kNone;
+  double standard_error = kNone;
+  bool given() const { return value == value; }
+};
+
+// M = b1 K + c1 K^2 on loading, as a fit to the first bend of a fabric (Wong, Eq. 4.2).
+struct VirginNumbers {
+  Measured b1;  // [N m]
+  Measured c1;  // [N m^2], < 0
+};
+
+// Means over the rows of a file, the specimens of one fabric; standard errors of the means from their
+// scatter. Columns `b1 [N m]`, `c1 [N m2]`.  Throws Error::machine, Error::request (a row with c1 >= 0 is
+// named).
+VirginNumbers read_virgin(const std::filesystem::path& file, const std::string& reader);
+
+// k0 = (b2 - b1)/(2 c1) with b2 = ratio b1.  Throws Error::request for b1 that no fabric has, and for c1 >=
+// 0.
+Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& assumptions);
+
+// What KES-FB2 (Kawabata 1980) prints of a pure bending test.
+struct KesNumbers {
+  Measured b;       // slope B [N m]
+  Measured two_hb;  // width of the loop 2HB [N]
+  Measured k0;      // [1/m]; not printed by KES
+};
+
+// b2 = B, b1 = B + 2HB/k0.  Throws Error::request for B <= 0, 2HB < 0 and for magnitudes that no fabric has.
+Identification identify_kes(const KesNumbers& numbers, const Assumptions& assumptions);
+
+}  // namespace hysteron

@@ -1,0 +1,180 @@
+#include "sim/identification/series.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/identification/identification.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+namespace {
+
+constexpr const char* kCurvature = "curvature [1/m]";
+constexpr const char* kMoment = "moment [N]";
+constexpr const char* kTime = "time [s]";
+
+// Work that a loop may give back, as a share of curvature range times moment range, before its rows must run
+// backwards: noise around a curve without a loop.
+constexpr double kWorkOfNoise = 0.05;
+
+double range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// Rows where the curvature turns by more than `noise`, with the first and the last row.
+std::vector<int> turning_rows(const std::vector<double>& k, double noise) {
+  std::vector<int> turns = {0};
+  int extreme = 0, direction = 0;
+  for (int i = 1; i < static_cast<int>(k.size()); ++i) {
+    const double way = k[i] - k[extreme];
+    if (direction * way > 0 || (direction == 0 && std::abs(way) > noise)) {
+      direction = way > 0 ? 1 : -1;
+      extreme = i;
+    } else if (direction * way < -noise) {
+      turns.push_back(extreme);
+      direction = -direction;
+      extreme = i;
+    }
+  }
+  turns.push_back(static_cast<int>(k.size()) - 1);
+  return turns;
+}
+
+// Nearest monotone sequence by pooling adjacent violators (Ayer et al. 1955), in place.
+void make_monotone(double* values, int count, double direction) {
+  struct Pool {
+    double mean;
+    int size;
+  };
+  std::vector<Pool> pools;
+  for (int i = 0; i < count; ++i) {
+    pools.push_back({values[i], 1});
+    while (pools.size() > 1 && direction * (pools[pools.size() - 2].mean - pools.back().mean) > 0) {
+      const Pool last = pools.back();
+      pools.pop_back();
+      Pool& pool = pools.back();
+      pool.mean = (pool.mean * pool.size + last.mean * last.size) / (pool.size + last.size);
+      pool.size += last.size;
+    }
+  }
+  for (const Pool& pool : pools) {
+    for (int i = 0; i < pool.size; ++i) *values++ = pool.mean;
+  }
+}
+
+// Slope of the straight line through all rows [N m].
+double overall_slope(const MomentSeries& series) {
+  double k = 0, m = 0, kk = 0, km = 0;
+  const double n = series.rows();
+  for (int i = 0; i < series.rows(); ++i) {
+    k += series.curvature[i] / n;
+    m += series.moment[i] / n;
+  }
+  for (int i = 0; i < series.rows(); ++i) {
+    kk += (series.curvature[i] - k) * (series.curvature[i] - k);
+    km += (series.curvature[i] - k) * (series.moment[i] - m);
+  }
+  return km / kk;
+}
+
+// Work of bending along the rows, as a share of curvature range times moment range.
+double relative_work(const MomentSeries& series) {
+  double work = 0;
+  for (int i = 1; i < series.rows(); ++i) {
+    work += (series.moment[i] + series.moment[i - 1]) / 2 * (series.drive[i] - series.drive[i - 1]);
+  }
+  return work / (range_of(series.drive) * range_of(series.moment));
+}
+
+void check_magnitudes(const MomentSeries& series) {
+  const double slope = overall_slope(series);
+  if (!(slope > 0)) {
+    throw Error::request(series.name + ": moments fall with curvature (slope " + rounded(slope) +
+                         " N m), and must rise: turn the sign of one of the columns");
+  }
+  check_rigidity(slope, "the slope of " + series.name);
+  if (series.reversals > 0 && relative_work(series) < -kWorkOfNoise) {
+    throw Error::request(series.name +
+                         ": along its rows the fabric gives back more work than it takes; the "
+                         "rows run backwards in time");
+  }
+}
+
+}  // namespace
+
+double MomentSeries::largest_curvature() const { return largest_magnitude(drive); }
+double MomentSeries::largest_moment() const { return largest_magnitude(moment); }
+
+void check_rigidity(double value, const std::string& what) {
+  if (value >= kLeastRigidity && value <= kGreatestRigidity) return;
+  const bool large = value > kGreatestRigidity;
+  const double factor = kGramForceSquareCentimetrePerCentimetre;
+  throw Error::request(
+      what + " = " + rounded(value) + " N m must be in [" + number_text(kLeastRigidity) + ", " +
+      number_text(kGreatestRigidity) + "] N m, as fabrics are; " +
+      (large ? "KES prints gf cm^2/cm, which is 9.80665e-05 N m (moments in gf cm/cm: 0.00980665 N, "
+               "curvatures in 1/cm: 100/m), and times 9.80665e-05 it is "
+             : "converted from gf cm^2/cm twice? Divided by 9.80665e-05 it is ") +
+      rounded(large ? value * factor : value / factor) + " N m");
+}
+
+void prepare(MomentSeries& series, double ripple) {
+  if (series.rows() < kFewestRows) {
+    throw Error::request(series.name + ": " + std::to_string(series.rows()) + " rows, at least " +
+                         std::to_string(kFewestRows) + " are needed");
+  }
+  const double range = range_of(series.curvature);
+  if (!(range > 0)) {
+    throw Error::request(series.name + ": the curvature is " + number_text(series.curvature.front()) +
+                         " 1/m in all rows, and must vary");
+  }
+  const std::vector<int> turns = turning_rows(series.curvature, ripple * range);
+  series.reversals = static_cast<int>(turns.size()) - 2;
+  series.drive = series.curvature;
+  for (std::size_t i = 1; i < turns.size(); ++i) {
+    const int first = turns[i - 1], last = turns[i];
+    const double way = series.curvature[last] - series.curvature[first];
+    make_monotone(&series.drive[first], last - first + 1, way >= 0 ? 1 : -1);
+  }
+  check_magnitudes(series);
+}
+
+MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader) {
+  const Table table = read_csv(file, {kCurvature, kMoment}, {kTime}, reader);
+  MomentSeries series;
+  series.name = file.filename().string();
+  series.curvature = table.find(kCurvature)->values;
+  series.moment = table.find(kMoment)->values;
+  if (const Column* time = table.find(kTime)) {
+    for (std::size_t i = 0; i < time->values.size(); ++i) {
+      series.seconds.push_back(i == 0 ? 0 : time->values[i] - time->values[i - 1]);
+      if (series.seconds.back() >= 0) continue;
+      throw table.refusal(i, "time = " + number_text(time->values[i]) + " s must be >= " +
+                                 number_text(time->values[i - 1]) + " s, the time of the row before");
+    }
+  }
+  prepare(series, ripple);
+  return series;
+}
+
+std::vector<LawRow> law_rows(const MomentSeries& series, bool cycling) {
+  std::vector<LawRow> rows;
+  for (int pass = cycling ? 0 : 1; pass < 2; ++pass) {
+    for (int i = 0; i < series.rows(); ++i) {
+      rows.push_back({series.drive[i], series.seconds.empty() ? 1 : series.seconds[i]});
+    }
+  }
+  return rows;
+}
+
+}  // namespace hysteron

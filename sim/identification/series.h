@@ -1,0 +1,47 @@
+// A measured moment-curvature curve: what `fit` accepts as one, and what drives a law through it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/bending/laws/law_run.h"
+
+namespace hysteron {
+
+struct MomentSeries {
+  std::string name;               // of the file, without its folder
+  std::vector<double> curvature;  // as measured [1/m], in the order of measurement
+  std::vector<double> moment;     // [N]
+  std::vector<double> seconds;    // from the row before [s]; empty: not measured
+  // Curvature that a law follows [1/m]: the nearest in the least squares sense that turns only where the
+  // measured one comes back by more than noise.  A law with memory would take every ripple for a reversal.
+  std::vector<double> drive;
+  int reversals = 0;  // of `drive`
+
+  int rows() const { return static_cast<int>(moment.size()); }
+  double largest_curvature() const;  // of |drive| [1/m]
+  double largest_moment() const;     // of |moment| [N]
+};
+
+// Columns `curvature [1/m]`, `moment [N]`, optional `time [s]`.  `ripple`: curvature that comes back by less
+// than this share of its range is noise.  Throws Error::machine, and Error::request for a file that is no
+// moment-curvature curve: few rows, constant curvature, moments that fall with curvature, rows that run
+// backwards, magnitudes that no fabric has (other units).
+MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader);
+
+// Fills `drive` and `reversals` from `curvature`; checks as read_series does.
+void prepare(MomentSeries& series, double ripple);
+
+// Accepted steps of a law: from rest, or (`cycling`) once through the whole series before it.
+std::vector<LawRow> law_rows(const MomentSeries& series, bool cycling);
+
+inline constexpr int kFewestRows = 8;              // three parameters, and five to see that they fit
+inline constexpr double kLeastRigidity = 1e-8;     // [N m] no fabric is limper
+inline constexpr double kGreatestRigidity = 1e-3;  // [N m] no fabric is stiffer
+
+// Throws Error::request if `value` [N m] is no rigidity of a fabric, and says by which factor it is one.
+// `what`: "kes.b", "the slope of loop.csv".
+void check_rigidity(double value, const std::string& what);
+
+}  // namespace hysteron

@@ -1,0 +1,188 @@
+#include "sim/mesh/mesh_sequence.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+namespace {
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string format_of(const fs::path& file) { return lower(file.extension().string()); }
+
+bool is_mesh(const fs::path& file) { return format_of(file) == ".obj" || format_of(file) == ".ply"; }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// The digits from `at` on without leading zeros; moves `at` behind them.
+std::string number_at(const std::string& text, std::size_t& at) {
+  while (at < text.size() && text[at] == '0') ++at;
+  const std::size_t from = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return text.substr(from, at - from);
+}
+
+// frame2 before frame10.
+bool natural_less(const std::string& a, const std::string& b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string m = number_at(a, i), n = number_at(b, j);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+    }
+  }
+  if ((i < a.size()) != (j < b.size())) return j < b.size();
+  return a < b;
+}
+
+std::vector<fs::path> meshes_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+    if (is_mesh(entry->path()) && !entry->is_directory()) files.push_back(entry->path());
+  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+// The last name of a path that may end in "/" or be ".".
+std::string name_of(const fs::path& path) {
+  const fs::path whole = fs::weakly_canonical(path);
+  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+  return name.empty() || name == "/" ? "root" : name;
+}
+
+MeshSequence folder_sequence(const fs::path& folder) {
+  MeshSequence sequence{name_of(folder), meshes_in(folder)};
+  if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
+    sequence.files = meshes_in(folder / "mesh");
+  if (sequence.files.empty())
+    throw Error::request("the folder " + folder.string() + " holds no .obj and no .ply");
+  if (sequence.name == "mesh") sequence.name = name_of(fs::weakly_canonical(folder).parent_path());
+  return sequence;
+}
+
+void check_format(const MeshSequence& sequence) {
+  for (const fs::path& file : sequence.files)
+    if (format_of(file) != format_of(sequence.files.front()))
+      throw Error::request("one sequence of two formats: " + sequence.files.front().string() + " and " +
+                           file.string());
+}
+
+void name_files(MeshSequence& sequence) {
+  sequence.name = sequence.files.size() == 1 ? sequence.files.front().stem().string()
+                                             : name_of(fs::absolute(sequence.files.front()).parent_path());
+}
+
+// Names of folders in the results.
+void tell_apart(std::vector<MeshSequence>& sequences) {
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    const std::string name = sequences[i].name;
+    const auto taken = [&] {
+      return std::any_of(sequences.begin(), sequences.begin() + static_cast<std::ptrdiff_t>(i),
+                         [&](const MeshSequence& s) { return s.name == sequences[i].name; });
+    };
+    for (int number = 2; taken(); ++number) sequences[i].name = name + "-" + std::to_string(number);
+  }
+}
+
+// Of all triangles, and of their images in the texture.
+double area_of(const Surface& surface) {
+  double area = 0;
+  for (const Eigen::Vector3i& f : surface.face)
+    area += (surface.vertex[f[1]] - surface.vertex[f[0]])
+                .cross(surface.vertex[f[2]] - surface.vertex[f[0]])
+                .norm() /
+            2;
+  return area;
+}
+
+double texture_area_of(const Surface& surface) {
+  double area = 0;
+  for (const Eigen::Vector3i& f : surface.face) {
+    const Eigen::Vector2d u = surface.pattern[f[1]] - surface.pattern[f[0]],
+                          v = surface.pattern[f[2]] - surface.pattern[f[0]];
+    area += std::abs(u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  return area;
+}
+
+// Cloth stretches by less: texture coordinates within this factor of its lengths are lengths.
+constexpr double kStretch = 1.25;
+
+double texture_scale(const Surface& surface) {
+  const double scale = std::sqrt(area_of(surface) / texture_area_of(surface));
+  if (!std::isfinite(scale) || (scale < kStretch && scale > 1 / kStretch)) return 1;
+  return scale;
+}
+
+}  // namespace
+
+std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) {
+  std::vector<MeshSequence> sequences;
+  std::ptrdiff_t loose = -1;  // the sequence of single files
+  for (const std::string& word : words) {
+    const fs::path path(word);
+    if (!fs::exists(path)) throw Error::request("no such file or folder: " + word);
+    if (fs::is_directory(path)) {
+      sequences.push_back(folder_sequence(path));
+      continue;
+    }
+    if (!is_mesh(path)) throw Error::request("mesh " + word + ": its name must end in .obj or .ply");
+    if (loose < 0) {
+      loose = static_cast<std::ptrdiff_t>(sequences.size());
+      sequences.emplace_back();
+    }
+    sequences[loose].files.push_back(path);
+  }
+  if (loose >= 0) name_files(sequences[loose]);
+  for (const MeshSequence& sequence : sequences) check_format(sequence);
+  tell_apart(sequences);
+  return sequences;
+}
+
+Surface read_frame(const fs::path& file, const FileAxes& axes) {
+  Surface surface = read_surface(file.string());
+  for (Eigen::Vector3d& x : surface.vertex) {
+    if (axes.y_up) x = {x.x(), -x.z(), x.y()};
+    x *= axes.metre;
+  }
+  for (double& k : surface.curvature) k /= axes.metre;
+  return surface;
+}
+
+std::vector<float> thread_coordinates(const Surface& surface) {
+  std::vector<float> thread;
+  thread.reserve(2 * surface.vertex.size());
+  if (!surface.pattern.empty()) {
+    const double scale = texture_scale(surface);
+    for (const Eigen::Vector2d& at : surface.pattern)
+      for (int k = 0; k < 2; ++k) thread.push_back(static_cast<float>(scale * at[k]));
+    return thread;
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : surface.vertex) box.extend(x);
+  int thinnest = 2;
+  for (int k : {1, 0})
+    if (box.sizes()[k] < box.sizes()[thinnest]) thinnest = k;
+  for (const Eigen::Vector3d& x : surface.vertex)
+    for (int k = 0; k < 3; ++k)
+      if (k != thinnest) thread.push_back(static_cast<float>(x[k]));
+  return thread;
+}
+
+}  // namespace hysteron

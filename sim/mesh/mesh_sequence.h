@@ -1,0 +1,38 @@
+// Sequences of mesh files, from this program or another.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/mesh/surface.h"
+
+namespace hysteron {
+
+struct MeshSequence {
+  std::string name;
+  std::vector<std::filesystem::path> files;  // one a frame, all of one format
+};
+
+// From the words of a command line: each folder is a sequence, its *.obj or *.ply in the order of their names
+// (numbers in them by value); the files together are one more, in the order given, in the first one's place.
+// A folder without meshes that has a folder mesh/ of them, as a run leaves it with --export, stands for that.
+// Sequences are named after their folder (of mesh/ the one above), a single file after itself; equal names
+// get numbers.  Throws Error::request for words that are no mesh file or folder, folders without meshes, and
+// sequences of both formats.
+std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
+
+// How a file's coordinates stand to metres with z up.
+struct FileAxes {
+  double metre = 1;   // one unit of the file [m]
+  bool y_up = false;  // (x, y, z) of the file is (x, -z, y) here
+};
+// A frame in metres, z up; its curvature in 1/m.  Throws what read_surface throws.
+Surface read_frame(const std::filesystem::path& file, const FileAxes& axes);
+
+// Warp and weft coordinates [m] of each vertex, for the look's threads, 2 a vertex.  Texture coordinates
+// where the surface has them, scaled to its area unless they are lengths already; otherwise the two axes
+// along which the surface extends most, in alphabetical order: x and y of a cloth that lies flat.
+std::vector<float> thread_coordinates(const Surface& surface);
+
+}  // namespace hysteron

@@ -1,0 +1,179 @@
+#include "sim/reference/kes.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "sim/bending/laws/recovery.h"
+
+namespace hysteron {
+namespace {
+
+using Family = MinorLoop::Family;
+
+constexpr double kAmplitudes[] = {0.1, 0.25, 0.45, 0.65, 0.85};  // of the full amplitude
+constexpr double kPartialReversals[] = {0.5, 0.1, -0.3, -0.7};   // of the full amplitude
+constexpr double kAreaRounding = 1e-9;  // of amplitude times moment: what the sum over a closed line leaves
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Rows and moments of one leg, on which the curvature is monotone.
+struct Leg {
+  const LawRow* row;
+  const double* moment;
+  std::size_t count;
+
+  double moment_at(double curvature) const {
+    for (std::size_t i = 1; i < count; ++i) {
+      const double a = row[i - 1].curvature, b = row[i].curvature;
+      if (a != b && (curvature - a) * (curvature - b) <= 0)
+        return moment[i - 1] + (moment[i] - moment[i - 1]) * (curvature - a) / (b - a);
+    }
+    return kNaN;
+  }
+  // Where the moment, positive at first, has come down to zero.
+  double root() const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (moment[i] > 0) continue;
+      if (i == 0) return row[0].curvature;
+      const double share = moment[i - 1] / (moment[i - 1] - moment[i]);
+      return row[i - 1].curvature + share * (row[i].curvature - row[i - 1].curvature);
+    }
+    return kNaN;
+  }
+  double work() const {  // int M dK
+    double sum = 0;
+    for (std::size_t i = 1; i < count; ++i)
+      sum += (moment[i - 1] + moment[i]) / 2 * (row[i].curvature - row[i - 1].curvature);
+    return sum;
+  }
+};
+
+Leg leg(const KesWalk& walk, const std::vector<double>& moment, std::size_t index) {
+  const std::size_t first = walk.start[index], last = walk.start[index + 1];
+  return {&walk.rows[first], &moment[first], last - first + 1};
+}
+
+std::vector<double> cycled(double amplitude, int cycles) {
+  std::vector<double> turns = {amplitude};
+  for (int i = 0; i < cycles; ++i) turns.insert(turns.end(), {-amplitude, amplitude});
+  return turns;
+}
+
+// From the amplitude to its opposite and back, the area that the moments enclose [J/m^2].
+double area_of_cycle(int cycle, const KesWalk& walk, const std::vector<double>& moment) {
+  const Leg down = leg(walk, moment, 1 + 2 * cycle), back = leg(walk, moment, 2 + 2 * cycle);
+  const double area = down.work() + back.work();
+  const double rounding = kAreaRounding * std::abs(down.moment[0] * down.row[0].curvature);
+  return std::abs(area) > rounding ? area : 0;
+}
+
+// `moment` where a leg ends is that before the command.
+void count_cases(const VirginCurve& curve, const KesWalk& walk, const std::vector<double>& moment,
+                 std::array<int, 3>& cases) {
+  for (std::size_t i = 1; i + 1 < walk.start.size(); ++i) {
+    std::size_t turn = walk.start[i];
+    if (turn > 0 && walk.rows[turn].curvature == walk.rows[turn - 1].curvature) --turn;
+    ++cases[static_cast<int>(recovery_case(curve, moment[turn])) - 1];
+  }
+}
+
+// Rows from the `first` leg on.
+MinorLoop cut_out(Family family, double reversal, const KesWalk& walk, const std::vector<double>& moment,
+                  std::size_t first) {
+  MinorLoop loop{family, reversal, {}, {}};
+  for (std::size_t i = walk.start[first]; i < walk.rows.size(); ++i) {
+    loop.curvature.push_back(walk.rows[i].curvature);
+    loop.moment.push_back(moment[i]);
+  }
+  return loop;
+}
+
+void test_minor_loop(const LawRequest& request, const KesProtocol& p, Family family, double reversal,
+                     KesTest& test) {
+  const bool amplitude = family == Family::amplitude;
+  const KesWalk walk = walk_to(
+      amplitude ? cycled(reversal, p.cycles) : std::vector<double>{p.amplitude, reversal, p.amplitude}, p);
+  const std::vector<double> moment = run_law(request, walk.rows).moment;
+  count_cases(request.curve, walk, moment, test.recovery_cases);
+  const std::size_t legs = walk.start.size() - 1;
+  test.minor_loops.push_back(cut_out(family, reversal, walk, moment, legs - 2));
+}
+
+std::string per_metre(double curvature) { return fmt::format("{:g} 1/m", curvature); }
+
+}  // namespace
+
+void check_protocol(const KesProtocol& p) {
+  if (!(p.slope_from >= 0 && p.slope_from < p.slope_to && p.slope_to <= p.amplitude)) {
+    throw Error::request("slope-from = " + per_metre(p.slope_from) + ", slope-to = " + per_metre(p.slope_to) +
+                         " must be 0 <= slope-from < slope-to <= amplitude = " + per_metre(p.amplitude))
+        .of("slope-from", fmt::format("{:g}", p.slope_from))
+        .in("kes");
+  }
+  if (!(p.width_at > 0 && p.width_at < p.amplitude)) {
+    throw Error::request("width-at = " + per_metre(p.width_at) +
+                         " must be > 0 and < amplitude = " + per_metre(p.amplitude))
+        .of("width-at", fmt::format("{:g}", p.width_at))
+        .in("kes");
+  }
+}
+
+KesWalk walk_to(const std::vector<double>& turns, const KesProtocol& p) {
+  const double step = p.amplitude / p.steps;
+  KesWalk walk{{LawRow{0, 0, false}}, {0}};
+  double from = 0;
+  for (double turn : turns) {
+    const int count = std::max(1, static_cast<int>(std::lround(std::abs(turn - from) / step)));
+    const double seconds = std::abs(turn - from) / count / p.rate;
+    for (int i = 1; i <= count; ++i)
+      walk.rows.push_back({i == count ? turn : from + (turn - from) * i / count, seconds, false});
+    if (std::abs(turn) >= p.amplitude) walk.rows.push_back({turn, 0, true});
+    walk.start.push_back(walk.rows.size() - 1);
+    from = turn;
+  }
+  return walk;
+}
+
+KesReading read_loop(const KesProtocol& p, const KesWalk& walk, const std::vector<double>& moment) {
+  const Leg up = leg(walk, moment, 0), down = leg(walk, moment, 1), back = leg(walk, moment, 2);
+  const auto slope = [&](const Leg& loading, double side) {
+    return side * (loading.moment_at(side * p.slope_to) - loading.moment_at(side * p.slope_from)) /
+           (p.slope_to - p.slope_from);
+  };
+  KesReading reading;
+  reading.rigidity = (slope(up, 1) + slope(down, -1)) / 2;
+  reading.loop_width = (up.moment_at(p.width_at) - down.moment_at(p.width_at) + back.moment_at(-p.width_at) -
+                        down.moment_at(-p.width_at)) /
+                       2;
+  reading.residual = down.root();
+  reading.loop_area = area_of_cycle(p.cycles - 1, walk, moment);
+  const double before = p.cycles > 1 ? area_of_cycle(p.cycles - 2, walk, moment) : kNaN;
+  reading.area_change = before == 0 ? 0 : reading.loop_area / before - 1;
+  return reading;
+}
+
+KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol) {
+  check_protocol(protocol);
+  KesTest test;
+  test.walk = walk_to(cycled(protocol.amplitude, protocol.cycles), protocol);
+  test.moment = run_law(request, test.walk.rows).moment;
+  test.reading = read_loop(protocol, test.walk, test.moment);
+  count_cases(request.curve, test.walk, test.moment, test.recovery_cases);
+
+  const LawChoice law = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
+  test.reading.residual_by_formula =
+      has_residual_formula(law)
+          ? residual_by_formula(law, protocol.amplitude, test.moment[test.walk.start[1] - 1])
+          : kNaN;
+  if (!protocol.minor_loops) return test;
+  for (double a : kAmplitudes)
+    test_minor_loop(request, protocol, Family::amplitude, a * protocol.amplitude, test);
+  for (double k : kPartialReversals)
+    test_minor_loop(request, protocol, Family::partial_reversal, k * protocol.amplitude, test);
+  return test;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,67 @@
+// The KES-FB2 pure bending test (Kawabata 1980) of a moment-curvature law alone: a specimen is bent uniformly
+// at a constant rate to +-2.5 per cm, and its moment per width recorded.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/bending/laws/law_run.h"
+
+namespace hysteron {
+
+struct KesProtocol {
+  double amplitude = 250;  // largest curvature [1/m]
+  double rate = 50;        // of curvature [1/(m s)], 0.5 per cm and second
+  double slope_from = 50;  // B is the slope between these two curvatures [1/m]
+  double slope_to = 150;   //
+  double width_at = 100;   // curvature at which 2HB, the loop's width, is read [1/m]
+  int steps = 20000;  // accepted steps to the amplitude; laws that take time need many to be exact to 1e-4
+  int cycles = 3;     // the tester reads the first; the area is that of the last
+  bool minor_loops = true;  // test smaller amplitudes and partial reversals as well
+};
+
+// Throws Error::request if curvatures are not 0 <= slope_from < slope_to <= amplitude or 0 < width_at <
+// amplitude.
+void check_protocol(const KesProtocol& protocol);
+
+// A history of curvatures at a constant rate: from rest to each turning point in order.
+struct KesWalk {
+  std::vector<LawRow> rows;        // begins with K = 0
+  std::vector<std::size_t> start;  // of the leg to each turning point: its first row; and the end of the last
+};
+// Each full amplitude is visited twice: as it is reached, and by a row without duration that carries the
+// command to `grinspun-edit`.
+KesWalk walk_to(const std::vector<double>& turns, const KesProtocol& protocol);
+
+// What the tester reads, each the mean of the positive and the negative side.
+struct KesReading {
+  double rigidity = 0;             // B [N m], slope of the branch on which |K| grows
+  double loop_width = 0;           // 2HB [N]
+  double residual = 0;             // curvature at zero moment after release from the amplitude [1/m]
+  double residual_by_formula = 0;  // the same in closed form; NaN if the law has none
+  double loop_area = 0;            // of the last cycle [J/m^2]
+  double area_change = 0;          // of the area, by the last cycle; NaN if there was only one
+};
+
+// `moment` has one value per row of the walk: to the amplitude and then `cycles` cycles.
+KesReading read_loop(const KesProtocol& protocol, const KesWalk& walk, const std::vector<double>& moment);
+
+// A smaller cycle, closed if the law closes it.
+struct MinorLoop {
+  enum class Family { amplitude = 1, partial_reversal = 2 } family;
+  double reversal = 0;                    // amplitude, or where the release from full amplitude ends [1/m]
+  std::vector<double> curvature, moment;  // [1/m], [N]
+};
+
+struct KesTest {
+  KesReading reading;
+  KesWalk walk;
+  std::vector<double> moment;  // [N], one per row of the walk
+  std::vector<MinorLoop> minor_loops;
+  std::array<int, 3> recovery_cases{};  // reversals with |M| <= Ma, <= 2 Ma, > 2 Ma, in all loops
+};
+
+// Throws Error::request as run_law().
+KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol = {});
+
+}  // namespace hysteron

@@ -1,0 +1,70 @@
+// `hysteron kes` of the law alone: its metrics, tables and flags.
+#include <nlohmann/json.hpp>
+
+#include "sim/base/error.h"
+#include "sim/bending/laws/law_parameters.h"
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kRounding = 1e-9;  // relative: sums of some thousand rows
+
+std::vector<std::string> all_laws() {
+  std::vector<std::string> names;
+  for (const LawEntry& law : law_catalogue()) names.push_back(law.name);
+  return names;
+}
+
+class KesCommand : public testing::Test {
+ protected:
+  Json run(std::vector<Flag> flags) {
+    flags.push_back({"out", folder_.path().string()});
+    flags.push_back({"no-images", "true"});
+    flags.push_back({"quick", "true"});
+    testing::internal::CaptureStdout();
+    const int exit_code = experiment_named("kes").run({"kes", "hysteron kes", flags, {}});
+    printed_ = testing::internal::GetCapturedStdout();
+    EXPECT_EQ(exit_code, 0);
+    return Json::parse(text_of(folder_.path() / "manifest.json"));
+  }
+  Folder folder_;
+  std::string printed_;
+};
+
+TEST_F(KesCommand, NamesItsMetricsByWhatTellsThemApart) {
+  EXPECT_TRUE(run({})["metrics"].contains("2HB_N"));
+  EXPECT_TRUE(run({{"law", "wong,linear"}})["metrics"].contains("wong.2HB_N"));
+  const Json several = run({{"fabric", "cotton-broad,wool-tropical"}, {"law", "wong"}})["metrics"];
+  EXPECT_TRUE(several.contains("wool-tropical.wong.residual_curvature_per_m")) << several;
+}
+
+TEST_F(KesCommand, TestsEveryLawAndWritesItsTables) {
+  const Json manifest = run({{"law", "all"}});
+  EXPECT_TRUE(manifest["complete"]);
+  for (const std::string& law : all_laws()) {
+    for (const char* key : {"B_N_m", "2HB_N", "residual_curvature_per_m", "loop_area_J_per_m2"})
+      EXPECT_TRUE(manifest["metrics"][law + "." + key].is_number()) << law << " " << key;
+    EXPECT_NE(printed_.find("\n" + law + " "), std::string::npos) << law;
+  }
+  for (const char* file : {"loops.csv", "table.csv", "report.html"})
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / file)) << file;
+}
+
+TEST_F(KesCommand, TakesAFabricsNumbersFromFlags) {
+  const Json manifest = run({{"fabric", "cotton_broad"}, {"fabric.b2", "2e-5"}, {"law", "linear"}});
+  EXPECT_NEAR(manifest["metrics"]["B_N_m"].get<double>(), 2e-5, kRounding * 2e-5);
+  EXPECT_EQ(manifest["scene"]["fabric"]["b2"], 2e-5);
+  EXPECT_EQ(manifest["scene"]["fabric"]["provenance"]["b2"]["confidence"], "given");
+}
+
+TEST_F(KesCommand, GivesParametersToTheLawsThatHaveThem) {
+  const Json metrics = run({{"law", "linear,wong"}, {"param", "recovery=reversible"}})["metrics"];
+  EXPECT_TRUE(metrics.contains("linear.B_N_m"));
+  EXPECT_THROW(experiment_named("kes").run(
+                   {"kes", "", {{"law", "linear,pabst"}, {"param", "recovery=reversible"}}, {}}),
+               Error);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

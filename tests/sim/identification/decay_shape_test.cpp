@@ -1,0 +1,161 @@
+// How a swing's amplitude falls: turning points of known series, exponents of the closed laws of decay.
+#include "sim/identification/decay_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hysteron {
+namespace {
+
+constexpr double kAny = 1e9;  // amplitudes that are all small
+constexpr double kPi = 3.14159265358979323846;
+
+std::vector<Amplitude> series_of(const std::vector<double>& values) {
+  std::vector<Amplitude> all;
+  for (std::size_t i = 0; i < values.size(); ++i) all.push_back({static_cast<int>(i), 0.1 * i, values[i]});
+  return all;
+}
+
+// Of 12 turns, from 60 mm.
+template <class Law>
+std::vector<Amplitude> decaying(const Law& law) {
+  std::vector<double> values;
+  for (int n = 0; n < 12; ++n) values.push_back(0.06 * law(n));
+  return series_of(values);
+}
+
+TEST(TurningPoints, OfASineAreItsExtremesBetweenTheSamples) {
+  std::vector<double> time, x;
+  const double rate = 2 * kPi * 1.7, step = 1.0 / 60, phase = 0.3;
+  for (int i = 0; i < 120; ++i)
+    time.push_back(i * step), x.push_back(3 + 0.02 * std::sin(rate * i * step + phase));
+  const auto turns = turning_points(time, x, 1e-3);
+  ASSERT_EQ(turns.size(), 7u) << "6.8 half periods after a tenth of one";
+  // With samples h apart the parabola misses a sine's vertex by some (w h)^4/400 of the amplitude, in time by
+  // some (w h)^2/50 of h; w h = 0.18.
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    EXPECT_NEAR(turns[k].time, ((0.5 + k) * kPi - phase) / rate, 1e-2 * step);
+    EXPECT_NEAR(turns[k].value, 3 + (k % 2 ? -0.02 : 0.02), 1e-3 * 0.02);
+  }
+}
+
+TEST(TurningPoints, PassOverWavesSmallerThanTheLeast) {
+  std::vector<double> time, x;
+  for (int i = 0; i < 400; ++i) {
+    time.push_back(0.01 * i);
+    x.push_back(std::cos(2 * kPi * 0.01 * i) - 0.02 * std::sin(40 * kPi * 0.01 * i));
+  }
+  EXPECT_EQ(turning_points(time, x, 0.1).size(), 7u);
+  EXPECT_GT(turning_points(time, x, 1e-3).size(), 20u);
+}
+
+// A step back by half of the way so far makes turns of its own, one by a fifth none.
+TEST(TurningPoints, PassOverRipplesOnLargerSwings) {
+  for (const double ripple : {1.0 / 3, 1.0 / 9}) {
+    std::vector<double> time, x;
+    for (int n = 0; n <= 8; ++n)  // to and fro between -1 and 1, with a step back on the way
+      for (const double at : {n % 2 ? 1.0 : -1.0, n % 2 ? -ripple : ripple, n % 2 ? ripple : -ripple})
+        time.push_back(static_cast<double>(time.size())), x.push_back(at);
+    EXPECT_EQ(turning_points(time, x, 0.01, 0.25).size(), ripple > 0.25 ? 25u : 8u) << ripple;
+  }
+}
+
+// A drift of the middle, as of cloth that settles, is no amplitude.
+TEST(Amplitudes, AreDistancesToTheNeighboursMean) {
+  std::vector<TurningPoint> turns;
+  for (int n = 0; n < 8; ++n) turns.push_back({0.1 * n, 0.5 + 0.03 * n + (n % 2 ? -0.2 : 0.2)});
+  const auto all = amplitudes_of(turns);
+  ASSERT_EQ(all.size(), 6u);
+  for (const Amplitude& a : all) EXPECT_NEAR(a.value, 0.2, 1e-15) << a.turn;
+  EXPECT_EQ(all.front().turn, 1);
+}
+
+struct Closed {
+  const char* name;
+  DecayShape shape;
+  double exponent;
+  double (*law)(int);
+};
+const Closed kClosed[] = {
+    {"linear", DecayShape::linear, 0, [](int n) { return 1 - 0.05 * n; }},
+    {"exponential", DecayShape::exponential, 1, [](int n) { return std::exp(-0.08 * n); }},
+    {"hyperbolic", DecayShape::hyperbolic, 2, [](int n) { return 1 / (1 + 0.1 * n); }},
+    {"steeper than hyperbolic", DecayShape::steeper, 4,
+     [](int n) { return std::pow(1 + 3 * 0.15 * n, -1.0 / 3); }},
+};
+
+TEST(DecayShape, OfEveryClosedLawIsItsOwn) {
+  for (const Closed& closed : kClosed) {
+    const Decay decay = decay_of(decaying(closed.law), kAny);
+    ASSERT_TRUE(decay.exponent) << closed.name;
+    EXPECT_NEAR(*decay.exponent, closed.exponent, 1e-5) << closed.name;
+    EXPECT_LT(*decay.exponent_stderr, 1e-3) << closed.name;
+    EXPECT_EQ(decay.shape, closed.shape);
+    EXPECT_EQ(name_of(decay.shape), closed.name);
+    EXPECT_NEAR(decay.per_turn, 1 - std::pow(closed.law(11), 1.0 / 11), 1e-12);
+    EXPECT_NEAR(decay.fitted(7), 0.06 * closed.law(7), 1e-7) << closed.name;
+  }
+}
+
+// Through p = 1 the closed form is continuous, and stops at rest for p = 0.
+TEST(DecayShape, HasOneFormulaForAllExponents) {
+  for (double p : {1 - 1e-9, 1 - 1e-5, 1 + 1e-5, 1 + 1e-9})
+    EXPECT_NEAR(decayed(2, 0.1, p, 5) / (2 * std::exp(-0.5)), 1, 1e-5) << p;
+  EXPECT_DOUBLE_EQ(decayed(2, 0.1, 0, 5), 1);
+  EXPECT_EQ(decayed(2, 0.1, 0, 10), 0);
+  EXPECT_EQ(decayed(2, 0.1, 0, 11), 0);
+  EXPECT_DOUBLE_EQ(decayed(2, 0.1, 2, 5), 2 / 1.5);
+}
+
+// Noise of 1 % of the first amplitude, the same for all: the truth is within three standard errors.
+TEST(DecayShape, IsAsUncertainAsItsAmplitudesAreNoisy) {
+  for (const Closed& closed : kClosed) {
+    auto all = decaying(closed.law);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].value += 0.01 * 0.06 * std::sin(2.4 * i * i + 1);
+    const Decay decay = decay_of(all, kAny);
+    EXPECT_GT(*decay.exponent_stderr, 0.02) << closed.name;
+    EXPECT_LT(std::abs(*decay.exponent - closed.exponent), 3 * *decay.exponent_stderr) << closed.name;
+  }
+}
+
+TEST(DecayShape, IsNotNamedWhereAmplitudesAreFewOrNoisy) {
+  const auto law = [](int n) { return 1 / (1 + 0.1 * n); };
+  EXPECT_EQ(decay_of({}, kAny).shape, DecayShape::unknown);
+  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).shape, DecayShape::unknown);
+  EXPECT_FALSE(decay_of(series_of({1, law(1), law(2), law(3)}), kAny).exponent);
+  EXPECT_EQ(decay_of(series_of({1, law(1), law(2), law(3), law(4)}), kAny).shape, DecayShape::hyperbolic);
+  EXPECT_EQ(decay_of(series_of({1, 0.97, 0.94, 0.91, 0.88, 0.85}), kAny).shape, DecayShape::unknown)
+      << "15 %";
+  EXPECT_EQ(decay_of(series_of({1, 0.92, 0.95, 0.83, 0.86, 0.8, 0.81}), kAny).shape, DecayShape::unknown);
+}
+
+TEST(DecayShape, IsAPlateauWhereATurnTakesNothing) {
+  const Decay decay = decay_of(decaying([](int n) { return 0.3 + 0.7 * (n == 0) - 0.001 * n; }), kAny);
+  EXPECT_EQ(decay.first, 1u) << "the first turn took two thirds";
+  EXPECT_EQ(decay.shape, DecayShape::plateau);
+  EXPECT_FALSE(decay.exponent);
+  EXPECT_GT(decay.per_turn, 0);
+}
+
+TEST(DecayShape, IsThatOfSmallSwings) {
+  std::vector<double> values = {1, 0.9, 0.82};  // as by another law
+  for (int n = 0; n < 10; ++n) values.push_back(0.8 * std::exp(-0.05 * n));
+  const Decay decay = decay_of(series_of(values), 0.81);
+  EXPECT_EQ(decay.first, 3u);
+  EXPECT_NEAR(*decay.exponent, 1, 1e-5);
+  EXPECT_EQ(decay_of(series_of(values), 0.5).shape, DecayShape::unknown);
+}
+
+// Two modes beat; after them one is left.
+TEST(DecayShape, IsReadBehindTheLastTurnOfSeveralModes) {
+  std::vector<double> values = {1, 0.4, 0.9};
+  for (int n = 0; n < 10; ++n) values.push_back(0.5 * std::exp(-0.1 * n));
+  const Decay decay = decay_of(series_of(values), kAny);
+  EXPECT_EQ(decay.first, 3u);
+  EXPECT_EQ(decay.used, 10u);
+  EXPECT_NEAR(*decay.exponent, 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace hysteron

@@ -1,0 +1,97 @@
+// What is accepted as a measured curve, and how a law is driven through it.
+#include "sim/identification/series.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
+#include "tests/sim/identification/synthetic.h"
+
+namespace hysteron {
+namespace {
+
+struct BadFile {
+  const char* name;
+  const char* rows;
+  const char* reason;
+};
+
+class MeasuredFile : public testing::TestWithParam<BadFile> {};
+
+TEST_P(MeasuredFile, ThatIsNoCurveIsRefusedWithTheReason) {
+  const test::Folder folder;
+  const std::string file = folder.write("loop.csv", GetParam().rows);
+  try {
+    read_series(file, kRipple, "test");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find(GetParam().reason), std::string::npos) << error.what();
+  }
+}
+
+constexpr const char* kHead = "curvature [1/m],moment [N]\n";
+const std::string kNan = std::string(kHead) + "0,0\n10,nan\n";
+const std::string kFew = std::string(kHead) + "0,0\n10,1e-4\n20,2e-4\n";
+const std::string kConstant = std::string(kHead) + "10,0\n10,0\n10,0\n10,0\n10,0\n10,0\n10,0\n10,1e-4\n";
+const std::string kFalling =
+    std::string(kHead) + "0,0\n1,-1e-5\n2,-2e-5\n3,-3e-5\n4,-4e-5\n5,-5e-5\n6,-6e-5\n7,-7e-5\n";
+// B = 0.118 gf cm^2/cm against 1/cm, and the same in SI converted once too often.
+const std::string kGramForce =
+    std::string(kHead) + "0,0\n.3,.035\n.6,.07\n.9,.106\n1.2,.14\n1.5,.177\n1.8,.21\n2.1,.25\n";
+const std::string kTwice =
+    std::string(kHead) + "0,0\n30,3.4e-8\n60,6.8e-8\n90,1e-7\n120,1.4e-7\n150,1.7e-7\n180,2e-7\n210,2.4e-7\n";
+const std::string kTime = "curvature [1/m],moment [N],time [s]\n0,0,0\n10,1e-4,2\n20,2e-4,1\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Refused, MeasuredFile,
+    testing::Values(
+        BadFile{"WithNan", kNan.c_str(), "loop.csv:3: moment [N] = 'nan' must be a finite number"},
+        BadFile{"TooShort", kFew.c_str(), "3 rows, at least 8"},
+        BadFile{"OfConstantCurvature", kConstant.c_str(), "the curvature is 10 1/m in all rows"},
+        BadFile{"WithFallingMoments", kFalling.c_str(), "moments fall with curvature"},
+        BadFile{"InGramForce", kGramForce.c_str(), "times 9.80665e-05 it is"},
+        BadFile{"ConvertedTwice", kTwice.c_str(), "Divided by 9.80665e-05 it is"},
+        BadFile{"WithTimeThatRunsBack", kTime.c_str(), "time = 1 s must be >= 2 s"},
+        BadFile{"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n", "must be called 'curvature [1/m]'"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// Along a loop the fabric takes work; the same rows from the last to the first give it back.
+TEST(MeasuredCurve, WhoseRowsRunBackwardsIsRefused) {
+  MomentSeries series = measured("prandtl", kCotton, {250, -250, 250, -250, 250}, 0.02, 1);
+  std::reverse(series.curvature.begin(), series.curvature.end());
+  std::reverse(series.moment.begin(), series.moment.end());
+  try {
+    prepare(series, kRipple);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("rows run backwards"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Drive, FollowsTheMeasuredCurvatureWhereThatDoesNotRipple) {
+  const MomentSeries series = measured("prandtl", kCotton, {250, -250, 100}, 0, 1);
+  EXPECT_EQ(series.drive, series.curvature);
+  EXPECT_EQ(series.reversals, 2);
+}
+
+// Pooled adjacent violators: of 3 and 2 both become 2.5.
+TEST(Drive, RunsOneWayThroughRipple) {
+  MomentSeries series;
+  series.name = "ripple";
+  series.curvature = {0, 1, 3, 2, 4, 50, 60, 70, 80, 90};
+  for (double k : series.curvature) series.moment.push_back(1e-5 * k);
+  prepare(series, kRipple);
+  EXPECT_EQ(series.drive, (std::vector<double>{0, 1, 2.5, 2.5, 4, 50, 60, 70, 80, 90}));
+  EXPECT_EQ(series.reversals, 0);
+}
+
+TEST(Drive, GivesALawTheMeasuredTimes) {
+  MomentSeries series = measured("linear", kCotton, {250}, 0, 1);
+  series.seconds.assign(series.moment.size(), 0.25);
+  EXPECT_EQ(law_rows(series, false).at(3).seconds, 0.25);
+  EXPECT_EQ(law_rows(series, true).size(), 2 * series.moment.size());
+}
+
+}  // namespace
+}  // namespace hysteron

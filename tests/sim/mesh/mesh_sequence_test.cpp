@@ -1,0 +1,59 @@
+// Which files are a sequence, in which order and under which name; thread coordinates of a frame.
+#include "sim/mesh/mesh_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/base/folder.h"
+
+namespace hysteron {
+namespace {
+namespace fs = std::filesystem;
+
+// An empty file, in a folder of its own if its name says so.
+std::string touch(const test::Folder& folder, const std::string& name) {
+  fs::create_directories(fs::path(folder.file(name)).parent_path());
+  return folder.write(name, "");
+}
+
+TEST(MeshSequences, FoldersAreInNaturalOrderAndNamedApart) {
+  const test::Folder folder;
+  for (const char* name :
+       {"a/mesh/f10.obj", "a/mesh/f9.obj", "a/mesh/f0100.obj", "a/mesh/readme.txt", "b/a/x.PLY"})
+    touch(folder, name);
+  const auto sequences = mesh_sequences({folder.file("a/"), folder.file("a/mesh"), folder.file("b/a")});
+  ASSERT_EQ(sequences.size(), 3u);
+  EXPECT_EQ(sequences[0].name, "a");
+  EXPECT_EQ(sequences[1].name, "a-2");
+  EXPECT_EQ(sequences[2].name, "a-3");
+  std::vector<std::string> names;
+  for (const auto& file : sequences[0].files) names.push_back(file.filename());
+  EXPECT_EQ(names, (std::vector<std::string>{"f9.obj", "f10.obj", "f0100.obj"}));
+}
+
+TEST(MeshSequences, FilesAreOneSequenceInTheOrderGiven) {
+  const test::Folder folder;
+  const std::string a = touch(folder, "set/a.obj"), b = touch(folder, "set/b.obj");
+  const auto sequences = mesh_sequences({b, a});
+  ASSERT_EQ(sequences.size(), 1u);
+  EXPECT_EQ(sequences[0].name, "set");
+  EXPECT_EQ(sequences[0].files, (std::vector<fs::path>{b, a}));
+  EXPECT_EQ(mesh_sequences({a})[0].name, "a");
+}
+
+TEST(Threads, FollowTheTextureOrTheAxesAlongWhichTheSurfaceExtends) {
+  Surface upright;
+  upright.vertex = {{0, 0, 0}, {0.2, 0.01, 0}, {0, 0, 0.3}};
+  upright.face = {{0, 1, 2}};
+  EXPECT_EQ(thread_coordinates(upright), (std::vector<float>{0, 0, 0.2f, 0, 0, 0.3f}));
+  // A texture in lengths is taken as it is, one that runs from 0 to 1 is scaled to the surface's area.
+  Surface flat;
+  flat.vertex = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}};
+  flat.face = {{0, 1, 2}};
+  flat.pattern = {{0, 0}, {0.51, 0}, {0, 0.51}};
+  EXPECT_EQ(thread_coordinates(flat)[2], 0.51f);
+  flat.pattern = {{0, 0}, {1, 0}, {0, 1}};
+  EXPECT_EQ(thread_coordinates(flat), (std::vector<float>{0, 0, 0.5f, 0, 0, 0.5f}));
+}
+
+}  // namespace
+}  // namespace hysteron

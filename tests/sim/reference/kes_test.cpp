@@ -1,0 +1,183 @@
+#include "sim/reference/kes.h"
+
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/bending/laws/recovery.h"
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron {
+namespace {
+
+const VirginCurve kCotton{3.5892339e-5, 1.1571847e-5, 50};
+
+constexpr double kRounding = 1e-9;   // relative: sums of some thousand rows
+constexpr double kPublished = 0.01;  // relative: what a fabric's test must give back
+constexpr double kSampling = 1e-4;   // relative: what halving the steps may change in a reading
+
+std::vector<std::string> all_laws() {
+  std::vector<std::string> names;
+  for (const LawEntry& law : law_catalogue()) names.push_back(law.name);
+  return names;
+}
+
+std::string law_name(const testing::TestParamInfo<std::string>& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+// Where linear interpolation between two rows can miss the root of a curved branch: h^2 |M''|/(8 M') with
+// |M''| <= (b1 - b2)/K0 and M' >= b2.
+double root_tolerance(const VirginCurve& curve, const KesProtocol& p) {
+  const double h = p.amplitude / p.steps;
+  return h * h * (curve.b1 - curve.b2) / (8 * curve.k0 * curve.b2);
+}
+
+class PublishedPair : public testing::TestWithParam<std::string> {};
+
+TEST_P(PublishedPair, ComesBackFromPrandtlAndWong) {
+  const Fabric fabric = read_fabric(GetParam(), "test").fabric;
+  const double b = fabric.published.at("B").value * kGramForceSquareCentimetrePerCentimetre;
+  const double width = fabric.published.at("2HB").value * kGramForceCentimetrePerCentimetre;
+  for (const char* law : {"prandtl", "wong"}) {
+    const KesReading reading = test_in_kes({law, fabric.virgin_curve(), {}}).reading;
+    EXPECT_NEAR(reading.rigidity, b, kPublished * b) << law;
+    EXPECT_NEAR(reading.loop_width, width, kPublished * width) << law;
+    // With K0 at the window's lower end the test is exact, not only within a percent.
+    EXPECT_NEAR(reading.rigidity, fabric.b2, kRounding * b) << law;
+    EXPECT_NEAR(reading.residual, width / 2 / b, kPublished * width / 2 / b) << law;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kes, PublishedPair,
+                         testing::Values("cotton-broad", "wool-tropical", "polyester-tropical",
+                                         "polyester-faille"),
+                         law_name);
+
+class AnyLaw : public testing::TestWithParam<std::string> {};
+
+TEST_P(AnyLaw, IsReadTheSameWithHalfTheSteps) {
+  KesProtocol fine, coarse;
+  fine.minor_loops = coarse.minor_loops = false;
+  coarse.steps = fine.steps / 2;
+  const KesReading a = test_in_kes({GetParam(), kCotton, {}}, fine).reading;
+  const KesReading b = test_in_kes({GetParam(), kCotton, {}}, coarse).reading;
+  EXPECT_NEAR(a.rigidity, b.rigidity, kSampling * kCotton.b2);
+  EXPECT_NEAR(a.loop_width, b.loop_width, kSampling * 2 * kCotton.friction_moment());
+  EXPECT_NEAR(a.residual, b.residual, kSampling * fine.amplitude);
+  EXPECT_NEAR(a.loop_area, b.loop_area, kSampling * 4 * kCotton.friction_moment() * fine.amplitude);
+}
+
+TEST_P(AnyLaw, HasEveryReversalOfEveryLoopClassified) {
+  KesProtocol p;
+  p.steps = 200;
+  const KesTest test = test_in_kes({GetParam(), kCotton, {}}, p);
+  const int reversals_per_cycles = 2 * p.cycles, amplitudes = 5, partial = 4;
+  EXPECT_EQ(test.recovery_cases[0] + test.recovery_cases[1] + test.recovery_cases[2],
+            reversals_per_cycles * (1 + amplitudes) + 2 * partial);
+  EXPECT_EQ(test.minor_loops.size(), static_cast<std::size_t>(amplitudes + partial));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kes, AnyLaw, testing::ValuesIn(all_laws()), law_name);
+
+TEST(Kes, ElasticLawsHaveNeitherWidthNorAreaNorResidual) {
+  for (const char* law : {"linear", "bridson", "spring", "pabst"}) {
+    const KesTest test = test_in_kes({law, kCotton, {}});
+    EXPECT_NEAR(test.reading.loop_width, 0, kRounding * kCotton.friction_moment()) << law;
+    EXPECT_EQ(test.reading.loop_area, 0) << law;
+    EXPECT_NEAR(test.reading.residual, 0, kRounding) << law;
+    EXPECT_EQ(test.reading.residual_by_formula, 0) << law;
+  }
+}
+
+TEST(Kes, LoopAreaIsTheClosedFormBelowAndAboveTheElasticLimit) {
+  const double m0 = kCotton.friction_moment(), k0 = kCotton.k0;
+  for (const char* law : {"prandtl", "wong"}) {
+    const double area = test_in_kes({law, kCotton, {}}).reading.loop_area;
+    EXPECT_NEAR(area, 4 * m0 * (250 - 2 * k0 / 3), kSampling * area) << law;
+  }
+  KesProtocol small;
+  small.amplitude = 40, small.slope_from = 10, small.slope_to = 30, small.width_at = 20;
+  const double area = test_in_kes({"prandtl", kCotton, {}}, small).reading.loop_area;
+  EXPECT_NEAR(area, 4.0 / 3 * -kCotton.c1() * 40 * 40 * 40, kSampling * area);
+}
+
+// At u = width_at/K0 < 1 the loading branch of the positive side is still the virgin curve, F = M0 (2u -
+// u^2); everywhere else the friction at +-width_at has come to +-M0.
+TEST(Kes, WidthReadOnTheVirginCurveIsSmallerByItsMissingFriction) {
+  KesProtocol p;
+  p.width_at = 25;
+  const double u = p.width_at / kCotton.k0, m0 = kCotton.friction_moment();
+  const double positive = m0 * (2 * u - u * u) + m0, negative = 2 * m0;
+  const double width = test_in_kes({"prandtl", kCotton, {}}, p).reading.loop_width;
+  EXPECT_NEAR(width, (positive + negative) / 2, kRounding * m0);
+}
+
+TEST(Kes, ResidualCurvatureByRootIsTheOneByFormulaInAllThreeCases) {
+  const double amplitudes[] = {40, 100, 250};
+  for (const char* law : {"bilinear", "prandtl", "wong"}) {
+    for (int i = 0; i < 3; ++i) {
+      KesProtocol p;
+      p.amplitude = amplitudes[i];
+      p.slope_from = 0.2 * p.amplitude, p.slope_to = 0.6 * p.amplitude, p.width_at = 0.4 * p.amplitude;
+      const KesTest test = test_in_kes({law, kCotton, {}}, p);
+      const double moment = test.moment[test.walk.start[1] - 1];
+      EXPECT_EQ(static_cast<int>(recovery_case(kCotton, moment)), i + 1) << law << " " << p.amplitude;
+      EXPECT_NEAR(test.reading.residual, test.reading.residual_by_formula,
+                  root_tolerance(kCotton, p) + kRounding)
+          << law << " " << p.amplitude;
+    }
+  }
+}
+
+TEST(Kes, ResidualAfterAnEditAtFullAmplitudeIsTheAmplitude) {
+  const KesTest test = test_in_kes({"grinspun-edit", kCotton, {}});
+  EXPECT_EQ(test.reading.residual, 250);
+  EXPECT_TRUE(std::isnan(test.reading.residual_by_formula));
+}
+
+TEST(KesWalk, VisitsEveryTurnAtTheTestersRateAndCommandsAtFullAmplitudeOnly) {
+  const KesProtocol p;
+  const KesWalk walk = walk_to({250, 100, 250}, p);
+  double seconds = 0;
+  int edits = 0;
+  for (const LawRow& row : walk.rows) {
+    seconds += row.seconds;
+    edits += row.edit;
+    EXPECT_TRUE(!row.edit || row.curvature == 250) << row.curvature;
+  }
+  EXPECT_NEAR(seconds, (250 + 150 + 150) / p.rate, kRounding * seconds);
+  EXPECT_EQ(edits, 2);
+  const double turns[] = {0, 250, 100, 250};
+  ASSERT_EQ(walk.start.size(), 4u);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(walk.rows[walk.start[i]].curvature, turns[i]);
+}
+
+TEST(KesMinorLoops, OfPrandtlClose) {
+  for (const MinorLoop& loop : test_in_kes({"prandtl", kCotton, {}}).minor_loops) {
+    EXPECT_EQ(loop.curvature.front(), loop.curvature.back());
+    EXPECT_NEAR(loop.moment.front(), loop.moment.back(), kRounding * kCotton.friction_moment())
+        << loop.reversal;
+    EXPECT_GT(loop.curvature.size(), 2u);
+  }
+}
+
+TEST(KesProtocol, ThatCannotBeReadIsRefusedWithItsNumbers) {
+  KesProtocol outside, reversed, wide;
+  outside.slope_to = 300;
+  reversed.slope_from = 150;
+  wide.width_at = 250;
+  for (const KesProtocol& p : {outside, reversed, wide}) {
+    try {
+      check_protocol(p);
+      FAIL() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code(), 2);
+      EXPECT_NE(std::string(error.what()).find("250 1/m"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
