@@ -192,7 +192,7 @@ TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
   std::replace(help.begin(), help.end(), '\n', ' ');
   for (const char* part :
        {"radius of the pedestal [m], > 0, default 0.09", "lowered | dropped | relifted, default lowered",
-        "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default bdf2"})
+        "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default tr-bdf2"})
     EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
   EXPECT_NE(program("swing --help").out.find("default 1000"), std::string::npos)
       << "its own number of triangles";
