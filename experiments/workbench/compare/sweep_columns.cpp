@@ -152,6 +152,28 @@ class Watch {
   std::thread thread_;  // the last: it reads the others
 };
 
+// The GPU with the fewest runs on it, for each run that begins.
+class GpuQueue {
+ public:
+  explicit GpuQueue(int gpus) : runs_(gpus) {}
+  // -1 where there is none.
+  int take() {
+    const std::lock_guard lock(mutex_);
+    if (runs_.empty()) return -1;
+    const auto idlest = std::min_element(runs_.begin(), runs_.end());
+    ++*idlest;
+    return static_cast<int>(idlest - runs_.begin());
+  }
+  void give_back(int gpu) {
+    const std::lock_guard lock(mutex_);
+    if (gpu >= 0) --runs_[gpu];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<int> runs_;
+};
+
 }  // namespace
 
 SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
@@ -197,9 +219,12 @@ void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
     progress(line);
   };
   Watch watch(columns, say);
+  GpuQueue queue(gpus);
   const auto watched = [&](std::size_t i, int its_threads) {
     watch.begin(i);
-    run_column(columns[i], its_threads, gpus > 0 ? static_cast<int>(i) % gpus : -1, jobs.go_on);
+    const int gpu = queue.take();
+    run_column(columns[i], its_threads, gpu, jobs.go_on);
+    queue.give_back(gpu);
     watch.end(i);
   };
   const auto finish = [&](std::size_t i, int its_threads) {

@@ -42,8 +42,8 @@ int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
   if (variants.size() == 1) return once(line), 0;
   VariantPage page = page_of(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
-  if (page.setup.options.checkpoint > 0 || page.setup.options.resume)
-    throw Error::request("--checkpoint and --resume are of single runs: name one law, fabric, integrator");
+  if (page.setup.options.checkpoint > 0)
+    throw Error::request("--checkpoint is of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
   std::vector<SweepColumn> columns;
   for (const Variant& variant : variants)
@@ -52,7 +52,10 @@ int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);
-  const SweepJobs jobs{.threads = scene.threads, .gpu = scene.device != DeviceChoice::cpu, .go_on = true};
+  const SweepJobs jobs{.threads = scene.threads,
+                       .resume = page.setup.options.resume,
+                       .gpu = scene.device != DeviceChoice::cpu,
+                       .go_on = true};
   run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
   for (const SweepColumn& column : columns)
     if (column.exit_code == 1) throw Error::machine(column.name + ": " + column.stopped);

@@ -257,13 +257,27 @@ TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
   EXPECT_FALSE(fs::exists(out_ / "checkpoint.part-1-0"));
 }
 
-TEST(Resuming, IsRefusedWhereSeveralRunsAreAskedFor) {
+TEST(Checkpoints, AreRefusedWhereSeveralRunsAreAskedFor) {
   const Folder folder;
-  const Outcome outcome = program(kCrumple + " --law linear,prandtl --resume" + in(folder.path() / "out"));
+  const Outcome outcome =
+      program(kCrumple + " --law linear,prandtl --checkpoint 1" + in(folder.path() / "out"));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(
-      outcome.err,
-      "hysteron crumple: --checkpoint and --resume are of single runs: name one law, fabric, integrator\n");
+  EXPECT_EQ(outcome.err,
+            "hysteron crumple: --checkpoint is of single runs: name one law, fabric, integrator\n");
+}
+
+TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string line = "crumple --quick --triangles 60 --seconds 0.02 --no-images --law linear,prandtl";
+  ASSERT_EQ(program(line + in(out)).exit_code, 0);
+  const auto written = [&](const char* law) { return fs::last_write_time(out / law / "manifest.json"); };
+  const auto first = written("linear");
+  const auto second = written("prandtl");
+  fs::remove(out / "prandtl" / "asked.json");  // as if it had been interrupted
+  ASSERT_EQ(program(line + " --resume" + in(out)).exit_code, 0);
+  EXPECT_EQ(written("linear"), first);
+  EXPECT_GT(written("prandtl"), second);
 }
 
 // A run that begins anew does not go on later from what another has left.
