@@ -1,15 +1,17 @@
 // Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone;
-// with --hard: of steps that Newton's method finds hard.
+// with --hard: of steps that Newton's method finds hard; with --profile: of the kernels of a step.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
+#include "experiments/bench/step_profile.h"
 #include "experiments/bench/table.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -37,6 +39,7 @@ struct BenchOptions {
   bool hard = false;
   std::string hard_scenes = "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press";
   int hard_steps = 20, hard_triangles = 800;
+  bool profile = false;
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
@@ -46,6 +49,7 @@ const KeyRow<BenchOptions> kRows[] = {
     {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes or TOML files, separated by commas"},
     {"hard-steps", at<&BenchOptions::hard_steps>, "", between(1, 1000), "", "of --hard: how many steps of each scene"},
     {"hard-triangles", at<&BenchOptions::hard_triangles>, "", between(1, 1e6), "", "of --hard"},
+    {"profile", at<&BenchOptions::profile>, "", any(), "", "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
 };
 // clang-format on
 
@@ -57,6 +61,7 @@ void take(const Case& c, Scene& scene) {
 }
 constexpr double kQuickElements = 10001;
 constexpr int kQuickHardSteps = 3, kQuickHardTriangles = 200;
+constexpr int kSteps = 40, kQuickSteps = 4;
 constexpr int kBatches = 7;  // the median of their times is reported
 
 Setup defaults() {
@@ -216,6 +221,38 @@ int bench_hard_steps(const CommandLine& line, const Setup& setup, BenchOptions o
   return 0;
 }
 
+void print(const StepProfile& profile) {
+  fmt::print("  calls   us/call   us/step  share  of copy  kernel\n");
+  for (const Metrics& row : profile.kernels) {
+    const double share = row.number("fraction_of_copy_bandwidth");
+    fmt::print("{:7.1f} {:9.1f} {:9.1f} {:5.1f}% {:>8}  {}\n", row.number("calls_per_step"),
+               row.number("us_per_call"), row.number("us_per_step"), row.number("share_percent"),
+               std::isfinite(share) ? fmt::format("{:.1f}%", 100 * share) : "", row["kernel"].text());
+  }
+  for (const auto& [key, value] : profile.step) fmt::print("{} {:.6g}\n", key, value.number());
+}
+
+int bench_kernels(const CommandLine& line, const Setup& setup) {
+  Options options = setup.options;
+  options.json = false;  // of the profile, not of the manifest
+  Run run(line, options, to_json(setup.scene));
+  const auto simulation = make_simulation(setup.scene, make_cloth(setup.scene));
+  const StepProfile profile = profile_of_steps(*simulation, options.quick ? kQuickSteps : kSteps);
+  run.manifest().device = simulation->device();
+  run.manifest().state_hash = fmt::format("{:016x}", simulation->state_hash());
+  for (const auto& [key, value] : profile.step) run.metric(key, value);
+  write_table(run, profile.kernels);
+  run.finish();
+  if (!setup.options.json) {
+    print(profile);
+    return 0;
+  }
+  Json entry = to_json(profile.step);
+  for (const Metrics& row : profile.kernels) entry["kernels"].push_back(to_json(row));
+  std::cout << Json::array({entry}).dump(2) << std::endl;
+  return 0;
+}
+
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
@@ -226,6 +263,7 @@ int run_bench(const CommandLine& line) {
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
   if (own.hard) return bench_hard_steps(line, setup, own);
+  if (own.profile) return bench_kernels(line, setup);
   if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
   std::vector<Metrics> rows;
   const Cloth cloth = make_cloth(setup.scene);
@@ -236,7 +274,8 @@ int run_bench(const CommandLine& line) {
   for (const Case& c : kCases) {
     take(c, scene);
     const auto simulation = make_simulation(scene, cloth);
-    rows.push_back(measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? 4 : 40));
+    rows.push_back(
+        measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? kQuickSteps : kSteps));
     if (!setup.options.json) print(rows.back());
   }
   if (setup.options.json) print_json(rows);

@@ -86,7 +86,8 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
 
 template <class Real, class Device>
 OperatorView<Real> Bending<Real, Device>::view() const {
-  return {elements_, area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data()};
+  const std::size_t bytes = element_bytes() + bytes_of(angle_);
+  return {elements_, area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(), bytes};
 }
 
 template <class Real, class Device>
@@ -104,15 +105,20 @@ void Bending<Real, Device>::commit(const Vec3<Real>* position, const Vec3<Real>*
 }
 
 template <class Real, class Device>
-void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* previous, Real* change) {
+void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* previous, Real* change,
+                                           AngleRates rates) {
   const Eigen::Vector4i* corner = corner_.data();
   const Real* rest = rest_angle_.data();
   Real* gradient = gradient_.data();
+  const std::size_t read = bytes_of(corner_, rest_angle_, angle_) + vertex_bytes();
+  const std::size_t rated = rates.rate ? bytes_of(rate_, reference_) : 0;
   for_each(
-      device_, "bending angles", hinges_, HYST_KERNEL(int h) {
+      device_, {"bending angles", read + rated + bytes_of(gradient_, angle_)}, hinges_, HYST_KERNEL(int h) {
         const Eigen::Vector4i c = corner[h];
         const Angle<Real> a = dihedral_angle<Real>(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-        change[h] = continued_angle(a.theta, previous[h] + rest[h]) - rest[h];
+        const Real angle = continued_angle(a.theta, previous[h] + rest[h]) - rest[h];
+        change[h] = angle;
+        if (rates.rate) rates.rate[h] = rates.inverse_time * (angle - rates.reference[h]);
         Real* g = gradient + 8 * h;
         for (int k = 0; k < 3; ++k) {
           g[k] = a.g0[k];
@@ -129,7 +135,8 @@ void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
   const Real* gradient = gradient_.data();
   Real* rate = rate_.data();
   for_each(
-      device_, "bending rates", hinges_, HYST_KERNEL(int h) {
+      device_, {"bending rates", bytes_of(corner_, gradient_, rate_) + vertex_bytes()}, hinges_,
+      HYST_KERNEL(int h) {
         const Eigen::Vector4i c = corner[h];
         const Real* g = gradient + 8 * h;
         const Vec3<Real> along = v[c[3]] - v[c[2]];
@@ -153,16 +160,23 @@ void Bending<Real, Device>::compute_forces(const Vec3<Real>* x) {
 
 template <class Real, class Device>
 void Bending<Real, Device>::compute_energy_forces() {
-  const int d = dimension_;
+  dimension_ == 1 ? gather_torques<1>() : gather_torques<3>();
+}
+
+// Torque of each hinge, and the forces of its gradients.
+template <class Real, class Device>
+template <int D>
+void Bending<Real, Device>::gather_torques() {
   const int *start = column_start_.data(), *element = column_element_.data();
   const Real *coefficient = transposed_.data(), *moment_area = moment_area_.data();
   const Real* gradient = gradient_.data();
   Vec3<Real>* force = force_.data();
   for_each(
-      device_, "bending forces", hinges_, HYST_KERNEL(int h) {
+      device_, {"bending forces", column_bytes() + bytes_of(moment_area_, gradient_, force_)}, hinges_,
+      HYST_KERNEL(int h) {
         Real torque = 0;
         for (int j = start[h]; j < start[h + 1]; ++j)
-          for (int k = 0; k < d; ++k) torque += coefficient[j * d + k] * moment_area[element[j] * d + k];
+          for (int k = 0; k < D; ++k) torque += coefficient[j * D + k] * moment_area[element[j] * D + k];
         const Real* g = gradient + 8 * h;
         const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
         const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
@@ -263,14 +277,10 @@ std::vector<double> Bending<Real, Device>::slip() {
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  const std::size_t element_rows = area_.bytes() + coefficient_.bytes() + transposed_.bytes() +
-                                   rest_angle_.bytes() + rate_.bytes() + viscous_.bytes() +
-                                   row_start_.bytes() + row_hinge_.bytes() + column_start_.bytes() +
-                                   column_element_.bytes();
-  return element_rows + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + angle_.bytes() +
-         rate_.bytes() + viscous_.bytes() + gradient_.bytes() + moment_area_.bytes() + force_.bytes() +
-         energy_.bytes() + taken_.bytes() + trial_angle_.bytes() + tangent_.bytes() +
-         hinge_stiffness_.bytes() + reference_.bytes() + angle_before_.bytes();
+  return bytes_of(area_, coefficient_, transposed_, rest_angle_, row_start_, row_hinge_, column_start_,
+                  column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_, viscous_, gradient_,
+                  moment_area_, force_, energy_, taken_, trial_angle_, tangent_, hinge_stiffness_, reference_,
+                  angle_before_);
 }
 
 template class Bending<double, ThisDevice>;

@@ -25,7 +25,8 @@ class Bending {
 
   // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed, as
   // (angle - reference)/beta_dt with the reference (1 + e) times the accepted angle minus e times the one
-  // accepted before it, e the extrapolation.  evaluate() tries a step to `position`; accept() commits it.
+  // accepted before it, e the extrapolation.  evaluate() tries a step to `position`; accept() commits the one
+  // that was tried last.
   void begin_step(const StepFormula& formula);
   void evaluate(const Vec3<Real>* position);                 // forces(), and energies()
   const double* energies() const { return energy_.data(); }  // incremental potential per element [J]
@@ -34,7 +35,7 @@ class Bending {
   void apply_stiffness(const Vec3<Real>* p);
   // Adds the diagonal blocks of K, less what several hinges of one element have in common.
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
-  void accept(const Vec3<Real>* position);
+  void accept();
 
   // What outlives a step.  Not forces and trials: every step begins with evaluate() or commit().
   void visit(Archive& archive);
@@ -55,18 +56,31 @@ class Bending {
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }
   std::size_t bytes() const;  // without the law's history
+  std::size_t force_bytes() const { return bytes_of(vertex_start_, vertex_item_, force_); }  // of forces()
 
+  // (angle - reference) over time of the hinges.
+  struct AngleRates {
+    Real* rate = nullptr;  // [rad/s]; null: not asked for
+    const Real* reference = nullptr;
+    Real inverse_time = 0;
+  };
   // The parts of commit(); public because nvcc allows no device lambda in a private member function.
-  void compute_angles(const Vec3<Real>* position, const Real* previous, Real* change);
+  void compute_angles(const Vec3<Real>* position, const Real* previous, Real* change, AngleRates rates = {});
   void compute_rates(const Vec3<Real>* velocity);
   void compute_forces(const Vec3<Real>* position);
   void compute_energy_forces();  // from the gradients and moments at hand
-  void compute_trial_rates();
+  template <int D>
+  void gather_torques();
+  template <int D>
+  void gather_stiffness();
   typename LawLoop<Real, Device>::Trial trial_step() const;
 
  private:
   void make_trials();
   OperatorView<Real> view() const;
+  std::size_t vertex_bytes() const { return (vertex_start_.size() - 1) * sizeof(Vec3<Real>); }
+  std::size_t element_bytes() const { return bytes_of(area_, row_start_, row_hinge_, coefficient_); }
+  std::size_t column_bytes() const { return bytes_of(column_start_, column_element_, transposed_); }
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
 
   Device& device_;

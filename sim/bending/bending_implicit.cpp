@@ -41,18 +41,8 @@ void Bending<Real, Device>::begin_step(const StepFormula& formula) {
   const Real *angle = angle_.data(), *before = angle_before_.data();
   Real* reference = reference_.data();
   for_each(
-      device_, "bending reference", hinges_,
+      device_, {"bending reference", bytes_of(angle_, angle_before_, reference_)}, hinges_,
       HYST_KERNEL(int h) { reference[h] = now * angle[h] - extrapolation * before[h]; });
-}
-
-template <class Real, class Device>
-void Bending<Real, Device>::compute_trial_rates() {
-  const Real inverse = static_cast<Real>(1 / formula_.beta_dt);
-  const Real *trial = trial_angle_.data(), *reference = reference_.data();
-  Real* rate = rate_.data();
-  for_each(
-      device_, "bending rates, tried", hinges_,
-      HYST_KERNEL(int h) { rate[h] = inverse * (trial[h] - reference[h]); });
 }
 
 template <class Real, class Device>
@@ -64,8 +54,9 @@ typename LawLoop<Real, Device>::Trial Bending<Real, Device>::trial_step() const 
 
 template <class Real, class Device>
 void Bending<Real, Device>::evaluate(const Vec3<Real>* x) {
-  compute_angles(x, angle_.data(), trial_angle_.data());
-  if (viscosity_ > 0) compute_trial_rates();
+  AngleRates rates;
+  if (viscosity_ > 0) rates = {rate_.data(), reference_.data(), static_cast<Real>(1 / formula_.beta_dt)};
+  compute_angles(x, angle_.data(), trial_angle_.data(), rates);
   law_->trial(device_, view(), trial_angle_.data(), trial_step(), moment_area_.data(), energy_.data());
   compute_energy_forces();
 }
@@ -81,13 +72,14 @@ void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   const OperatorView<Real> op = view();
   const Real *rate = rate_.data(), *tangent = tangent_.data();
   Real* moment_area = moment_area_.data();
+  const Kernel stiffness = {"bending stiffness", op.bytes + bytes_of(tangent_, moment_area_)};
   if (dimension_ == 1) {
     for_each(
-        device_, "bending stiffness", elements_,
+        device_, stiffness, elements_,
         HYST_KERNEL(int i) { moment_area[i] = tangent[i] * op.template curvature<1>(i, rate)[0]; });
   } else {
     for_each(
-        device_, "bending stiffness", elements_, HYST_KERNEL(int i) {
+        device_, stiffness, elements_, HYST_KERNEL(int i) {
           const Vec<Real, 3> k = op.template curvature<3>(i, rate);
           const Real* t = tangent + 6 * i;
           moment_area[3 * i] = t[0] * k[0] + t[1] * k[1] + t[3] * k[2];
@@ -98,47 +90,57 @@ void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   compute_energy_forces();
 }
 
-// For each hinge c^T (A dM/dK) c of its column c of C, summed over the elements; then its gradients' squares.
+// The forces are those that were tried: the moments of a step do not depend on whether it is remembered.
 template <class Real, class Device>
-void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
-  const int d = dimension_;
-  const int *start = column_start_.data(), *element = column_element_.data();
-  const Real *coefficient = transposed_.data(), *tangent = tangent_.data();
-  Real* stiffness = hinge_stiffness_.data();
-  for_each(
-      device_, "bending stiffness of hinges", hinges_, HYST_KERNEL(int h) {
-        Real sum = 0;
-        for (int j = start[h]; j < start[h + 1]; ++j) {
-          const Real* t = tangent + element[j] * (d * (d + 1) / 2);
-          for (int a = 0; a < d; ++a)
-            for (int b = 0; b <= a; ++b)
-              sum += (a == b ? 1 : 2) * coefficient[j * d + a] * *t++ * coefficient[j * d + b];
-        }
-        stiffness[h] = sum;
-      });
-  const int *first = vertex_start_.data(), *item = vertex_item_.data();
-  const Real* gradient = gradient_.data();
-  for_each(
-      device_, "bending diagonal", static_cast<int>(vertex_start_.size()) - 1, HYST_KERNEL(int v) {
-        for (int j = first[v]; j < first[v + 1]; ++j) {
-          const Vec3<Real> g = angle_gradient(gradient + 8 * (item[j] / 4), item[j] % 4);
-          diagonal[v] += stiffness[item[j] / 4] * g * g.transpose();
-        }
-      });
-}
-
-template <class Real, class Device>
-void Bending<Real, Device>::accept(const Vec3<Real>* x) {
-  compute_angles(x, angle_.data(), trial_angle_.data());
-  if (viscosity_ > 0) {
-    compute_trial_rates();
-    std::swap(angle_before_, angle_);
-  }
+void Bending<Real, Device>::accept() {
+  if (viscosity_ > 0) std::swap(angle_before_, angle_);
   std::swap(angle_, trial_angle_);
   const auto trial = trial_step();
   law_->commit(device_, view(), angle_.data(), trial.dt, {trial.viscosity, rate_.data(), viscous_.data()},
                moment_area_.data());
-  compute_energy_forces();
+}
+
+// For each hinge c^T (A dM/dK) c of its column c of C, summed over the elements.
+template <class Real, class Device>
+template <int D>
+void Bending<Real, Device>::gather_stiffness() {
+  const int *start = column_start_.data(), *element = column_element_.data();
+  const Real *coefficient = transposed_.data(), *tangent = tangent_.data();
+  Real* stiffness = hinge_stiffness_.data();
+  for_each(
+      device_, {"bending stiffness of hinges", column_bytes() + bytes_of(tangent_, hinge_stiffness_)},
+      hinges_, HYST_KERNEL(int h) {
+        Real sum = 0;
+        for (int j = start[h]; j < start[h + 1]; ++j) {
+          const Real* t = tangent + element[j] * (D * (D + 1) / 2);
+          for (int a = 0; a < D; ++a)
+            for (int b = 0; b <= a; ++b)
+              sum += (a == b ? 1 : 2) * coefficient[j * D + a] * *t++ * coefficient[j * D + b];
+        }
+        stiffness[h] = sum;
+      });
+}
+
+// The hinges' stiffness times their gradients' squares.
+template <class Real, class Device>
+void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
+  dimension_ == 1 ? gather_stiffness<1>() : gather_stiffness<3>();
+  const Real* stiffness = hinge_stiffness_.data();
+  const int *first = vertex_start_.data(), *item = vertex_item_.data();
+  const Real* gradient = gradient_.data();
+  const int vertices = static_cast<int>(vertex_start_.size()) - 1;
+  const std::size_t blocks = 2 * vertices * sizeof(Mat3<Real>);  // read and written
+  for_each(
+      device_,
+      {"bending diagonal", bytes_of(vertex_start_, vertex_item_, gradient_, hinge_stiffness_) + blocks},
+      vertices, HYST_KERNEL(int v) {
+        Mat3<Real> block = diagonal[v];
+        for (int j = first[v]; j < first[v + 1]; ++j) {
+          const Vec3<Real> g = angle_gradient(gradient + 8 * (item[j] / 4), item[j] % 4);
+          block += stiffness[item[j] / 4] * g * g.transpose();
+        }
+        diagonal[v] = block;
+      });
 }
 
 template class Bending<double, ThisDevice>;

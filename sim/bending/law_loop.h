@@ -21,6 +21,7 @@ struct OperatorView {
   const int* start;         // rows: elements
   const int* hinge;         // items
   const Real* coefficient;  // D per item [1/m]
+  std::size_t bytes = 0;    // of these arrays and of a number per hinge; 0 where nobody asks
 
   template <int D>
   HYST_HD Vec<Real, D> curvature(int i, const Real* angle_change) const {

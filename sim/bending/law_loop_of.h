@@ -44,7 +44,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
     Real* history = history_.data();
     double* lost = dissipated_.data();
     for_each(
-        device, "bending law", op.elements, HYST_KERNEL(int i) {
+        device,
+        {"bending law", op.bytes + step_bytes(op.elements) + bytes_of(history_, dissipated_, dissipated_)},
+        op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto step = law.step(k, load_history<Law>(history, i, op.elements));
           Vec<Real, D> moment = step.moment;
@@ -67,7 +69,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
     set_step_time(law, trial.dt);
     const Real* history = history_.data();
     for_each(
-        device, "bending law, tried", op.elements, HYST_KERNEL(int i) {
+        device, {"bending law, tried", op.bytes + step_bytes(op.elements) + op.elements * sizeof(double)},
+        op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
           Vec<Real, D> moment = law.step(k, before).moment;
@@ -88,8 +91,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
     set_step_time(law, trial.dt);
     const Real viscous = trial.viscosity > 0 ? trial.viscosity / trial.beta_dt : Real(0);
     const Real* history = history_.data();
+    const std::size_t tangents = op.elements * (D * (D + 1) / 2) * sizeof(Real);
     for_each(
-        device, "bending tangent", op.elements, HYST_KERNEL(int i) {
+        device, {"bending tangent", op.bytes + history_.bytes() + tangents}, op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const Tangent<Real, D> t = convex_tangent(law, k, load_history<Law>(history, i, op.elements));
           Real* row = tangent_area + i * (D * (D + 1) / 2);
@@ -159,6 +163,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
   const double* dissipated() const override { return dissipated_.data(); }
 
  private:
+  // History read and moments written; viscosity's own left out.
+  std::size_t step_bytes(int elements) const { return history_.bytes() + elements * D * sizeof(Real); }
+
   Law law_;
   VirginCurve curve_;
   Buffer<Real, Device> history_;

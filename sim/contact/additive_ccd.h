@@ -30,16 +30,28 @@ HYST_HD Real distance_of(const Vec3<Real> (&x)[4], bool edges) {
   return (edges ? edge_edge(x) : point_triangle(x)).offset.norm();
 }
 
-// Step length in [0, 1] along the directions up to which the distance stays above `least`: 1, or where
-// between a twentieth and a tenth of what the distance exceeded `least` by is left.  x and direction are
-// spoilt.
+// Two figures at the start of a path: nowhere on it are they nearer than distance - speed.
 template <class Real>
-HYST_HD Real feasible_step(Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4], bool edges, Real least) {
+struct Approach {
+  Real distance, speed;
+};
+
+template <class Real>
+HYST_HD Approach<Real> approach(const Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4], bool edges) {
+  remove_mean(direction);
+  return {distance_of(x, edges), fastest_approach(direction, edges)};
+}
+
+// Step length in [0, 1] along the directions up to which the distance stays above `least`: 1, or where
+// between a twentieth and a tenth of what the distance exceeded `least` by is left.  `start` is the approach
+// of x and direction, which are spoilt.
+template <class Real>
+HYST_HD Real feasible_step(const Approach<Real>& start, Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4],
+                           bool edges, Real least) {
   constexpr Real kKept = Real(0.1);
   constexpr int kMostAdvances = 1000;
-  remove_mean(direction);
-  const Real speed = fastest_approach(direction, edges);
-  Real gap = distance_of(x, edges) - least;
+  const Real speed = start.speed;
+  Real gap = start.distance - least;
   if (!(speed > 0) || gap > speed) return 1;
   if (!(gap > 0)) return 0;
   const Real kept = kKept * gap;

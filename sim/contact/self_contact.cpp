@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kDisplacementOfEdge = 5;  // largest that is looked at, over the mean edge length
 constexpr double kReachOfEdge = 0.2;       // most that lists reach beyond a path, over the mean edge length
+constexpr double kSafely = 1.01;           // more than rounding makes of distances beside the thickness
 
 double mean_edge(const ClothMesh& mesh) {
   double sum = 0;
@@ -34,6 +35,7 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       pairs_(device, mesh, scene.fabric.thickness),
       center_(device, vertices_),
       step_length_(device),
+      near_(device),
       friction_(device),
       old_friction_(device),
       presses_(device),
@@ -41,6 +43,8 @@ SelfContact<Real, Device>::SelfContact(Device& device, const ClothMesh& mesh, co
       stiffness_(device),
       rows_(device, vertices_),
       stiffness_rows_(device, vertices_),
+      bearing_end_(device, vertices_),
+      bearing_item_(device),
       slot_(device),
       energy_(device),
       sum_(device, 2),
@@ -78,7 +82,9 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
     rebuild(x, direction, step_length, held,
             std::clamp(step_length * longest / 2, least_reach_, most_reach_));
   const SelfPair<Real>* pairs = pairs_.pairs();
+  const PairFriction<Real>* friction = friction_.data();
   Real* feasible = step_length_.reserve(pairs_.count());
+  char* near = near_.reserve(pairs_.count());
   for_each(
       device_, "self-contact: collisions", pairs_.count(), HYST_KERNEL(int p) {
         const SelfPair<Real> pair = pairs[p];
@@ -86,7 +92,9 @@ double SelfContact<Real, Device>::prepare(const Vec3<Real>* x, const Vec3<Real>*
         pair.gather(x, from);
         pair.gather(direction, along);
         for (Vec3<Real>& d : along) d *= step_length;
-        feasible[p] = feasible_step(from, along, pair.is_edges(), least_distance(pair));
+        const Approach<Real> start = approach(from, along, pair.is_edges());
+        near[p] = start.distance - start.speed < Real(kSafely) * pair.shell || friction[p].limit > 0;
+        feasible[p] = feasible_step(start, from, along, pair.is_edges(), least_distance(pair));
       });
   const double least = smallest(device_, pairs_.scratch(), feasible, pairs_.count(), Real(1));
   clock_.end(Stage::contact);
@@ -118,6 +126,7 @@ void SelfContact<Real, Device>::index_corners() {
   const int count = pairs_.count();
   slot_.reserve(4 * static_cast<std::size_t>(count));
   energy_.reserve(count);
+  bearing_item_.reserve(4 * static_cast<std::size_t>(count));
   int* key = rows_.key.reserve(4 * static_cast<std::size_t>(count));
   const SelfPair<Real>* pairs = pairs_.pairs();
   for_each(
@@ -142,42 +151,17 @@ void SelfContact<Real, Device>::visit(Archive& archive) {
   if (archive.loads()) index_corners();
 }
 
-// Friction of the pairs that stay in the list, or follow on neighbours.
-template <class Real, class Device>
-void SelfContact<Real, Device>::carry_over() {
-  friction_.swap(old_friction_);
-  PairFriction<Real>* friction = friction_.reserve(pairs_.count());
-  const PairFriction<Real>* old = old_friction_.data();
-  const SelfPair<Real>*pairs = pairs_.pairs(), *old_pairs = pairs_.old_pairs();
-  const int *start = pairs_.start(), *old_start = pairs_.old_start();
-  const int *corner_start = rows_.start.data(), *corner = rows_.item.data();  // of the list before
-  const bool has_old = ready_;
-  for_each(
-      device_, "self-contact: carry over", pairs_.rows(), HYST_KERNEL(int row) {
-        for (int p = start[row]; p < start[row + 1]; ++p) {
-          int same = -1;
-          for (int q = old_start[row]; q < old_start[row + 1]; ++q)
-            if (old_pairs[q].other == pairs[p].other) same = q;
-          if (same >= 0) {
-            friction[p] = old[same];
-          } else {
-            const Vec3<Real> slip = has_old ? inherited_slip(pairs[p], old_pairs, old, corner_start, corner)
-                                            : Vec3<Real>(Vec3<Real>::Zero());
-            friction[p] = {slip, Vec3<Real>::Zero(), Vec<Real, 4>::Zero(), 0};
-          }
-        }
-      });
-}
-
 template <class Real, class Device>
 void SelfContact<Real, Device>::lag(const Vec3<Real>* x) {
   if (!(model_.friction > 0)) return;
   clock_.begin(Stage::contact);
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
+  const char* near = near_.data();
   PairFriction<Real>* friction = friction_.data();
   for_each(
       device_, "self-contact: lagged friction", pairs_.count(), HYST_KERNEL(int p) {
+        if (!near[p]) return;  // its limit is 0
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         friction[p].limit = touch.touches ? model.friction * touch.force : Real(0);
         if (!touch.touches) return;
@@ -194,10 +178,16 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* 
   const SelfContactModel<Real> model = model_;
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
+  const char* near = near_.data();
   Vec3<Real>* slot = slot_.data();
   double* energy = energy_.data();
   for_each(
       device_, "self-contact: barrier", pairs_.count(), HYST_KERNEL(int p) {
+        if (!near[p]) {
+          for (int k = 0; k < 4; ++k) slot[4 * p + k].setZero();
+          energy[p] = 0;
+          return;
+        }
         const SelfTouch<Real> touch = self_touch(pairs[p], model, x);
         for (int k = 0; k < 4; ++k)
           slot[4 * p + k] = touch.touches ? barrier_gradient(touch, k) : Vec3<Real>(Vec3<Real>::Zero());
@@ -224,9 +214,12 @@ int SelfContact<Real, Device>::find_pressing(const Vec3<Real>* x) {
   const int count = pairs_.count();
   const SelfPair<Real>* pairs = pairs_.pairs();
   const PairFriction<Real>* friction = friction_.data();
+  const char* near = near_.data();
   int* presses = presses_.reserve(count);
   for_each(
       device_, "self-contact: pressing", count, HYST_KERNEL(int p) {
+        presses[p] = 0;
+        if (!near[p]) return;
         Vec3<Real> at[4];
         pairs[p].gather(x, at);
         presses[p] = friction[p].limit > 0 || distance_of(at, pairs[p].is_edges()) < pairs[p].shell;
@@ -298,54 +291,6 @@ void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
       });
 }
 
-// The stops stretch and slide; work done against them that they do not store is lost.
-template <class Real, class Device>
-void SelfContact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before) {
-  if (!(model_.friction > 0)) return;
-  clock_.begin(Stage::contact);
-  const SelfContactModel<Real> model = model_;
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  PairFriction<Real>* friction = friction_.data();
-  double* sum = sum_.data();
-  for_each_sum<2>(
-      device_, "self-contact: history", pairs_.count(),
-      HYST_KERNEL(int p, Sums<2>& sums) {
-        PairFriction<Real>& f = friction[p];
-        if (!(f.limit > 0)) {
-          f.slip.setZero();
-          return;
-        }
-        const Vec3<Real> e = pair_slip(pairs[p], f, x, before);
-        const Real length = e.norm(), k_t = f.limit / model.slip;
-        const Vec3<Real> held = length > model.slip ? Vec3<Real>(model.slip / length * e) : e;
-        sums.term[0] += static_cast<double>(k_t * held.dot(e - f.slip));
-        sums.term[1] += static_cast<double>(k_t * held.squaredNorm() / 2);
-        f.slip = held;
-      },
-      HYST_KERNEL(const Sums<2>& total) {
-        sum[0] = total.term[0];
-        sum[1] = total.term[1];
-      });
-  const std::vector<double> total = sum_.download();
-  loss_ += stored_ + total[0] - total[1];
-  stored_ = total[1];
-  hand_over();
-  clock_.end(Stage::contact);
-}
-
-// To pairs that do not bear yet.
-template <class Real, class Device>
-void SelfContact<Real, Device>::hand_over() {
-  const SelfPair<Real>* pairs = pairs_.pairs();
-  const int *start = rows_.start.data(), *item = rows_.item.data();
-  PairFriction<Real>* friction = friction_.data();
-  for_each(
-      device_, "self-contact: hand over", pairs_.count(), HYST_KERNEL(int p) {
-        if (!(friction[p].limit > 0))
-          friction[p].slip = inherited_slip(pairs[p], pairs, friction, start, item);
-      });
-}
-
 template <class Real, class Device>
 double SelfContact<Real, Device>::stored_energy(const Vec3<Real>* x) {
   const SelfContactModel<Real> model = model_;
@@ -387,8 +332,9 @@ SelfPair<Real> SelfContact<Real, Device>::blocking_pair() const {
 template <class Real, class Device>
 std::size_t SelfContact<Real, Device>::bytes() const {
   return pairs_.bytes() + center_.bytes() + step_length_.bytes() + friction_.bytes() + old_friction_.bytes() +
-         presses_.bytes() + pressing_.bytes() + stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() +
-         slot_.bytes() + energy_.bytes() + sum_.bytes();
+         near_.bytes() + bearing_end_.bytes() + bearing_item_.bytes() + presses_.bytes() + pressing_.bytes() +
+         stiffness_.bytes() + rows_.bytes() + stiffness_rows_.bytes() + slot_.bytes() + energy_.bytes() +
+         sum_.bytes();
 }
 
 template class SelfContact<double, ThisDevice>;

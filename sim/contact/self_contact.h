@@ -43,6 +43,12 @@ struct PairRows {
   std::size_t bytes() const { return start.bytes() + item.bytes() + key.bytes(); }
 };
 
+// Of a PairRows the entries of pairs that bear: those of a vertex stand where all its entries do, and end
+// earlier.
+struct BearingRows {
+  const int *start, *end, *item;
+};
+
 template <class Real>
 struct SelfContactModel {
   Real stiffness, friction, slip;  // [N/m^3], Coulomb coefficient, [m]
@@ -87,12 +93,14 @@ class SelfContact {
   // Parts; public because nvcc allows no device lambda in a private member function.
   void rebuild(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held,
                Real reach);
+  void gather_bearing();
   void carry_over();
   void hand_over();
   void index_corners();
   Real longest_displacement(const Vec3<Real>* direction);
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);
+  BearingRows bearing() const { return {rows_.start.data(), bearing_end_.data(), bearing_item_.data()}; }
   GatheredForces<Real> gathered(const PairRows<Device>& rows) const {
     return {rows.start.data(), rows.item.data(), slot_.data()};
   }
@@ -108,6 +116,7 @@ class SelfContact {
   double stored_ = 0, loss_ = 0;  // of friction [J]
   Buffer<Vec3<Real>, Device> center_;
   GrowingBuffer<Real, Device> step_length_;
+  GrowingBuffer<char, Device> near_;  // of pairs: it may touch on the path of the last prepare(), or rubs
   GrowingBuffer<PairFriction<Real>, Device> friction_, old_friction_;
   // Of the pairs that press or rub where linearise() was called last: their numbers among all follow from
   // `pressing_`, a running count.
@@ -115,6 +124,8 @@ class SelfContact {
   GrowingBuffer<int, Device> presses_, pressing_;
   GrowingBuffer<PairStiffness<Real>, Device> stiffness_;
   PairRows<Device> rows_, stiffness_rows_;
+  Buffer<int, Device> bearing_end_;  // BearingRows of rows_
+  GrowingBuffer<int, Device> bearing_item_;
   GrowingBuffer<Vec3<Real>, Device> slot_;  // four for each pair
   GrowingBuffer<double, Device> energy_;
   Buffer<double, Device> sum_;  // two

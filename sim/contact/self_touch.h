@@ -97,19 +97,16 @@ HYST_HD bool are_neighbours(const SelfPair<Real>& p, const SelfPair<Real>& q, bo
 }
 
 // Stretch of the stop with which a pair begins to bear: that of the neighbours which bear, the mean by their
-// limits.  A layer that is held, or slides, across an edge of another feels nothing of it.  `rows` are the
-// others' by their vertices.
+// limits.  A layer that is held, or slides, across an edge of another feels nothing of it.
 template <class Real>
 HYST_HD HYST_NOINLINE Vec3<Real> inherited_slip(const SelfPair<Real>& pair, const SelfPair<Real>* others,
-                                                const PairFriction<Real>* friction, const int* start,
-                                                const int* item) {
+                                                const PairFriction<Real>* friction, const BearingRows& rows) {
   Vec3<Real> sum = Vec3<Real>::Zero();
   Real limits = 0, lengths = 0;
   for (int k = 0; k < (pair.is_edges() ? 2 : 1); ++k)
-    for (int j = start[pair.v[k]]; j < start[pair.v[k] + 1]; ++j) {
-      const int q = item[j] / 4;
+    for (int j = rows.start[pair.v[k]]; j < rows.end[pair.v[k]]; ++j) {
+      const int q = rows.item[j] / 4;
       const Real limit = friction[q].limit;
-      if (!(limit > 0)) continue;
       const bool same = are_neighbours(pair, others[q], false);
       if (!same && !are_neighbours(pair, others[q], true)) continue;
       sum += (same ? limit : -limit) * friction[q].slip;

@@ -45,8 +45,9 @@ struct Scratch {
 };
 
 // start[i] = count[0] + ... + count[i-1] for i in [0, n]; start has n + 1 elements.  Returns start[n].
-inline int exclusive_scan(Cpu&, Scratch<Cpu>&, const int* count, int n, int* start) {
+inline int exclusive_scan(Cpu& cpu, Scratch<Cpu>&, const int* count, int n, int* start) {
   ++device_counts.loops;
+  const Profiled<Cpu> profiled(cpu, {"scan", 2 * n * sizeof(int)});
   start[0] = 0;
   for (int i = 0; i < n; ++i) start[i + 1] = start[i] + count[i];
   return start[n];
@@ -54,16 +55,19 @@ inline int exclusive_scan(Cpu&, Scratch<Cpu>&, const int* count, int n, int* sta
 
 // The least of n values, or `otherwise` if that is less.
 template <class Real>
-Real smallest(Cpu&, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
+Real smallest(Cpu& cpu, Scratch<Cpu>&, const Real* value, int n, Real otherwise) {
+  if (n == 0) return otherwise;
   ++device_counts.loops;
+  const Profiled<Cpu> profiled(cpu, {"smallest", n * sizeof(Real)});
   for (int i = 0; i < n; ++i) otherwise = std::min(otherwise, value[i]);
   return otherwise;
 }
 
 // Rows of items by their key in [0, rows): row r is item[start[r]] ... item[start[r+1]-1], in ascending
 // order. Negative keys belong to no row.
-inline void group(Cpu&, Scratch<Cpu>& scratch, const int* key, int n, int rows, int* start, int* item) {
+inline void group(Cpu& cpu, Scratch<Cpu>& scratch, const int* key, int n, int rows, int* start, int* item) {
   ++device_counts.loops;
+  const Profiled<Cpu> profiled(cpu, {"group", (2 * n + rows) * sizeof(int)});
   int* next = scratch.keys.reserve(rows + 1);
   std::fill(next, next + rows + 1, 0);
   for (int i = 0; i < n; ++i)
@@ -76,16 +80,17 @@ inline void group(Cpu&, Scratch<Cpu>& scratch, const int* key, int n, int rows, 
 
 #ifdef __CUDACC__
 template <class Call>
-void with_cub_memory(Scratch<Cuda>& scratch, const char* name, const Call& call) {
+void with_cub_memory(Cuda& cuda, Scratch<Cuda>& scratch, const Kernel& kernel, const Call& call) {
   ++device_counts.loops;
   std::size_t bytes = 0;
-  check_cuda(call(nullptr, bytes), name);
+  check_cuda(call(nullptr, bytes), kernel.name);
   char* memory = scratch.memory.reserve(bytes);
-  check_cuda(call(memory, bytes), name);
+  const Profiled<Cuda> profiled(cuda, kernel);
+  check_cuda(call(memory, bytes), kernel.name);
 }
 
 inline int exclusive_scan(Cuda& cuda, Scratch<Cuda>& scratch, const int* count, int n, int* start) {
-  with_cub_memory(scratch, "scan", [&](void* memory, std::size_t& bytes) {
+  with_cub_memory(cuda, scratch, {"scan", 2 * n * sizeof(int)}, [&](void* memory, std::size_t& bytes) {
     return cub::DeviceScan::InclusiveSum(memory, bytes, count, start + 1, n, cuda.stream);
   });
   check_cuda(cudaMemsetAsync(start, 0, sizeof(int), cuda.stream), "scan");
@@ -98,7 +103,7 @@ template <class Real>
 Real smallest(Cuda& cuda, Scratch<Cuda>& scratch, const Real* value, int n, Real otherwise) {
   if (n == 0) return otherwise;
   Real* result = reinterpret_cast<Real*>(scratch.result.data());
-  with_cub_memory(scratch, "smallest", [&](void* memory, std::size_t& bytes) {
+  with_cub_memory(cuda, scratch, {"smallest", n * sizeof(Real)}, [&](void* memory, std::size_t& bytes) {
     return cub::DeviceReduce::Min(memory, bytes, value, result, n, cuda.stream);
   });
   Real least = 0;
@@ -119,7 +124,7 @@ inline void group(Cuda& cuda, Scratch<Cuda>& scratch, const int* key, int n, int
   int bits = 1;
   while ((rows >> bits) > 0) ++bits;
   if (n > 0)
-    with_cub_memory(scratch, "group", [&](void* memory, std::size_t& bytes) {
+    with_cub_memory(cuda, scratch, {"group", 4 * n * sizeof(int)}, [&](void* memory, std::size_t& bytes) {
       return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted, order, item, n, 0, bits,
                                              cuda.stream);
     });

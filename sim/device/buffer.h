@@ -53,4 +53,10 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
+// Of arrays that a loop reads or writes whole.
+template <class... Buffers>
+std::size_t bytes_of(const Buffers&... buffer) {
+  return (std::size_t(0) + ... + buffer.bytes());
+}
+
 }  // namespace hysteron

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sim/device/device_counts.h"
 #include "sim/device/host_device.h"
+#include "sim/device/kernel_profile.h"
 
 namespace hysteron {
 
@@ -27,6 +29,7 @@ struct Cpu {
   int threads = 1;
   std::size_t bytes = 0;             // allocated by Buffers
   std::vector<double> partial = {};  // scratch of for_each_sum
+  std::unique_ptr<KernelProfile<Cpu>> profile = {};
 
   explicit Cpu(int thread_count);
   std::string description() const;
@@ -34,27 +37,56 @@ struct Cpu {
   void synchronize() const {}
 };
 
-// Runs body(i) for i in [0, n).  `name` names the loop in profiles and errors.
+// Where part k of `parts` equal ones of n items begins.
+inline int part_begin(int n, int k, int parts) { return static_cast<int>(static_cast<long>(n) * k / parts); }
+
+// body(i) for i in [begin, end).  One instance serves one thread and many.  What the body has captured is
+// copied: stores of the loop cannot change the copy, so that its numbers stay in registers.
 template <class Body>
-void for_each(Cpu& cpu, const char* /*name*/, int n, const Body& body) {
+HYST_NOINLINE void run_serially(int begin, int end, const Body& body) {
+  const Body own = body;
+  for (int i = begin; i < end; ++i) own(i);
+}
+
+// Runs body(i) for i in [0, n).
+template <class Body>
+void for_each(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
+  if (n == 0) return;
   ++device_counts.loops;
-#pragma omp parallel for schedule(static) num_threads(cpu.threads) if (n >= kSerialLoop)
-  for (int i = 0; i < n; ++i) body(i);
+  const Profiled<Cpu> profiled(cpu, kernel);
+  const int threads = cpu.threads;
+  if (n < kSerialLoop || threads == 1) return run_serially(0, n, body);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int t = 0; t < threads; ++t)
+    run_serially(part_begin(n, t, threads), part_begin(n, t + 1, threads), body);
+}
+
+// Partial sums of the blocks [first, last).
+template <int K, class Body>
+HYST_NOINLINE void sum_serially(int first, int last, int n, const Body& body, double* partial) {
+  const Body own = body;
+  for (int b = first; b < last; ++b) {
+    Sums<K> sums;
+    const int end = std::min(n, (b + 1) * kSumBlock);
+    for (int i = b * kSumBlock; i < end; ++i) own(i, sums);
+    for (int k = 0; k < K; ++k) partial[b * K + k] = sums.term[k];
+  }
 }
 
 // total[k] = sum over i of the terms that body(i, sums) adds; then finish(total) runs once.
 template <int K, class Body, class Finish>
-void for_each_sum(Cpu& cpu, const char* /*name*/, int n, const Body& body, const Finish& finish) {
+void for_each_sum(Cpu& cpu, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
   ++device_counts.loops;
-  const int blocks = (n + kSumBlock - 1) / kSumBlock;
+  const Profiled<Cpu> profiled(cpu, kernel);
+  const int blocks = (n + kSumBlock - 1) / kSumBlock, threads = cpu.threads;
   if (static_cast<int>(cpu.partial.size()) < blocks * K) cpu.partial.resize(blocks * K);
   double* partial = cpu.partial.data();
-#pragma omp parallel for schedule(static) num_threads(cpu.threads) if (n >= kSerialLoop)
-  for (int b = 0; b < blocks; ++b) {
-    Sums<K> sums;
-    const int end = std::min(n, (b + 1) * kSumBlock);
-    for (int i = b * kSumBlock; i < end; ++i) body(i, sums);
-    for (int k = 0; k < K; ++k) partial[b * K + k] = sums.term[k];
+  if (n < kSerialLoop || threads == 1) {
+    sum_serially<K>(0, blocks, n, body, partial);
+  } else {
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (int t = 0; t < threads; ++t)
+      sum_serially<K>(part_begin(blocks, t, threads), part_begin(blocks, t + 1, threads), n, body, partial);
   }
   Sums<K> total;
   for (int b = 0; b < blocks; ++b)
@@ -79,5 +111,10 @@ inline void device_upload(Cpu&, void* to, const void* from, std::size_t bytes) {
 inline void device_download(Cpu&, void* to, const void* from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
 }
+inline void* host_allocate(Cpu&, std::size_t bytes) {
+  ++device_counts.allocations;
+  return ::operator new(bytes);
+}
+inline void host_free(Cpu&, void* memory) { ::operator delete(memory); }
 
 }  // namespace hysteron

@@ -1,6 +1,13 @@
 // Compiled by nvcc only.
 #include "sim/device/cuda.h"
 
+#if __has_include(<nvtx3/nvToolsExt.h>)
+#include <nvtx3/nvToolsExt.h>
+#define HYST_NVTX(call) call
+#else
+#define HYST_NVTX(call)
+#endif
+
 namespace hysteron {
 
 Cuda::Cuda(int device) : index(device) {
@@ -8,11 +15,13 @@ Cuda::Cuda(int device) : index(device) {
   check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
   check_cuda(cudaMalloc(&arrived, sizeof(unsigned)), "allocate");
   check_cuda(cudaMemset(arrived, 0, sizeof(unsigned)), "allocate");
+  check_cuda(cudaHostAlloc(&staging, kStaged, cudaHostAllocDefault), "allocate on the host");
 }
 
 Cuda::~Cuda() {
   cudaFree(partial);
   cudaFree(arrived);
+  cudaFreeHost(staging);
   cudaStreamDestroy(stream);
 }
 
@@ -20,6 +29,52 @@ std::string Cuda::description() const {
   cudaDeviceProp properties{};
   check_cuda(cudaGetDeviceProperties(&properties, index), "describe device");
   return std::string(properties.name);
+}
+
+namespace {
+constexpr std::size_t kPending = 4096;  // launches before the host has to look
+}
+
+KernelProfile<Cuda>::KernelProfile(Cuda& cuda) : cuda_(cuda) { pending_.reserve(kPending); }
+
+KernelProfile<Cuda>::~KernelProfile() {
+  for (cudaEvent_t event : event_) cudaEventDestroy(event);
+}
+
+void KernelProfile<Cuda>::begin(const Kernel& kernel) {
+  if (pending_.size() == kPending) collect();
+  while (event_.size() < 2 * (pending_.size() + 1)) {
+    event_.emplace_back();
+    check_cuda(cudaEventCreate(&event_.back()), "profile");
+  }
+  HYST_NVTX(nvtxRangePushA(kernel.name));
+  check_cuda(cudaEventRecord(event_[2 * pending_.size()], cuda_.stream), kernel.name);
+}
+
+// What fails here is found by collect().
+void KernelProfile<Cuda>::end(const Kernel& kernel) {
+  cudaEventRecord(event_[2 * pending_.size() + 1], cuda_.stream);
+  HYST_NVTX(nvtxRangePop());
+  pending_.push_back(kernel);
+}
+
+// Waits, too, but not on behalf of the step: device_counts does not count it.
+void KernelProfile<Cuda>::collect() {
+  check_cuda(cudaStreamSynchronize(cuda_.stream), "profile");
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    float milliseconds = 0;
+    check_cuda(cudaEventElapsedTime(&milliseconds, event_[2 * i], event_[2 * i + 1]), pending_[i].name);
+    KernelCost& cost = costs_[pending_[i].name];
+    ++cost.calls;
+    cost.seconds += 1e-3 * milliseconds;
+    cost.bytes += static_cast<double>(pending_[i].bytes);
+  }
+  pending_.clear();
+}
+
+KernelCosts KernelProfile<Cuda>::costs() {
+  collect();
+  return costs_;
 }
 
 int cuda_device_count(std::string& reason) {

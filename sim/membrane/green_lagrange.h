@@ -95,25 +95,47 @@ HYST_HD inline Real geometric_stiffness(const MembraneRest<Real>& rest, const Me
   return rest.area * (s.s11 * i1 * j1 + s.s22 * i2 * j2 + s.s12 * (i1 * j2 + i2 * j1));
 }
 
+// Block (i, j) of the Gauss-Newton stiffness is sum over a, b of f_a k_ab f_b^T.
+template <class Real>
+struct MembraneCoefficients {
+  Real k11, k12, k21, k22;  // [N/m]
+};
+
+template <class Real>
+HYST_HD inline MembraneCoefficients<Real> membrane_coefficients(const MembraneRest<Real>& rest,
+                                                                const MembraneStiffness<Real>& c, Real factor,
+                                                                int i, int j) {
+  const Real i1 = rest.b1[i], i2 = rest.b2[i], j1 = rest.b1[j], j2 = rest.b2[j];
+  const Real a = factor * rest.area;
+  return {a * (c.warp * i1 * j1 + c.shear * i2 * j2), a * (c.coupling * i1 * j2 + c.shear * i2 * j1),
+          a * (c.coupling * i2 * j1 + c.shear * i1 * j2), a * (c.weft * i2 * j2 + c.shear * i1 * j1)};
+}
+
 // Block (i, j) of the stiffness -df_i/dx_j: `factor` times the Gauss-Newton part plus the geometric part of
 // `tension`.
 template <class Real>
 HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
                                          Real factor, const Deformation<Real>& f,
                                          const MembraneStress<Real>& tension, int i, int j) {
-  const Real i1 = rest.b1[i], i2 = rest.b2[i], j1 = rest.b1[j], j2 = rest.b2[j];
-  const Real a = factor * rest.area;
-  const Real k11 = a * (c.warp * i1 * j1 + c.shear * i2 * j2),
-             k22 = a * (c.weft * i2 * j2 + c.shear * i1 * j1);
-  const Real k12 = a * (c.coupling * i1 * j2 + c.shear * i2 * j1);
-  const Real k21 = a * (c.coupling * i2 * j1 + c.shear * i1 * j2);
+  const MembraneCoefficients<Real> k = membrane_coefficients(rest, c, factor, i, j);
   const Real geometric = geometric_stiffness(rest, tension, i, j);
-  const Vec3<Real> r1 = k11 * f.f1 + k12 * f.f2, r2 = k21 * f.f1 + k22 * f.f2;
+  const Vec3<Real> r1 = k.k11 * f.f1 + k.k12 * f.f2, r2 = k.k21 * f.f1 + k.k22 * f.f2;
   Mat3<Real> block;
   for (int col = 0; col < 3; ++col)
     for (int row = 0; row < 3; ++row) block(row, col) = f.f1[row] * r1[col] + f.f2[row] * r2[col];
-  for (int k = 0; k < 3; ++k) block(k, k) += geometric;
+  for (int d = 0; d < 3; ++d) block(d, d) += geometric;
   return block;
+}
+
+// One of its entries, the same bits.
+template <class Real>
+HYST_HD inline Real membrane_entry(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
+                                   Real factor, const Deformation<Real>& f,
+                                   const MembraneStress<Real>& tension, int i, int j, int row, int col) {
+  const MembraneCoefficients<Real> k = membrane_coefficients(rest, c, factor, i, j);
+  const Real r1 = k.k11 * f.f1[col] + k.k12 * f.f2[col], r2 = k.k21 * f.f1[col] + k.k22 * f.f2[col];
+  const Real entry = f.f1[row] * r1 + f.f2[row] * r2;
+  return row == col ? entry + geometric_stiffness(rest, tension, i, j) : entry;
 }
 
 }  // namespace hysteron

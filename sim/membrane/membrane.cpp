@@ -21,16 +21,19 @@ std::vector<MembraneRest<Real>> rest_as(const ClothMesh& mesh) {
   return result;
 }
 
+// MembraneBlocks::sum.
 template <class Real, class Device>
-std::vector<int> matrix_slots(const ClothMesh& mesh, const BlockRows<Real, Device>& rows) {
-  std::vector<int> slots;
+std::vector<Eigen::Vector2i> block_terms(const ClothMesh& mesh, const BlockRows<Real, Device>& rows) {
+  std::vector<Eigen::Vector2i> terms(rows.col().size(), Eigen::Vector2i(-1, -1));
   for (int v = 0; v < mesh.vertices(); ++v)
-    for (int j = mesh.vertex_faces.start[v]; j < mesh.vertex_faces.start[v + 1]; ++j) {
-      const int item = mesh.vertex_faces.item[j];
-      const auto& t = mesh.face[item / 3];
-      for (int k = 1; k < 3; ++k) slots.push_back(rows.slot(v, t[(item % 3 + k) % 3]));
+    for (int n = mesh.vertex_faces.start[v]; n < mesh.vertex_faces.start[v + 1]; ++n) {
+      const int face = mesh.vertex_faces.item[n] / 3, i = mesh.vertex_faces.item[n] % 3;
+      for (const int j : {(i + 1) % 3, (i + 2) % 3}) {
+        Eigen::Vector2i& of = terms[rows.slot(v, mesh.face[face][j])];
+        of[of[0] < 0 ? 0 : 1] = 9 * face + 3 * i + j;
+      }
     }
-  return slots;
+  return terms;
 }
 
 }  // namespace
@@ -48,7 +51,7 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
       corner_(device, mesh.face),
       vertex_start_(device, mesh.vertex_faces.start),
       vertex_item_(device, mesh.vertex_faces.item),
-      slot_(device, matrix_slots(mesh, rows)),
+      block_sum_(device, block_terms(mesh, rows)),
       deformation_(device, faces_),
       stress_(device, faces_),
       tension_(device, faces_),
@@ -64,7 +67,10 @@ void Membrane<Real, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
   Deformation<Real>* deformed = deformation_.data();
   MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
   for_each(
-      device_, "membrane stress", faces_, HYST_KERNEL(int f) {
+      device_,
+      {"membrane stress",
+       bytes_of(rest_, corner_, deformation_, stress_, tension_) + (damping > 0 ? 2 : 1) * vertex_bytes()},
+      faces_, HYST_KERNEL(int f) {
         const Eigen::Vector3i t = corner[f];
         const Deformation<Real> d = deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]);
         Vec3<Real> strain = green_strain(d);
@@ -79,54 +85,6 @@ void Membrane<Real, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
 template <class Real, class Device>
 MembraneForceView<Real> Membrane<Real, Device>::forces() const {
   return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), stress_.data()};
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix,
-                                      ScalarRowsView<Real> softening) {
-  const MembraneStiffness<Real> c = stiffness_;
-  const int *start = vertex_start_.data(), *item = vertex_item_.data(), *slot = slot_.data();
-  const MembraneRest<Real>* rest = rest_.data();
-  const Deformation<Real>* deformed = deformation_.data();
-  const MembraneStress<Real>* tension = tension_.data();
-  for_each(
-      device_, "membrane matrix", vertices_, HYST_KERNEL(int v) {
-        for (int j = matrix.row_ptr[v]; j < matrix.row_ptr[v + 1]; ++j) matrix.off_diagonal[j].setZero();
-        Mat3<Real> diagonal = Mat3<Real>::Zero();
-        for (int j = start[v]; j < start[v + 1]; ++j) {
-          const int f = item[j] / 3, i = item[j] % 3;
-          const MembraneStress<Real> s = tension[f];
-          const MembraneStress<Real> t{geometric * s.s11, geometric * s.s22, geometric * s.s12};
-          diagonal += membrane_block(rest[f], c, factor, deformed[f], t, i, i);
-          for (int k = 1; k < 3; ++k)
-            matrix.off_diagonal[slot[2 * j + k - 1]] +=
-                membrane_block(rest[f], c, factor, deformed[f], t, i, (i + k) % 3);
-        }
-        matrix.diagonal[v] = diagonal;
-      });
-  if (softening.off_diagonal) assemble_softening(matrix, softening);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::assemble_softening(BlockRowsView<Real> matrix, ScalarRowsView<Real> softening) {
-  const int *start = vertex_start_.data(), *item = vertex_item_.data(), *slot = slot_.data();
-  const MembraneRest<Real>* rest = rest_.data();
-  const MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
-  for_each(
-      device_, "membrane softening", vertices_, HYST_KERNEL(int v) {
-        for (int j = matrix.row_ptr[v]; j < matrix.row_ptr[v + 1]; ++j) softening.off_diagonal[j] = 0;
-        Real diagonal = 0;
-        for (int j = start[v]; j < start[v + 1]; ++j) {
-          const int f = item[j] / 3, i = item[j] % 3;
-          const MembraneStress<Real> s = stress[f], t = tension[f];
-          const MembraneStress<Real> compression{s.s11 - t.s11, s.s22 - t.s22, s.s12 - t.s12};
-          diagonal += geometric_stiffness(rest[f], compression, i, i);
-          for (int k = 1; k < 3; ++k)
-            softening.off_diagonal[slot[2 * j + k - 1]] +=
-                geometric_stiffness(rest[f], compression, i, (i + k) % 3);
-        }
-        softening.diagonal[v] = diagonal;
-      });
 }
 
 template <class Real, class Device>
@@ -190,9 +148,8 @@ double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
 
 template <class Real, class Device>
 std::size_t Membrane<Real, Device>::bytes() const {
-  return rest_.bytes() + corner_.bytes() + vertex_start_.bytes() + vertex_item_.bytes() + slot_.bytes() +
-         deformation_.bytes() + stress_.bytes() + tension_.bytes() + measure_.bytes() + viscous_.bytes() +
-         reference_.bytes();
+  return bytes_of(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, stress_, tension_,
+                  measure_, viscous_, reference_);
 }
 
 template class Membrane<double, ThisDevice>;

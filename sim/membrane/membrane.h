@@ -34,6 +34,30 @@ struct MembraneForceView {
   }
 };
 
+// What the triangles add to the blocks of an implicit matrix, each of which gathers its terms: those off the
+// diagonal first, then the diagonal ones.  A term is numbered 9 * face + 3 * i + j for corners i and j.
+template <class Real>
+struct MembraneBlocks {
+  int off_diagonal;  // how many
+  const Eigen::Vector2i*
+      sum;                  // terms of each block off the diagonal: an edge has one triangle, then -1, or two
+  const int *start, *item;  // of each diagonal block: rows of 3 * face + corner
+  const MembraneRest<Real>* rest;
+
+  // Sum of term(face, i, j) over block b, from zero in the order of the row's triangles.
+  template <class Value, class Term>
+  HYST_HD Value gather(int b, Value value, const Term& term) const {
+    if (b < off_diagonal) {
+      for (int k = 0; k < 2 && sum[b][k] >= 0; ++k)
+        value += term(sum[b][k] / 9, sum[b][k] % 9 / 3, sum[b][k] % 3);
+      return value;
+    }
+    const int v = b - off_diagonal;
+    for (int j = start[v]; j < start[v + 1]; ++j) value += term(item[j] / 3, item[j] % 3, item[j] % 3);
+    return value;
+  }
+};
+
 template <class Real, class Device>
 class Membrane {
  public:
@@ -46,8 +70,10 @@ class Membrane {
   // which callers add mass and contact.  What compression adds is negative semidefinite and apart in
   // `softening`, unless that is null.
   void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix, ScalarRowsView<Real> softening = {});
-  // Part of assemble(); public because nvcc allows no device lambda in a private member function.
-  void assemble_softening(BlockRowsView<Real> matrix, ScalarRowsView<Real> softening);
+  // Parts of assemble(); public because nvcc allows no device lambda in a private member function.
+  void assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix);
+  void assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix);
+  void assemble_softening(ScalarRowsView<Real> softening);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
@@ -68,16 +94,27 @@ class Membrane {
   double viscous_loss() const;                                   // since the start [J]
   double largest_stretch(const Vec3<Real>* position);            // largest principal stretch minus 1
   int faces() const { return faces_; }
+  std::size_t force_bytes() const {  // of forces()
+    return bytes_of(vertex_start_, vertex_item_, rest_, deformation_, stress_);
+  }
   std::size_t bytes() const;
 
  private:
+  MembraneBlocks<Real> blocks() const {
+    return {static_cast<int>(block_sum_.size()), block_sum_.data(), vertex_start_.data(), vertex_item_.data(),
+            rest_.data()};
+  }
+  std::size_t vertex_bytes() const { return vertices_ * sizeof(Vec3<Real>); }
+  int all_blocks() const { return static_cast<int>(block_sum_.size()) + vertices_; }
+
   Device& device_;
   int faces_, vertices_;
   MembraneStiffness<Real> stiffness_;
   Real damping_;
   Buffer<MembraneRest<Real>, Device> rest_;
   Buffer<Eigen::Vector3i, Device> corner_;
-  Buffer<int, Device> vertex_start_, vertex_item_, slot_;  // slot_: two matrix blocks for each item
+  Buffer<int, Device> vertex_start_, vertex_item_;
+  Buffer<Eigen::Vector2i, Device> block_sum_;  // MembraneBlocks::sum
   Buffer<Deformation<Real>, Device> deformation_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> measure_, viscous_;

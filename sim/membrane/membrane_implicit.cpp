@@ -18,7 +18,10 @@ void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<R
   const Eigen::Vector3i* corner = corner_.data();
   Vec3<Real>* reference = reference_.data();
   for_each(
-      device_, "membrane reference", faces_, HYST_KERNEL(int f) {
+      device_,
+      {"membrane reference",
+       bytes_of(rest_, corner_, reference_) + (extrapolation > 0 ? 2 : 1) * vertex_bytes()},
+      faces_, HYST_KERNEL(int f) {
         const Eigen::Vector3i t = corner[f];
         const Vec3<Real> last = green_strain(deformation(rest[f], now[t[0]], now[t[1]], now[t[2]]));
         reference[f] = last;
@@ -45,7 +48,10 @@ void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
   MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
   double* energy = measure_.data();
   for_each(
-      device_, "membrane stress, tried", faces_, HYST_KERNEL(int f) {
+      device_,
+      {"membrane stress, tried",
+       bytes_of(rest_, corner_, reference_, deformation_, stress_, tension_, measure_) + vertex_bytes()},
+      faces_, HYST_KERNEL(int f) {
         const Eigen::Vector3i t = corner[f];
         const Deformation<Real> d = deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]);
         Vec3<Real> strain = green_strain(d);
@@ -74,7 +80,8 @@ void Membrane<Real, Device>::add_viscous_loss() {
   const Vec3<Real>* reference = reference_.data();
   double* lost = viscous_.data();
   for_each(
-      device_, "viscous loss", faces_, HYST_KERNEL(int f) {
+      device_, {"viscous loss", bytes_of(rest_, deformation_, reference_, viscous_, viscous_)}, faces_,
+      HYST_KERNEL(int f) {
         const Vec3<Real> change = green_strain(deformed[f]) - reference[f];
         lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, change));
       });

@@ -8,6 +8,7 @@
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
+#include "sim/device/device_counts.h"
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
 #include "sim/time/hands.h"
@@ -28,6 +29,7 @@ struct StepCounts {
   double last_residual = 0;     // unbalanced force over load where Newton's method ended last
   // Over what was accepted: the largest of that; of stages in motion what it makes of free masses [m/s].
   double largest_residual = 0, largest_velocity = 0, velocities = 0;
+  DeviceCounts device;  // what steps have asked of it
 };
 
 template <class Real>

@@ -131,19 +131,21 @@ NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, 
   potential_.begin({formula_, rates_of(h), state.x, x_before_.data(), reference_.data(), predicted_.data(),
                     state.held, gravity_, drag_, share_, state.grips});
   // The better of two beginnings: at constant velocity, and with the acceleration of the step before.
-  const double steady = potential_of_guess(state, false);
-  double begun = steady;
+  const PotentialValue steady = potential_of_guess(state, false);
+  PotentialValue begun = steady;
   if (last_h_ > 0) {
     begun = potential_of_guess(state, true);
-    if (!(begun < steady)) begun = potential_of_guess(state, false);
+    if (!(begun.energy < steady.energy)) begun = potential_of_guess(state, false);
   }
-  if (!std::isfinite(begun)) {  // the handles' motion is not free, or the state not finite
+  if (!std::isfinite(begun.energy)) {  // the handles' motion is not free, or the state not finite
     NewtonOutcome outcome;
     outcome.blocked = potential_.has_self_contact() && !keep_apart(state);
     return outcome;
   }
   const double beta_dt = static_ ? 1.0 : formula_.beta_dt;
-  return newton_.minimise(end_.data(), state.held, state.mass, total_mass_, beta_dt);
+  const NewtonOutcome outcome = newton_.minimise(end_, begun, state.held, state.mass, total_mass_, beta_dt);
+  evaluated_ = outcome.evaluated;
+  return outcome;
 }
 
 template <class Real, class Device>
@@ -185,13 +187,14 @@ Unbalanced ImplicitStep<Real, Device>::most_unbalanced(const char* held) {
 }
 
 template <class Real, class Device>
-double ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state, bool accelerated) {
+PotentialValue ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state,
+                                                              bool accelerated) {
   guess(state, accelerated);
   potential_.keep_out(end_.data());
   const bool apart = !potential_.has_self_contact() || keep_apart(state);
-  if (!apart || !potential_.reaches(end_.data())) return std::numeric_limits<double>::infinity();
+  if (!apart || !potential_.reaches(end_.data())) return {.energy = std::numeric_limits<double>::infinity()};
   potential_.lag_friction(end_.data());
-  return potential_.evaluate(end_.data(), nullptr).energy;
+  return potential_.evaluate(end_.data(), nullptr);
 }
 
 // What the formula starts from.
@@ -297,8 +300,9 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLedger* ledger) {
-  potential_.evaluate(end_.data(), nullptr);  // the last trial of a line search may have been another
-  if (!bending_lags_) bending_.accept(end_.data());
+  // The last trial of a line search may have been another.
+  if (!evaluated_) potential_.evaluate(end_.data(), nullptr);
+  if (!bending_lags_) bending_.accept();
   book(state, ledger);
   membrane_.add_viscous_loss();
   move_on(state);

@@ -96,11 +96,12 @@ class ImplicitStep {
   static constexpr double kMostGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
   StepFormula formula_of(double h, bool is_first_stage) const;
   StepFormula rates_of(double h) const;
-  double potential_of_guess(const VertexState<Real>& state, bool accelerated);
+  PotentialValue potential_of_guess(const VertexState<Real>& state, bool accelerated);
 
   Device& device_;
   bool two_step_, two_stage_, static_, bending_lags_;
   bool knows_acceleration_ = false;  // at the state accepted last
+  bool evaluated_ = false;           // the potential was last, at the end of the solve
   Vec3<Real> gravity_;
   Real drag_;       // over mass [1/s]
   Real share_ = 1;  // of the weight

@@ -1,5 +1,6 @@
 #include "sim/time/incremental_potential.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hysteron {
@@ -20,10 +21,12 @@ IncrementalPotential<Real, Device>::IncrementalPotential(
       tuning_(tuning),
       vertices_(static_cast<int>(mass.size())),
       gradient_(device, vertices_),
+      descent_(device, vertices_),
       rest_diagonal_(device, vertices_),
       softening_off_diagonal_(device, matrix.col().size()),
       softening_diagonal_(device, vertices_),
-      sums_(device, 1) {}
+      vertex_totals_(device, 1),
+      totals_(device) {}
 
 template <class Real, class Device>
 void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
@@ -71,25 +74,46 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
                                                             const Vec3<Real>* direction) {
   membrane_.evaluate(x);
   if (!bending_lags_) bending_.evaluate(x);
+  return balance(x, direction);
+}
+
+// Membrane and bending stand as they are.
+template <class Real, class Device>
+PotentialValue IncrementalPotential<Real, Device>::renew_friction(const Vec3<Real>* x) {
+  lag_friction(x);
+  return balance(x, nullptr);
+}
+
+template <class Real, class Device>
+PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, const Vec3<Real>* direction) {
   compute_gradient(x);
+  Energies energies;
   if (contact_) {
     contact_->evaluate(x, start_.now, gradient_.data());
-    add_energies(contact_->energies(), vertices_);
+    energies.list[0] = contact_->energies();
+    energies.count[0] = vertices_;
   }
   if (self_contact_) {
     self_contact_->evaluate(x, start_.now, gradient_.data());
-    add_energies(self_contact_->energies(), self_contact_->pairs());
+    energies.list[1] = self_contact_->energies();
+    energies.count[1] = self_contact_->pairs();
   }
-  add_energies(membrane_.energies(), membrane_.faces());
-  if (!bending_lags_) add_energies(bending_.energies(), bending_.elements());
-  measure_gradient(x, direction);
-  const Totals t = sums_.download()[0];
+  energies.list[2] = membrane_.energies();
+  energies.count[2] = membrane_.faces();
+  if (!bending_lags_) {
+    energies.list[3] = bending_.energies();
+    energies.count[3] = bending_.elements();
+  }
+  add_up(energies, x, direction);
+  device_.synchronize();
+  const Totals& t = *totals_;
   return {t.energy,
           t.size,
           std::sqrt(t.residual2),
           std::sqrt(t.reaction2),
           std::sqrt(t.inertia2),
           std::sqrt(t.internal2),
+          std::sqrt(t.weight2),
           t.slope};
 }
 
@@ -105,16 +129,18 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
   const Real* mass = mass_.data();
   const bool lags = bending_lags_;
   Vec3<Real>* gradient = gradient_.data();
-  Totals* totals = sums_.data();
-  for_each_sum<4>(
-      device_, "potential: vertices", vertices_,
-      HYST_KERNEL(int i, Sums<4>& sums) {
+  Totals* totals = vertex_totals_.data();
+  for_each_sum<5>(
+      device_, {"potential: vertices", membrane_.force_bytes() + bending_.force_bytes() + vertex_bytes(5)},
+      vertices_,
+      HYST_KERNEL(int i, Sums<5>& sums) {
         const Vec3<Real> moved = x[i] - s.predicted[i], drift = x[i] - s.reference[i];
         const Vec3<Real> stretch = membrane.at(i), bend = bending.at(i);
         gradient[i] = mass[i] * (inertia * moved + drag * drift - g) - stretch - bend;
         if (s.grips.any_at(i)) gradient[i] -= s.grips.force(i, x[i]);
         sums.term[2] += static_cast<double>(stretch.squaredNorm() + bend.squaredNorm());
         if (s.held[i]) return;
+        sums.term[4] += static_cast<double>((mass[i] * s.gravity).squaredNorm());
         sums.term[3] += static_cast<double>((mass[i] * inertia * moved).squaredNorm());
         double kinetic =
             static_cast<double>(mass[i] / 2 * (inertia * moved.squaredNorm() + drag * drift.squaredNorm()));
@@ -125,46 +151,49 @@ void IncrementalPotential<Real, Device>::compute_gradient(const Vec3<Real>* x) {
         sums.term[0] += kinetic - weight;
         sums.term[1] += kinetic + (weight < 0 ? -weight : weight);
       },
-      HYST_KERNEL(const Sums<4>& total) {
-        totals->energy = total.term[0];
-        totals->size = total.term[1];
-        totals->internal2 = total.term[2];
-        totals->inertia2 = total.term[3];
+      HYST_KERNEL(const Sums<5>& total) {
+        *totals = {total.term[0], total.term[1], total.term[2], total.term[3], total.term[4], 0, 0, 0};
       });
 }
 
+// The energies of each list are added up by themselves, in the order of their elements.
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::add_energies(const double* energies, int count) {
-  Totals* totals = sums_.data();
-  for_each_sum<2>(
-      device_, "potential: sum", count,
-      HYST_KERNEL(int i, Sums<2>& sums) {
-        sums.term[0] += energies[i];
-        sums.term[1] += energies[i] < 0 ? -energies[i] : energies[i];
-      },
-      HYST_KERNEL(const Sums<2>& total) {
-        totals->energy += total.term[0];
-        totals->size += total.term[1];
-      });
-}
-
-template <class Real, class Device>
-void IncrementalPotential<Real, Device>::measure_gradient(const Vec3<Real>* x, const Vec3<Real>* direction) {
+void IncrementalPotential<Real, Device>::add_up(const Energies& energies, const Vec3<Real>* x,
+                                                const Vec3<Real>* direction) {
+  const Energies of = energies;
+  const int vertices = vertices_, longest = std::max(vertices, *std::max_element(of.count, of.count + 4));
   const Vec3<Real>* gradient = gradient_.data();
   const char* held = start_.held;
   const Grips<Real> grips = start_.grips;
-  Totals* totals = sums_.data();
-  for_each_sum<3>(
-      device_, "potential: gradient", vertices_,
-      HYST_KERNEL(int i, Sums<3>& sums) {
-        sums.term[held[i] ? 1 : 0] += static_cast<double>(gradient[i].squaredNorm());
+  const Totals* of_vertices = vertex_totals_.data();
+  Totals* totals = totals_.data();
+  std::size_t bytes = vertex_bytes(direction ? 2 : 1);
+  for (const int count : of.count) bytes += count * sizeof(double);
+  for_each_sum<11>(
+      device_, {"potential: sums", bytes}, longest,
+      HYST_KERNEL(int i, Sums<11>& sums) {
+        for (int l = 0; l < 4; ++l) {
+          if (i >= of.count[l]) continue;
+          const double energy = of.list[l][i];
+          sums.term[3 + 2 * l] += energy;
+          sums.term[4 + 2 * l] += energy < 0 ? -energy : energy;
+        }
+        if (i >= vertices) return;
+        const double force2 = static_cast<double>(gradient[i].squaredNorm());
+        (held[i] ? sums.term[1] : sums.term[0]) += force2;
         if (grips.any_at(i)) sums.term[1] += static_cast<double>(grips.force(i, x[i]).squaredNorm());
         if (direction && !held[i]) sums.term[2] += static_cast<double>(gradient[i].dot(direction[i]));
       },
-      HYST_KERNEL(const Sums<3>& total) {
-        totals->residual2 = total.term[0];
-        totals->reaction2 = total.term[1];
-        totals->slope = total.term[2];
+      HYST_KERNEL(const Sums<11>& total) {
+        Totals t = *of_vertices;
+        for (int l = 0; l < 4; ++l) {
+          t.energy += total.term[3 + 2 * l];
+          t.size += total.term[4 + 2 * l];
+        }
+        t.residual2 = total.term[0];
+        t.reaction2 = total.term[1];
+        t.slope = total.term[2];
+        *totals = t;
       });
 }
 
@@ -181,12 +210,16 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   const Real* mass = mass_.data();
   const Real sliding_share = static_cast<Real>(full ? tuning_.sliding_near : tuning_.sliding_far);
   const Grips<Real> grips = start_.grips;
+  const Vec3<Real>* gradient = gradient_.data();
+  Vec3<Real>* descent = descent_.data();
   Mat3<Real>* rest = rest_diagonal_.data();
   for_each(
-      device_, "potential: masses", vertices_, HYST_KERNEL(int i) {
+      device_, {"potential: masses", vertex_bytes(2) + vertices_ * (3 * sizeof(Mat3<Real>) + sizeof(Real))},
+      vertices_, HYST_KERNEL(int i) {
         for (int k = 0; k < 3; ++k) matrix.diagonal[i](k, k) += inertia * mass[i];
         if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], sliding_share);
         rest[i].setZero();
+        descent[i] = -gradient[i];
       });
   if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, sliding_share);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
@@ -203,20 +236,6 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   if (self_contact_)
     system.self_contact = [this](const Vec3<Real>* p) { return self_contact_->apply_stiffness(p); };
   return system;
-}
-
-template <class Real, class Device>
-double IncrementalPotential<Real, Device>::load() {
-  const StepStart<Real> s = start_;
-  const Real* mass = mass_.data();
-  Totals* totals = sums_.data();
-  for_each_sum<1>(
-      device_, "potential: load", vertices_,
-      HYST_KERNEL(int i, Sums<1>& sums) {
-        if (!s.held[i]) sums.term[0] += static_cast<double>((mass[i] * s.gravity).squaredNorm());
-      },
-      HYST_KERNEL(const Sums<1>& total) { totals->slope = total.term[0]; });
-  return std::sqrt(sums_.download()[0].slope);
 }
 
 template class IncrementalPotential<double, ThisDevice>;

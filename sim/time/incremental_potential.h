@@ -14,6 +14,7 @@
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
+#include "sim/device/host_result.h"
 #include "sim/linear/pcg.h"
 #include "sim/membrane/membrane.h"
 #include "sim/scene/solver_tuning.h"
@@ -41,6 +42,7 @@ struct PotentialValue {
   double reaction = 0;  // norm over the held and gripped ones of what the handles carry [N]
   double inertia = 0;   // norm of mass times acceleration over all free vertices [N]
   double internal = 0;  // norm of the membrane's and bending's forces over all vertices [N]
+  double weight = 0;    // norm of the whole weight of all free vertices [N]
   double slope = 0;     // gradient . direction [J]
 };
 
@@ -65,32 +67,40 @@ class IncrementalPotential {
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.
   void lag_friction(const Vec3<Real>* x);
-  // Phi and its gradient; the direction may be null.
+  // Phi and its gradient; the direction may be null.  The host waits for the device.
   PotentialValue evaluate(const Vec3<Real>* x, const Vec3<Real>* direction);
-  // The Hessian where evaluate() was called last, with `shift` times the masses added [1/s^2].  It is
-  // positive semidefinite unless it is `full`, for near the minimum: then with what compression takes away,
-  // and with friction that slides more easily (sliding_stop.h).  Bending's part is Gauss-Newton's, without
-  // the second derivatives of angles.
+  // Both at x, where evaluate() was called last, with limits of friction from there.
+  PotentialValue renew_friction(const Vec3<Real>* x);
+  // The Hessian where evaluate() was called last, and what descends from there, with `shift` times the masses
+  // added [1/s^2].  It is positive semidefinite unless it is `full`, for near the minimum: then with what
+  // compression takes away, and with friction that slides more easily (sliding_stop.h).  Bending's part is
+  // Gauss-Newton's, without the second derivatives of angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
   void visit(Archive& archive) { hysteron::visit(archive, device_, gradient_); }
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
-  double load();  // norm of the weight of all free vertices [N]
+  const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient of the last linearise() [N]
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
-    return gradient_.bytes() + rest_diagonal_.bytes() + softening_off_diagonal_.bytes() +
-           softening_diagonal_.bytes() + sums_.bytes();
+    return bytes_of(gradient_, descent_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
+                    vertex_totals_);
   }
 
-  struct Totals {  // on the device
-    double energy, size, internal2, inertia2, residual2, reaction2, slope;
+  struct Totals {
+    double energy, size, internal2, inertia2, weight2, residual2, reaction2, slope;
+  };
+  // Energies of contact, self-contact, membrane and bending, in the order in which they are added.
+  struct Energies {
+    const double* list[4] = {};  // [J]
+    int count[4] = {};
   };
 
   // The parts of evaluate(); public because nvcc allows no device lambda in a private member function.
   void compute_gradient(const Vec3<Real>* x);
-  void add_energies(const double* energies, int count);
-  void measure_gradient(const Vec3<Real>* x, const Vec3<Real>* direction);
+  void add_up(const Energies& energies, const Vec3<Real>* x, const Vec3<Real>* direction);
 
  private:
+  PotentialValue balance(const Vec3<Real>* x, const Vec3<Real>* direction);
+  std::size_t vertex_bytes(int vectors) const { return vectors * gradient_.bytes(); }
   Device& device_;
   BlockRows<Real, Device>& matrix_;
   Membrane<Real, Device>& membrane_;
@@ -102,10 +112,11 @@ class IncrementalPotential {
   SolverTuning tuning_;
   int vertices_;
   StepStart<Real> start_{};
-  Buffer<Vec3<Real>, Device> gradient_;
+  Buffer<Vec3<Real>, Device> gradient_, descent_;
   Buffer<Mat3<Real>, Device> rest_diagonal_;
   Buffer<Real, Device> softening_off_diagonal_, softening_diagonal_;
-  Buffer<Totals, Device> sums_;
+  Buffer<Totals, Device> vertex_totals_;  // what compute_gradient() knows
+  HostResult<Totals, Device> totals_;
 };
 
 }  // namespace hysteron

@@ -36,20 +36,17 @@ Newton<Real, Device>::Newton(Device& device, int vertices, IncrementalPotential<
       limits_(limits),
       direction_(device, vertices),
       trial_(device, vertices),
-      rhs_(device, vertices),
-      sums_(device, 1) {}
+      correction_(device) {}
 
 // Linear systems are solved the better the nearer the minimum (Eisenstat & Walker 1996, choice 2).
 template <class Real, class Device>
-NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, const Real* mass,
-                                             double total_mass, double beta_dt) {
+NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, PotentialValue value,
+                                             const char* held, const Real* mass, double total_mass,
+                                             double beta_dt) {
   constexpr double kTightest = 1e-5;
   const SolverTuning& tuning = limits_.tuning;
   NewtonOutcome outcome;
-  const double weight = potential_.load();
-  potential_.lag_friction(x);
-  PotentialValue value = potential_.evaluate(x, nullptr);
-  const double first = value.residual;
+  const double weight = value.weight, first = value.residual;
   // What a step may meet costs the more the longer it is: the next direction is looked along as far as a few
   // times the last step.
   double farthest = std::numeric_limits<double>::infinity();  // [m]
@@ -66,11 +63,15 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
       outcome.converged = outcome.unbalanced = limits_.take_unconverged;
       break;
     }
-    const LinearSystem<Real, Device> system =
-        potential_.linearise(x, static_cast<Real>(shift), value.residual < tuning.full_stiffness * first);
-    outcome.linear_iterations += find_direction(system, held, std::max(forcing, kTightest));
+    const LinearSystem<Real, Device> system = potential_.linearise(
+        x.data(), static_cast<Real>(shift), value.residual < tuning.full_stiffness * first);
+    outcome.linear_iterations +=
+        solver_.solve(system, held, potential_.descent(), direction_.data(), std::max(forcing, kTightest))
+            .iterations;
     const bool is_free = std::hypot(weight, value.reaction) == 0;
-    const Correction correction = measure_correction(system, x, mass, held, is_free);
+    measure_correction(system, x.data(), mass, held, is_free);
+    const TriedStep tried = first_try(x.data(), farthest, total_mass);
+    const Correction correction = *correction_;
     if (is_free) rounding = kBlur<Real> * std::sqrt(correction.forces2);
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
@@ -79,7 +80,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
     const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
     const double blurred =
         std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
-    const double step_length = search(x, value, correction.slope, std::min(1.0, farthest / length), blurred);
+    const double step_length = search(x, value, tried, correction.slope, blurred);
     if (potential_.has_self_contact()) farthest = tuning.longer * step_length * length;
     outcome.step_lengths += step_length;
     const bool balanced =
@@ -89,68 +90,81 @@ NewtonOutcome Newton<Real, Device>::minimise(Vec3<Real>* x, const char* held, co
                           (balanced && (unmoved || -correction.slope <= blurred));  // no more to gain
       outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
       outcome.converged |= outcome.unbalanced;
+      outcome.evaluated = false;
       break;
     }
     outcome.converged =
         balanced && shift <= limits_.least_shift && (unmoved || length / beta_dt <= limits_.velocity);
     shift = std::max(limits_.least_shift, step_length == 1 ? shift / 8 : shift * 2);
-    if (potential_.has_friction() && outcome.iterations < tuning.friction_rounds) {
-      potential_.lag_friction(x);
-      value = potential_.evaluate(x, nullptr);
-    }
+    if (potential_.has_friction() && outcome.iterations < tuning.friction_rounds)
+      value = potential_.renew_friction(x.data());
     forcing = std::min(tuning.loosest_solve, 0.9 * std::pow(value.residual / before, 2));
   }
   return outcome;
 }
 
-// Newton's direction.  In a `full` system the membrane's softening under compression counts, and where the
-// stiffness is indefinite the direction leads down along its negative curvature, away from the saddle;
-// without, the stiffness is positive.  Longva et al. 2023 compare such choices.  Returns the linear solver's
-// iterations.
+// In a `full` system the membrane's softening under compression counts, and where the stiffness is indefinite
+// the direction leads down along its negative curvature, away from the saddle; without, the stiffness is
+// positive.  Longva et al. 2023 compare such choices.
+//
+// Layers limit the step by its length: only there the host has to know the correction before it asks for a
+// trial.
 template <class Real, class Device>
-long Newton<Real, Device>::find_direction(const LinearSystem<Real, Device>& system, const char* held,
-                                          double tolerance) {
-  negate_gradient();
-  return solver_.solve(system, held, rhs_.data(), direction_.data(), tolerance).iterations;
+typename Newton<Real, Device>::TriedStep Newton<Real, Device>::first_try(const Vec3<Real>* x, double farthest,
+                                                                         double total_mass) {
+  double max_step = 1;
+  if (potential_.has_self_contact()) {
+    device_.synchronize();
+    if (!((*correction_).slope < 0)) return {};
+    max_step = std::min(1.0, farthest / std::sqrt((*correction_).size2 / total_mass));
+  }
+  const double step_length = potential_.feasible_step(x, direction_.data(), max_step);
+  if (step_length > 0) return try_step(x, step_length);
+  device_.synchronize();
+  return {};
 }
 
 // Takes the first step along the direction, as long as is feasible or shorter, that lowers the potential
 // enough, and returns its length; 0 if there is none.  Where the difference is within rounding, the slope
 // must have become flatter instead (Hager & Zhang 2005).
 template <class Real, class Device>
-double Newton<Real, Device>::search(Vec3<Real>* x, PotentialValue& value, double slope, double max_step,
-                                    double blurred) {
-  if (!(slope < 0)) return 0;
-  double step_length = potential_.feasible_step(x, direction_.data(), max_step);
-  if (!(step_length > 0)) return 0;
-  for (int halving = 0; halving < kMostHalvings; ++halving) {
-    try_step(x, static_cast<Real>(step_length));
-    const PotentialValue trial = potential_.evaluate(trial_.data(), direction_.data());
-    const double rise = trial.energy - value.energy;
+double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, TriedStep tried,
+                                    double slope, double blurred) {
+  if (!(slope < 0) || !(tried.length > 0)) return 0;
+  for (int halving = 1;; ++halving) {
+    const double step_length = tried.length;
+    const double rise = tried.value.energy - value.energy;
     const bool lower = rise <= kEnough * step_length * slope,
-               flatter = std::abs(rise) <= blurred && std::abs(trial.slope) <= -0.9 * slope;
+               flatter = std::abs(rise) <= blurred && std::abs(tried.value.slope) <= -0.9 * slope;
     if (lower || flatter) {
-      take_trial(x);
-      potential_.took(x);
-      value = trial;
+      std::swap(x, trial_);
+      potential_.took(x.data());
+      value = tried.value;
       return step_length;
     }
+    if (halving == kMostHalvings) return 0;
     const double curved = 2 * (rise - step_length * slope);  // minimum of the parabola through what is known
     const double next = curved > 0 ? -slope * step_length * step_length / curved : 0;
-    step_length = std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * step_length, 0.5 * step_length);
+    tried = try_step(x.data(),
+                     std::clamp(std::isfinite(next) ? next : 0.0, 0.1 * step_length, 0.5 * step_length));
   }
-  return 0;
 }
 
 template <class Real, class Device>
-typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correction(
-    const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass, const char* held,
-    bool is_free) {
+typename Newton<Real, Device>::TriedStep Newton<Real, Device>::try_step(const Vec3<Real>* x,
+                                                                        double step_length) {
+  place_trial(x, static_cast<Real>(step_length));
+  return {step_length, potential_.evaluate(trial_.data(), direction_.data())};
+}
+
+template <class Real, class Device>
+void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
+                                              const Real* mass, const char* held, bool is_free) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
   const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
-  Correction* result = sums_.data();
+  Correction* result = correction_.data();
   for_each_sum<4>(
-      device_, "newton: correction", vertices_,
+      device_, {"newton: correction", 3 * direction_.bytes() + vertices_ * sizeof(Real)}, vertices_,
       HYST_KERNEL(int i, Sums<4>& sums) {
         if (held[i]) return;
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
@@ -163,30 +177,15 @@ typename Newton<Real, Device>::Correction Newton<Real, Device>::measure_correcti
       HYST_KERNEL(const Sums<4>& total) {
         *result = {total.term[0], total.term[1], total.term[2], total.term[3]};
       });
-  return sums_.download()[0];
 }
 
 template <class Real, class Device>
-void Newton<Real, Device>::try_step(const Vec3<Real>* x, Real step_length) {
+void Newton<Real, Device>::place_trial(const Vec3<Real>* x, Real step_length) {
   const Vec3<Real>* d = direction_.data();
   Vec3<Real>* trial = trial_.data();
   for_each(
-      device_, "newton: try", vertices_, HYST_KERNEL(int i) { trial[i] = x[i] + step_length * d[i]; });
-}
-
-template <class Real, class Device>
-void Newton<Real, Device>::take_trial(Vec3<Real>* x) {
-  const Vec3<Real>* trial = trial_.data();
-  for_each(
-      device_, "newton: take", vertices_, HYST_KERNEL(int i) { x[i] = trial[i]; });
-}
-
-template <class Real, class Device>
-void Newton<Real, Device>::negate_gradient() {
-  const Vec3<Real>* gradient = potential_.gradient();
-  Vec3<Real>* rhs = rhs_.data();
-  for_each(
-      device_, "newton: load", vertices_, HYST_KERNEL(int i) { rhs[i] = -gradient[i]; });
+      device_, {"newton: try", 3 * trial_.bytes()}, vertices_,
+      HYST_KERNEL(int i) { trial[i] = x[i] + step_length * d[i]; });
 }
 
 template class Newton<double, ThisDevice>;

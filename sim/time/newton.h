@@ -1,6 +1,7 @@
 // Newton's method with line search on the incremental potential.
 #pragma once
 
+#include "sim/device/host_result.h"
 #include "sim/linear/linear_solver.h"
 #include "sim/time/incremental_potential.h"
 
@@ -25,6 +26,7 @@ struct NewtonOutcome {
   bool converged = false;   // or taken as it is
   bool unbalanced = false;  // taken as it is
   bool blocked = false;     // the handles' own motion leads the cloth through itself
+  bool evaluated = true;    // the potential was last evaluated where the search has ended
   int iterations = 0;
   long linear_iterations = 0;
   double step_lengths = 0;  // sum over the iterations, 1 for a full step
@@ -39,12 +41,13 @@ class Newton {
   Newton(Device& device, int vertices, IncrementalPotential<Real, Device>& potential,
          LinearSolver<Real, Device>& solver, const NewtonLimits& limits);
 
-  // Minimises the potential over the vertices that are not held, from x on.  `beta_dt` turns corrections
-  // into velocities [s].  Each accepted iterate lowers the potential, up to rounding.
-  NewtonOutcome minimise(Vec3<Real>* x, const char* held, const Real* mass, double total_mass,
-                         double beta_dt);
+  // Minimises the potential over the vertices that are not held, from x on, where it was evaluated last as
+  // `value`.  `beta_dt` turns corrections into velocities [s].  Each accepted iterate lowers the potential,
+  // up to rounding.
+  NewtonOutcome minimise(Buffer<Vec3<Real>, Device>& x, PotentialValue value, const char* held,
+                         const Real* mass, double total_mass, double beta_dt);
   void set_limits(const NewtonLimits& limits) { limits_ = limits; }
-  std::size_t bytes() const { return direction_.bytes() + trial_.bytes() + rhs_.bytes() + sums_.bytes(); }
+  std::size_t bytes() const { return bytes_of(direction_, trial_); }
 
   // The parts of minimise(); public because nvcc allows no device lambda in a private member function.
   struct Correction {
@@ -54,23 +57,28 @@ class Newton {
     double forces2;  // sum of (trace of the stiffness times |x|)^2, whose rounding no force escapes; of free
                      // cloth [N^2]
   };
-  Correction measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
-                                const Real* mass, const char* held, bool is_free);
-  void try_step(const Vec3<Real>* x, Real step_length);
-  void take_trial(Vec3<Real>* x);
-  void negate_gradient();
+  void measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass,
+                          const char* held, bool is_free);
+  void place_trial(const Vec3<Real>* x, Real step_length);
 
  private:
-  long find_direction(const LinearSystem<Real, Device>& system, const char* held, double tolerance);
-  double search(Vec3<Real>* x, PotentialValue& value, double slope, double max_step, double blurred);
+  // A step along the direction and the potential after it; of length 0: none that is feasible.
+  struct TriedStep {
+    double length = 0;
+    PotentialValue value = {};
+  };
+  TriedStep first_try(const Vec3<Real>* x, double farthest, double total_mass);
+  TriedStep try_step(const Vec3<Real>* x, double step_length);
+  double search(Buffer<Vec3<Real>, Device>& x, PotentialValue& value, TriedStep first, double slope,
+                double blurred);
 
   Device& device_;
   int vertices_;
   IncrementalPotential<Real, Device>& potential_;
   LinearSolver<Real, Device>& solver_;
   NewtonLimits limits_;
-  Buffer<Vec3<Real>, Device> direction_, trial_, rhs_;
-  Buffer<Correction, Device> sums_;
+  Buffer<Vec3<Real>, Device> direction_, trial_;
+  HostResult<Correction, Device> correction_;
 };
 
 }  // namespace hysteron

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/device/device_counts.h"
 #include "sim/device/gl_positions.h"
+#include "sim/device/kernel_profile.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene.h"
 #include "sim/time/ledger.h"
@@ -91,7 +93,14 @@ class Simulation {
   virtual StepLimits limits() const = 0;
   virtual std::vector<ScenePart> parts() const = 0;
   virtual std::size_t device_bytes() const = 0;
-  virtual double copy_bandwidth() = 0;     // of this device, bytes read plus written [byte/s], measured
+  virtual DeviceCounts device_work()
+      const = 0;                        // launches, waits and allocations of all steps since the start
+  virtual double copy_bandwidth() = 0;  // of this device, bytes read plus written [byte/s], measured
+  // From now on every loop is timed by its name; kernel_costs() are those since then.  On a GPU each includes
+  // the launch, which alone takes launch_seconds(), measured.
+  virtual void profile() = 0;
+  virtual KernelCosts kernel_costs() = 0;
+  virtual double launch_seconds() = 0;
   virtual std::string device() const = 0;  // "cpu: ..." or "cuda: ..."
   virtual int cuda_device() const = 0;     // -1: the CPU
   // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with

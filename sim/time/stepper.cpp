@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
@@ -52,12 +53,14 @@ Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scen
 
 template <class Real, class Device>
 void Stepper<Real, Device>::advance(int steps) {
+  const DeviceCounts before = device_counts;
   for (int s = 0; s < steps; ++s) {
     body_.carry_out_commands(time(), time() + body_.scene.step);
     integrator_->step(time());
     ++steps_;
   }
   refuse_divergence(body_, time());
+  body_.counts.device += device_counts - before;
 }
 
 template <class Real, class Device>
@@ -134,11 +137,33 @@ double Stepper<Real, Device>::copy_bandwidth() {
     wait();
     const auto start = std::chrono::steady_clock::now();
     for_each(
-        device, "copy", kDoubles, HYST_KERNEL(int i) { target[i] = source[i]; });
+        device, {"copy", 2 * kDoubles * sizeof(double)}, kDoubles,
+        HYST_KERNEL(int i) { target[i] = source[i]; });
     wait();
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 2.0 * kDoubles * sizeof(double) / best;
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::profile() {
+  body_.device->profile = std::make_unique<KernelProfile<Device>>(*body_.device);
+}
+
+template <class Real, class Device>
+KernelCosts Stepper<Real, Device>::kernel_costs() {
+  return body_.device->profile ? body_.device->profile->costs() : KernelCosts{};
+}
+
+template <class Real, class Device>
+double Stepper<Real, Device>::launch_seconds() {
+  constexpr int kLaunches = 200;
+  Device& device = *body_.device;
+  auto of_steps = std::exchange(device.profile, std::make_unique<KernelProfile<Device>>(device));
+  for (int i = 0; i < kLaunches; ++i) for_each(device, "nothing", 1, HYST_KERNEL(int){});
+  const double seconds = device.profile->costs()["nothing"].seconds / kLaunches;
+  device.profile = std::move(of_steps);
+  return seconds;
 }
 
 template <class Real, class Device>

@@ -51,7 +51,11 @@ class Stepper : public Simulation {
   StepLimits limits() const override { return limits_; }
   std::vector<ScenePart> parts() const override;
   std::size_t device_bytes() const override { return body_.device->bytes; }
+  DeviceCounts device_work() const override { return body_.counts.device; }
   double copy_bandwidth() override;
+  void profile() override;
+  KernelCosts kernel_costs() override;
+  double launch_seconds() override;
   std::string device() const override;
   int cuda_device() const override { return body_.device->cuda_device(); }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/compare/errors.h"
@@ -146,6 +148,16 @@ void Session::note_folds() {
       "warning: up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more "
       "than 2.5 % too soft: take more triangles",
       100 * folded_, kSharp));
+}
+
+void Session::note_device_work() {
+  const DeviceCounts work = simulation_->device_work();
+  const auto per_step = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(std::max(1L, simulation_->steps()));
+  };
+  run_->note("device_per_step", {{"launches", per_step(work.loops)},
+                                 {"synchronizations", per_step(work.synchronizations)},
+                                 {"allocations", per_step(work.allocations)}});
 }
 
 void Session::note_deep_contact() {
@@ -311,6 +323,7 @@ void Session::finish(const std::string& title) {
   manifest.steps = simulation_->steps();
   manifest.seconds_simulated = simulation_->time();
   manifest.bytes_device = simulation_->device_bytes();
+  note_device_work();
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   note_integrator(ledger);

@@ -84,6 +84,7 @@ class Session {
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void note_integrator(const Ledger& ledger);
+  void note_device_work();
   void note_deep_contact();
   void note_slack_hands();
   void note_convergence();

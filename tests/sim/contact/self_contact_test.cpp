@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "sim/base/error.h"
@@ -95,6 +96,29 @@ TEST(SelfContact, HandsTheStretchOfItsStopsToThePairsThatFollow) {
   constexpr double kSlanted =
       0.05;  // what pairs beside those right above each other, whose planes differ, add
   EXPECT_NEAR(-last.x() / last.z() / (0.6 * trial.scene.fabric.friction), 1, kSlanted);
+}
+
+// Pairs that a path leaves too far apart are not looked at: on all of it the energies of the others are all.
+TEST(SelfContact, MissesNoPairThatTouchesOnThePath) {
+  const double thickness = Fabric{}.thickness, gap = 3 * thickness, end = 0.7 * thickness;
+  const Trial trial = two_sheets(gap, 400);
+  Cpu cpu(1);
+  SelfContact<double, Cpu> contact(cpu, trial.cloth.mesh, trial.scene);
+  std::vector<Vector3d> x = trial.cloth.start, direction(x.size(), Vector3d::Zero());
+  for (int i : upper_vertices(trial)) direction[i] = {0.2 * gap, 0, end - gap};
+  const std::vector<char> held(x.size());
+  ASSERT_EQ(contact.prepare(x.data(), direction.data(), held.data()), 1);
+  double last = 0;
+  for (double share : {0.5, 0.9, 0.95, 1.0}) {
+    std::vector<Vector3d> on_path = x, gradient(x.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < x.size(); ++i) on_path[i] += share * direction[i];
+    contact.evaluate(on_path.data(), x.data(), gradient.data());
+    const double energy = std::accumulate(contact.energies(), contact.energies() + contact.pairs(), 0.0);
+    EXPECT_NEAR(energy, contact.stored_energy(on_path.data()), 1e-13 * energy) << share;
+    EXPECT_EQ(energy > 0, share * (gap - end) > gap - thickness) << share;
+    EXPECT_GE(energy, last);
+    last = energy;
+  }
 }
 
 // Below its stiffest gap the barrier goes on as a parabola: energy, slope and stiffness without a jump, and

@@ -68,7 +68,8 @@ TEST_P(Figures, FeasibleStepsEndBeforeContact) {
     Vector from[4], along[4];
     std::copy(x, x + 4, from);
     std::copy(direction, direction + 4, along);
-    const double step_length = feasible_step(from, along, GetParam(), kLeast);
+    const double step_length =
+        feasible_step(approach(from, along, GetParam()), from, along, GetParam(), kLeast);
     const auto at = [&](double s) {
       Vector y[4];
       for (int i = 0; i < 4; ++i) y[i] = x[i] + s * direction[i];

@@ -32,6 +32,8 @@ class Primitives {
   virtual float smallest(const std::vector<float>& values, float otherwise) = 0;
   virtual Rows group(const std::vector<int>& key, int rows) = 0;
 
+  // What a loop has written where the host reads it, without a download.
+  virtual double written_to_host(double value) = 0;
   // Values uploaded to a buffer, that buffer moved twice, and downloaded.
   virtual std::vector<double> through_a_buffer(const std::vector<double>& values) = 0;
   // Elements that a growing buffer holds after each of these wishes.

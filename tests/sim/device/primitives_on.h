@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/device/algorithms.h"
+#include "sim/device/host_result.h"
 #include "tests/sim/device/primitives.h"
 
 namespace hysteron::test {
@@ -38,6 +39,16 @@ Totals totals(Device& device, const std::vector<double>& values) {
 }
 
 template <class Device>
+double written_to_host(Device& device, double value) {
+  HostResult<double, Device> result(device);
+  double* to = result.data();
+  for_each(
+      device, "to host", 1, HYST_KERNEL(int) { *to = value; });
+  device.synchronize();
+  return *result;
+}
+
+template <class Device>
 class PrimitivesOn : public Primitives {
  public:
   template <class... Arguments>
@@ -66,6 +77,8 @@ class PrimitivesOn : public Primitives {
     result.item.resize(result.start.back());
     return result;
   }
+
+  double written_to_host(double value) override { return test::written_to_host(device_, value); }
 
   std::vector<double> through_a_buffer(const std::vector<double>& values) override {
     Buffer<double, Device> first(device_, values.size());

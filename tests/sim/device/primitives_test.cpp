@@ -150,6 +150,10 @@ TEST_P(DevicePrimitives, ABufferGivesBackWhatItWasGivenAndLeavesNoMemoryBehind) 
   EXPECT_EQ(primitives->bytes(), before);
 }
 
+TEST_P(DevicePrimitives, AHostResultIsWhatTheLoopWrote) {
+  for (const double value : {0.0, -1.5, 1e300}) EXPECT_EQ(primitives->written_to_host(value), value);
+}
+
 TEST_P(DevicePrimitives, AGrowingBufferGrowsByAQuarterMoreAndNeverShrinks) {
   EXPECT_EQ(primitives->grown({0, 8, 4, 10, 11, 0, 100}),
             (std::vector<std::size_t>{0, 10, 10, 10, 13, 13, 125}));

@@ -213,6 +213,29 @@ TEST_P(OfACloth, FullStiffnessIsTheDerivativeOfTheGradientOfAPressedSheet) {
   EXPECT_GT(std::log10(error(1e-6) / error(1e-7)), 1.7);
 }
 
+// Limits of friction change Phi where the cloth touches; membrane and bending are not asked again.
+TEST_P(OfACloth, RenewedFrictionIsThatOfANewEvaluation) {
+  Step renewed(GetParam().law, GetParam().element), anew(GetParam().law, GetParam().element);
+  PotentialValue before, values[2];
+  const Positions x = moved(anew.reference, 1e-4, random_vectors(anew.reference.size(), 1, 15));
+  for (Step* step : {&renewed, &anew}) {
+    step->give_it_a_past();
+    step->begin();
+    step->potential.lag_friction(step->reference.data());
+    before = step->potential.evaluate(x.data(), nullptr);
+  }
+  const long loops = device_counts.loops;
+  values[0] = renewed.potential.renew_friction(x.data());
+  const long renewing = device_counts.loops - loops;
+  anew.potential.lag_friction(x.data());
+  values[1] = anew.potential.evaluate(x.data(), nullptr);
+  EXPECT_LT(renewing, device_counts.loops - loops - renewing);
+  EXPECT_NE(values[0].energy, before.energy);
+  EXPECT_EQ(values[0].energy, values[1].energy);
+  EXPECT_EQ(values[0].residual, values[1].residual);
+  EXPECT_EQ(renewed.gradient(), anew.gradient());
+}
+
 Positions pressed_almost_flat(const Step& step) {
   Positions x = step.reference;
   for (Vector3d& v : x) v = Vector3d(0.9 * v.x(), v.y(), v.z() + kLifted);
@@ -270,9 +293,11 @@ TEST_P(OfACloth, LineSearchNeverAcceptsAnIncrease) {
     NewtonLimits limits;
     limits.iterations = iterations;
     Newton<double, Cpu> newton(step.cpu, step.mass.size(), step.potential, solver, limits);
-    Positions x = moved(step.reference, 3e-3, step.free_direction(9));
-    newton.minimise(x.data(), step.held.data(), step.mass.data(), 1, kStep);
-    const PotentialValue value = step.at(x, x);
+    Buffer<Vector3d, Cpu> x(step.cpu, moved(step.reference, 3e-3, step.free_direction(9)));
+    step.potential.lag_friction(x.data());
+    const PotentialValue first = step.potential.evaluate(x.data(), nullptr);
+    newton.minimise(x, first, step.held.data(), step.mass.data(), 1, kStep);
+    const PotentialValue value = step.potential.evaluate(x.data(), nullptr);
     const double rounding = 1e-14 * value.size;
     EXPECT_LE(value.energy, last + rounding) << iterations;
     decreases += value.energy < last - rounding;

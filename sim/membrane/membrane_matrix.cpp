@@ -1,0 +1,93 @@
+// The membrane's part of an implicit matrix.  Every block gathers what its triangles add: nothing is cleared
+// first, and no store depends on another.
+#include "sim/membrane/membrane.h"
+
+namespace hysteron {
+namespace {
+
+template <class Real>
+HYST_HD MembraneStress<Real> scaled(Real factor, const MembraneStress<Real>& s) {
+  return {factor * s.s11, factor * s.s22, factor * s.s12};
+}
+
+}  // namespace
+
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix,
+                                      ScalarRowsView<Real> softening) {
+  if constexpr (Device::kGpu)
+    assemble_entries(factor, geometric, matrix);
+  else
+    assemble_blocks(factor, geometric, matrix);
+  if (softening.off_diagonal) assemble_softening(softening);
+}
+
+// A CPU computes what the entries of a block have in common once.
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix) {
+  const MembraneStiffness<Real> c = stiffness_;
+  const MembraneBlocks<Real> blocks = this->blocks();
+  const Deformation<Real>* deformed = deformation_.data();
+  const MembraneStress<Real>* tension = tension_.data();
+  const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
+  for_each(
+      device_,
+      {"membrane matrix",
+       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
+      all_blocks(), HYST_KERNEL(int b) {
+        const Mat3<Real> block = blocks.gather(b, Mat3<Real>(Mat3<Real>::Zero()), [&](int f, int i, int j) {
+          return membrane_block(blocks.rest[f], c, factor, deformed[f], scaled(geometric, tension[f]), i, j);
+        });
+        (b < blocks.off_diagonal ? matrix.off_diagonal[b] : matrix.diagonal[b - blocks.off_diagonal]) = block;
+      });
+}
+
+// On a GPU neighbouring threads store neighbouring numbers; all nine of a block read the same triangles, out
+// of the cache, and what they compute again is free beside the stores.
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix) {
+  const MembraneStiffness<Real> c = stiffness_;
+  const MembraneBlocks<Real> blocks = this->blocks();
+  const Deformation<Real>* deformed = deformation_.data();
+  const MembraneStress<Real>* tension = tension_.data();
+  const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
+  for_each(
+      device_,
+      {"membrane matrix",
+       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
+      9 * all_blocks(), HYST_KERNEL(int e) {
+        const int b = e / 9, row = e % 3, col = e % 9 / 3;  // blocks are stored by columns
+        const Real entry = blocks.gather(b, Real(0), [&](int f, int i, int j) {
+          return membrane_entry(blocks.rest[f], c, factor, deformed[f], scaled(geometric, tension[f]), i, j,
+                                row, col);
+        });
+        Mat3<Real>& block =
+            b < blocks.off_diagonal ? matrix.off_diagonal[b] : matrix.diagonal[b - blocks.off_diagonal];
+        block(row, col) = entry;
+      });
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble_softening(ScalarRowsView<Real> softening) {
+  const MembraneBlocks<Real> blocks = this->blocks();
+  const MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  const std::size_t bytes = all_blocks() * sizeof(Real);
+  for_each(
+      device_,
+      {"membrane softening",
+       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, stress_, tension_)},
+      all_blocks(), HYST_KERNEL(int b) {
+        const Real sum = blocks.gather(b, Real(0), [&](int f, int i, int j) {
+          const MembraneStress<Real> s = stress[f], t = tension[f];
+          const MembraneStress<Real> compression{s.s11 - t.s11, s.s22 - t.s22, s.s12 - t.s12};
+          return geometric_stiffness(blocks.rest[f], compression, i, j);
+        });
+        (b < blocks.off_diagonal ? softening.off_diagonal[b] : softening.diagonal[b - blocks.off_diagonal]) =
+            sum;
+      });
+}
+
+template class Membrane<double, ThisDevice>;
+template class Membrane<float, ThisDevice>;
+
+}  // namespace hysteron

@@ -1,0 +1,95 @@
+// The profile of a step: as many calls as there are launches, and bytes that follow from the cloth's size.
+#include <gtest/gtest.h>
+
+#include "sim/time/back_end.h"
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+constexpr int kSteps = 4;
+constexpr double kVector = 3 * sizeof(double), kBlock = 9 * sizeof(double);
+
+// A square that hangs by two corners.
+Scene hanging(const char* integrator, const char* device) {
+  Scene scene = test::hanging_square();
+  scene.law = "prandtl";
+  scene.integrator = value_named<Integrator>(integrator);
+  scene.device = value_named<DeviceChoice>(device);
+  if (scene.is_implicit()) scene.step = 5e-3;
+  return scene;
+}
+
+struct Profile {
+  KernelCosts costs;
+  DeviceCounts work;
+  long newton = 0;
+  ClothMesh mesh;
+};
+
+Profile profile_of(const Scene& scene) {
+  const test::Trial trial(scene);
+  const auto simulation = trial.simulation();
+  simulation->advance(1);  // scratch is allocated
+  EXPECT_TRUE(simulation->kernel_costs().empty());
+  simulation->profile();
+  const DeviceCounts before = simulation->device_work();
+  const long newton = simulation->solver_counts().newton;
+  simulation->advance(kSteps);
+  return {simulation->kernel_costs(), simulation->device_work() - before,
+          simulation->solver_counts().newton - newton, trial.cloth.mesh};
+}
+
+class ProfileOfSteps : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::string reason;
+    if (GetParam() == std::string("cuda") && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Devices, ProfileOfSteps, testing::Values("cpu", "cuda"),
+                         [](const auto& device) { return std::string(device.param); });
+
+TEST_P(ProfileOfSteps, CountsEveryLaunchOnce) {
+  for (const char* integrator : {"explicit", "semi-implicit", "implicit"}) {
+    const Profile profile = profile_of(hanging(integrator, GetParam()));
+    long calls = 0;
+    for (const auto& [name, cost] : profile.costs) {
+      calls += cost.calls;
+      EXPECT_GT(cost.seconds, 0) << name;
+    }
+    EXPECT_GT(calls, 0);
+    EXPECT_EQ(calls, profile.work.loops) << integrator;
+  }
+}
+
+// Arrays of the cloth's size, each once: positions and direction read, trial written; all blocks of the
+// matrix written, and of each triangle its rest shape (7 numbers), deformation (6) and tension (3) read, with
+// the two terms of a block off the diagonal and the corners of a block on it.
+TEST_P(ProfileOfSteps, StatesTheBytesOfArraysReadAndWrittenOnce) {
+  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const double vertices = profile.mesh.vertices(), faces = profile.mesh.faces(),
+               edges = static_cast<double>(profile.mesh.edge.size());
+  const auto bytes = [&](const char* name) {
+    const KernelCost& cost = profile.costs.at(name);
+    return cost.bytes / static_cast<double>(cost.calls);
+  };
+  EXPECT_EQ(bytes("newton: try"), 3 * vertices * kVector);
+  EXPECT_EQ(bytes("membrane matrix"), (2 * edges + vertices) * kBlock + faces * 16 * sizeof(double) +
+                                          sizeof(int) * (4 * edges + vertices + 1 + 3 * faces));
+}
+
+// The guess, at constant velocity and with the last acceleration, and one trial per iteration where none is
+// shortened; nothing is evaluated again where it was evaluated last.
+TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
+  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const long evaluated = profile.costs.at("membrane stress, tried").calls,
+             tried = profile.costs.at("newton: try").calls;
+  EXPECT_GE(profile.newton, kSteps);
+  EXPECT_GE(tried, profile.newton);
+  EXPECT_GE(evaluated, 2 * kSteps + tried);
+  EXPECT_LE(evaluated, 3 * kSteps + tried);  // the first guess is taken up again where it was better
+}
+
+}  // namespace
+}  // namespace hysteron
