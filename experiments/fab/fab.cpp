@@ -28,7 +28,7 @@ struct TestFlags {
 using F = TestFlags;
 // clang-format off
 const KeyRow<TestFlags> kRows[] = {
-    {"fabric", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
+    {"fabric.name", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
     {"fab.data", at<&F::data>, "", any(), "", "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
     {"units", at<&F::units>, "", any(), "si | fab", "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
     {"fab.direction", at<&F::direction>, "", any(), "L | W | B", "along which the strip is cut: length (warp), width (weft), bias"},
@@ -95,6 +95,7 @@ int run_test(const CommandLine& line) {
   TestFlags flags;
   const Keys keys = keys_of(flags);
   set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
+  flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
   const FabFabric fabric = read_fab_fabric(flags.fabric, "--fabric");
   const bool measured = !flags.data.empty();

@@ -123,7 +123,8 @@ void rank(std::vector<Identification>& fits) {
 }
 
 Answer from_loop(const FitFlags& flags) {
-  const MomentSeries series = read_series(flags.loop, flags.ripple, "fit");
+  const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
+                                                   : read_series(flags.loop, flags.ripple, "fit");
   Answer answer{{}, {}, series.name};
   if (flags.stops > 0) {
     StopsIdentification found = identify_stops(series, flags.stops, flags.assume);
@@ -179,6 +180,14 @@ void refuse_without_loop(const FitFlags& flags) {
         .of("loop", "");
 }
 
+// Of what is not of a FAB tester.
+void check_units(const FitFlags& flags) {
+  if (flags.units == "si" || (flags.units == "kes" && !flags.loop.empty())) return;
+  throw Error::request("units = " + flags.units +
+                       " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
+      .of("units", flags.units);
+}
+
 Answer identify(const FitFlags& flags) {
   struct Way {
     bool asked;
@@ -190,7 +199,7 @@ Answer identify(const FitFlags& flags) {
                       {virgin, from_virgin},
                       {kes, from_kes},
                       {!flags.profile.empty(), from_profile}};
-  if (flags.units == "fab") throw Error::request("units = fab goes with --fab").of("units", flags.units);
+  check_units(flags);
   const auto asked =
       std::count_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; });
   if (asked != 1) {

@@ -125,6 +125,8 @@ void set_bending_errors(const BendingModel& model, const LeastSquares& best, Fab
     found.determined.push_back(is_determined(error[1 + j]));
     moment[1 + j] = found.law.stiffnesses[j] * found.law.thresholds[j];
   }
+  const VectorXd zeros = error.tail(error.size() - 1 - model.stops());
+  found.zero_errors.assign(zeros.begin(), zeros.end());
   found.friction_error = std::sqrt(std::max(0.0, moment.dot(c * moment)));
 }
 

@@ -27,11 +27,13 @@ struct FabBendingQuestion {
 struct FabBending {
   std::string direction;
   StopsLaw law;
-  double spring_error = kNone;  // standard errors, as stiffness_errors [N m]
+  // Standard errors: of stiffnesses, whose logarithms are sought, that of the logarithm times the value [N
+  // m].
+  double spring_error = kNone;
   std::vector<double> stiffness_errors;
   std::vector<bool> determined;                 // of the spring, then of each stop
   double friction_error = kNone;                // of law.friction() [N]
-  std::vector<double> zero;                     // of force, by fitted loops [N/m]
+  std::vector<double> zero, zero_errors;        // of force, by fitted loops [N/m]
   double residual_rms = 0;                      // over the noise, unreliable rows weighted
   double prior_friction = 0, prior_spring = 0;  // that the prior is centred on [N], [N m]
   int rows = 0, iterations = 0;

@@ -6,14 +6,15 @@
 namespace hysteron {
 namespace {
 
-// Newton's method on a curve of straight pieces ends after as many as there are, on the way down two a stop.
-double strain_without_force(const StopsLaw& law, const double* anchors, double from) {
-  double strain = from;
-  for (int i = 0; i <= 2 * law.stops() + 1; ++i) {
-    const StopsPoint at = respond(law, anchors, strain);
-    strain -= at.response / at.tangent;
+constexpr int kHalvings = 60;
+
+// Between strains of push and of pull.
+double strain_without_force(const StopsLaw& law, const double* anchors, double push, double pull) {
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (push + pull) / 2;
+    (respond(law, anchors, middle).response < 0 ? push : pull) = middle;
   }
-  return strain;
+  return pull;
 }
 
 }  // namespace
@@ -24,7 +25,7 @@ StretchedStripTest::StretchedStripTest(StopsLaw law, double length)
 void StretchedStripTest::go_to(double distance) {
   double strain = distance / length_ - 1;
   if (respond(law_, anchors_.data(), strain).response < 0)
-    strain = strain_without_force(law_, anchors_.data(), strain_);
+    strain = strain_without_force(law_, anchors_.data(), strain, strain_);
   const StopsPoint at = respond(law_, anchors_.data(), strain);
   strain_ = strain;
   force_ = distance / length_ - 1 < strain ? 0 : at.response;
