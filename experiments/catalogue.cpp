@@ -11,6 +11,7 @@
   entry(swing) \
   entry(compare) \
   entry(kes) \
+  entry(fab) \
   entry(cantilever) \
   entry(buckle) \
   entry(accuracy) \

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/fit/from_fab.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
@@ -28,6 +29,8 @@ struct FitFlags {
   Assumptions assume;
   std::string name = "fitted";
   double density = kNone, thickness = kNone;
+  FabFlags fab;
+  std::string units = "si";
   Options options;
 };
 
@@ -46,6 +49,13 @@ const KeyRow<FitFlags> kRows[] = {
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
     {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
+    {"fab", at<&F::fab, &FabFlags::file>, "", any(), "", "loops of a FAB tester, strips buckled between clamps: CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m; needs fabric.density"},
+    {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
+    {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
+    {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "", "that are fitted, separated by commas, the first being 1"},
+    {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of the stops, separated by commas [1/m]"},
+    {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation"},
+    {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
     {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
     {"virgin.b1-stderr", at<&F::virgin, &VirginNumbers::b1, &M::standard_error>, "N m", at_least(0), "", "standard error"},
@@ -113,7 +123,8 @@ void rank(std::vector<Identification>& fits) {
 }
 
 Answer from_loop(const FitFlags& flags) {
-  const MomentSeries series = read_series(flags.loop, flags.ripple, "fit");
+  const MomentSeries series = flags.units == "kes" ? read_kes_series(flags.loop, flags.ripple, "fit")
+                                                   : read_series(flags.loop, flags.ripple, "fit");
   Answer answer{{}, {}, series.name};
   if (flags.stops > 0) {
     StopsIdentification found = identify_stops(series, flags.stops, flags.assume);
@@ -169,6 +180,14 @@ void refuse_without_loop(const FitFlags& flags) {
         .of("loop", "");
 }
 
+// Of what is not of a FAB tester.
+void check_units(const FitFlags& flags) {
+  if (flags.units == "si" || (flags.units == "kes" && !flags.loop.empty())) return;
+  throw Error::request("units = " + flags.units +
+                       " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
+      .of("units", flags.units);
+}
+
 Answer identify(const FitFlags& flags) {
   struct Way {
     bool asked;
@@ -180,12 +199,13 @@ Answer identify(const FitFlags& flags) {
                       {virgin, from_virgin},
                       {kes, from_kes},
                       {!flags.profile.empty(), from_profile}};
+  check_units(flags);
   const auto asked =
       std::count_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; });
   if (asked != 1) {
     throw Error::request(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
-        "--profile FILE.csv" +
+        "--profile FILE.csv, --fab FILE.csv" +
         std::string(asked > 1 ? ", not several" : ""));
   }
   refuse_without_loop(flags);
@@ -193,6 +213,33 @@ Answer identify(const FitFlags& flags) {
 }
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
+
+// The manifest's `scene`, where the flag --fab is the file among the keys fab.*.
+Json resolved(Keys keys) {
+  const auto file = std::find_if(keys.begin(), keys.end(),
+                                 [](const BoundKey& key) { return key.description.path == "fab"; });
+  file->description.path = "fab.file";
+  return to_json(keys);
+}
+
+void finish(Run& run, const FitFlags& flags, const std::string& summary, const FabricNotes& notes) {
+  finish_with_report(run);
+  if (flags.options.json) return;
+  std::cout << summary;
+  for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
+  std::cout << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
+}
+
+void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  if (std::isnan(flags.density))
+    throw Error::request("--fab needs --fabric.density: the strip's weight bears on it")
+        .of("fabric.density", "");
+  const FabAnswer answer = fit_fab(flags.fab, flags.units, flags.density);
+  Run run(line, flags.options, resolved(keys));
+  const FabricNotes notes{flags.name, answer.found.from, if_given(flags.density), if_given(flags.thickness)};
+  report_fab(run, answer, notes, !flags.options.no_images);
+  finish(run, flags, summary(answer), notes);
+}
 
 int run_fit(const CommandLine& line) {
   FitFlags flags;
@@ -202,18 +249,17 @@ int run_fit(const CommandLine& line) {
     const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   }
+  if (!flags.fab.file.empty()) {
+    fit_loops_of_fab(line, flags, keys);
+    return 0;
+  }
   const Answer answer = identify(flags);
 
-  Run run(line, flags.options, to_json(keys));
+  Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
-  finish_with_report(run);
-  if (!flags.options.json) {
-    std::cout << summary(answer.fits);
-    for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
-    std::cout << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
-  }
+  finish(run, flags, summary(answer.fits), notes);
   return 0;
 }
 

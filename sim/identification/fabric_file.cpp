@@ -51,7 +51,7 @@ std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
   return lines;
 }
 
-void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
+std::string fabric_text(const Identification& found, const FabricNotes& notes) {
   const std::vector<std::string> open = found.undetermined();
   std::string text = "# Written by hysteron fit.  The data " +
                      (open.empty() ? "determine b1, b2 and k0" : "do not determine " + join(open, ", ")) +
@@ -65,8 +65,12 @@ void write_fabric(const std::filesystem::path& file, const Identification& found
   const Fabric usual;
   text += given_or_default("density", notes.density, usual.density, "kg/m^2") +
           given_or_default("thickness", notes.thickness, usual.thickness, "m");
+  return text;
+}
+
+void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
   AtomicFile target(file.string());
-  target.stream() << text;
+  target.stream() << fabric_text(found, notes);
   target.commit();
 }
 

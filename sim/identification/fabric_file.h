@@ -20,7 +20,9 @@ struct FabricNotes {
 // A line for each number of the fabric's file that is another fabric's, because none was given.
 std::vector<std::string> borrowed_warnings(const FabricNotes& notes);
 
-// A file for read_fabric(); standard errors as `stderr` beside the values.
+// A file for read_fabric() that ends in its table [parameters]; standard errors as `stderr` beside the
+// values.
+std::string fabric_text(const Identification& found, const FabricNotes& notes);
 void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes);
 
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/identification/identification.h"
+#include "sim/reference/tester_table.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/key_table.h"
 
@@ -15,6 +16,9 @@ namespace {
 constexpr const char* kCurvature = "curvature [1/m]";
 constexpr const char* kMoment = "moment [N]";
 constexpr const char* kTime = "time [s]";
+constexpr const char* kKesCurvature = "curvature [1/cm]";
+constexpr const char* kKesMoment = "moment [gf cm/cm]";
+constexpr double kPerCentimetre = 100;  // [1/m]
 
 // Work that a loop may give back, as a share of curvature range times moment range, before its rows must run
 // backwards: noise around a curve without a loop.
@@ -162,6 +166,25 @@ MomentSeries read_series(const std::filesystem::path& file, double ripple, const
       throw table.refusal(i, "time = " + number_text(time->values[i]) + " s must be >= " +
                                  number_text(time->values[i - 1]) + " s, the time of the row before");
     }
+  }
+  prepare(series, ripple);
+  return series;
+}
+
+MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, const std::string& reader) {
+  const TextTable table = read_tester_table(file, kKesCurvature, reader);
+  const auto column = [&](const char* name) {
+    const auto found = std::find(table.head.begin(), table.head.end(), name);
+    if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
+    throw Error::request(reader + ": " + file.filename().string() + " has no column '" + name +
+                         "', as --units kes says");
+  };
+  const std::size_t curvature = column(kKesCurvature), moment = column(kKesMoment);
+  MomentSeries series;
+  series.name = file.filename().string();
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    series.curvature.push_back(kPerCentimetre * number_of(table, row, curvature, file, reader));
+    series.moment.push_back(kGramForceCentimetrePerCentimetre * number_of(table, row, moment, file, reader));
   }
   prepare(series, ripple);
   return series;

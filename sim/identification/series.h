@@ -30,6 +30,11 @@ struct MomentSeries {
 // backwards, magnitudes that no fabric has (other units).
 MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
+// The same from the units of KES-FB2: columns `curvature [1/cm]` and `moment [gf cm/cm]`, and a table as
+// testers write it: lines before the head, semicolons or tabs, then decimal commas.  Throws Error::request
+// where these are not its columns.
+MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, const std::string& reader);
+
 // Fills `drive` and `reversals` from `curvature`; checks as read_series does.
 void prepare(MomentSeries& series, double ripple);
 

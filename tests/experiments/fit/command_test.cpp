@@ -160,5 +160,52 @@ TEST(Fabric, WithANegativeStandardErrorIsRefused) {
   }
 }
 
+// The loops of a known law, as `fab` writes them, in the columns that are read.
+TEST_F(Fit, OfLoopsOfAFabTesterFindsTheirFrictionAndPredictsWhatWasNotFitted) {
+  const fs::path made = folder_.path() / "made";
+  ASSERT_EQ(experiment_named("fab").run({"fab",
+                                         "hysteron fab",
+                                         {{"fabric", "cotton-broad"},
+                                          {"fab.compressions", "0.004,0.006"},
+                                          {"fab.steps", "12"},
+                                          {"no-images", "true"},
+                                          {"out", made.string()},
+                                          {"json", "true"},
+                                          {"quiet", "true"}},
+                                         {}}),
+            0);
+  const Fabric cotton = read_fabric("cotton-broad", "test").fabric;
+  ASSERT_EQ(fit({{"fab", (made / "fab.csv").string()},
+                 {"fab.thresholds", "5,20,40"},
+                 {"fabric.density", number_text(cotton.density)},
+                 {"fabric.thickness", "5e-4"}}),
+            0);
+  for (const char* name :
+       {"fabric.toml", "one_stop.toml", "spectrum.csv", "predictions.csv", "plot_L_D1.png"})
+    EXPECT_TRUE(fs::exists(out() / name)) << name;
+  const Json m = metrics();
+  const double friction = cotton.virgin_curve().friction_moment();
+  EXPECT_NEAR(m.at("L.HB_N"), friction, 0.1 * friction);  // thresholds are not the law's
+  EXPECT_TRUE(m.at("undetermined").is_array());
+  const TextTable predictions = read_words(out() / "predictions.csv");
+  ASSERT_EQ(predictions.rows.size(), 2u);
+  EXPECT_EQ(predictions.rows[0][2], "0");
+  EXPECT_EQ(predictions.rows[1][2], "1");
+  for (const auto& row : predictions.rows) EXPECT_LT(std::abs(std::stod(row[5])), 10) << row[0];
+}
+
+TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
+  const fs::path file = folder_.path() / "fab.csv";
+  std::ofstream(file) << "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
+                         "L,D1,0,0.018,0,0.021,0.04\n";
+  EXPECT_NE(refusal({{"fab", file.string()}}).find("fabric.density"), std::string::npos);
+  EXPECT_NE(refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}).find("_cm"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}).find("fab (cm, gf)"),
+      std::string::npos);
+  EXPECT_NE(refusal({{"loop", file.string()}, {"units", "fab"}}).find("--fab"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments

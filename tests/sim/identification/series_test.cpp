@@ -56,6 +56,27 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n", "must be called 'curvature [1/m]'"}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// B = 0.118 gf cm^2/cm, as KES-FB2 prints it.
+const std::string kKes = "KES-FB2\nspecimen;warp 1\n\ncurvature [1/cm];moment [gf cm/cm]\n";
+constexpr const char* kKesRows =
+    "0;0\n0,3;0,0354\n0,6;0,0708\n0,9;0,1062\n1,2;0,1416\n1,5;0,177\n1,8;0,2124\n2,1;0,2478\n";
+
+TEST(MeasuredCurve, InTheUnitsOfKesIsConverted) {
+  const test::Folder folder;
+  const MomentSeries series = read_kes_series(folder.write("loop.csv", kKes + kKesRows), kRipple, "test");
+  ASSERT_EQ(series.rows(), 8);
+  EXPECT_NEAR(series.curvature.back(), 210, 1e-9);
+  EXPECT_NEAR(series.moment.back() / series.curvature.back(), 0.118 * 9.80665e-5, 1e-12);
+}
+
+TEST(MeasuredCurve, IsNotGuessedToBeInOtherUnits) {
+  const test::Folder folder;
+  const std::string kes = folder.write("kes.csv", kKes + kKesRows), si = folder.write("si.csv", kGramForce);
+  for (const auto& read : {std::function([&] { read_kes_series(si, kRipple, "test"); }),
+                           std::function([&] { read_series(kes, kRipple, "test"); })})
+    EXPECT_EQ(test::error_of(read).exit_code(), 2);
+}
+
 // Along a loop the fabric takes work; the same rows from the last to the first give it back.
 TEST(MeasuredCurve, WhoseRowsRunBackwardsIsRefused) {
   MomentSeries series = measured("prandtl", kCotton, {250, -250, 250, -250, 250}, 0.02, 1);

@@ -1,0 +1,128 @@
+// `hysteron fab`: the loop test of a FAB tester, a strip between clamps that is buckled or stretched in
+// growing cycles, along the clamps' own way where data are given, or to given compressions.
+#include <fmt/core.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "experiments/fab/loops.h"
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+#include "sim/identification/fab_fabric.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct TestFlags {
+  std::string fabric = Fabric{}.name;
+  std::string data, units = "si", direction = "L", test = "D1";
+  double gauge = 0.021, slack = 0.0015, width = 0.04;
+  std::string compressions = "0.0038,0.0063,0.0088";
+  int steps = 60;
+  Options options;
+};
+
+using F = TestFlags;
+// clang-format off
+const KeyRow<TestFlags> kRows[] = {
+    {"fabric.name", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
+    {"fab.data", at<&F::data>, "", any(), "", "measured loops, whose way the clamps go; CSV with direction, test, branch, clamp_distance_m, force_N, gauge_length_m, width_m"},
+    {"units", at<&F::units>, "", any(), "si | fab", "of the data: m and N, or the tester's cm and gf (columns _cm, _gf)"},
+    {"fab.direction", at<&F::direction>, "", any(), "L | W | B", "along which the strip is cut: length (warp), width (weft), bias"},
+    {"fab.test", at<&F::test>, "", any(), "", "U1 bends up, D1 down, S1 stretches; another number is another gauge"},
+    {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "", "without data: length of the strip between the clamps"},
+    {"fab.slack", at<&F::slack>, "m", positive(), "", "without data: by which the clamps are closer at first, in bending"},
+    {"fab.compressions", at<&F::compressions>, "", any(), "", "without data: of the cycles, from the gauge on, separated by commas [m]"},
+    {"fab.width", at<&F::width>, "m", positive(), "", "without data: of the strip"},
+    {"fab.steps", at<&F::steps>, "", between(4, 1e5), "", "without data: rows of a branch"},
+};
+// clang-format on
+constexpr int kQuickSteps = 20;
+
+Keys keys_of(TestFlags& flags) { return with_output_options(bind(kRows, flags), flags.options); }
+
+std::vector<double> numbers_of(const std::string& text, const std::string& key) {
+  std::vector<double> numbers;
+  for (const std::string& word : split(text)) {
+    const auto number = number_in(word);
+    if (!number)
+      throw Error::request(key + " = " + text + " must be numbers [m] separated by commas").of(key, text);
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+FabLoops loops_without_data(const TestFlags& flags) {
+  const std::vector<double> amplitudes = numbers_of(flags.compressions, "fab.compressions");
+  const bool bends = flags.test.empty() || flags.test.front() != 'S';
+  for (const double amplitude : amplitudes)
+    if (!(amplitude > (bends ? flags.slack : 0) && (!bends || amplitude < 0.8 * flags.gauge)))
+      throw Error::request(fmt::format("a compression of {:g} m must be > fab.slack = {:g} m and < 0.8 of "
+                                       "fab.gauge = {:g} m",
+                                       amplitude, flags.slack, flags.gauge))
+          .of("fab.compressions", flags.compressions);
+  FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, flags.steps);
+  loops.direction = flags.direction;
+  loops.width = flags.width;
+  return loops;
+}
+
+void check_test(const std::string& test) {
+  if (test.empty() || std::string("UDS").find(test.front()) == std::string::npos)
+    throw Error::request("fab.test = " + test + " must be U.. (bends up) | D.. (down) | S.. (stretches)")
+        .of("fab.test", test);
+}
+
+void print_cycles(const ComparedLoops& compared) {
+  const BranchForces measured = compared.measured_forces();
+  for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
+    const double area = loop_area(compared.loops, compared.run.force, cycle);
+    fmt::print("cycle {}: area {:.3g} mJ/m, force range {:.3g} N/m", cycle + 1, 1e3 * area,
+               force_range(compared.run.force, cycle));
+    if (compared.measured) {
+      const double seen = loop_area(compared.loops, measured, cycle);
+      fmt::print("; measured {:.3g} mJ/m ({:+.0f} %), {:.3g} N/m", 1e3 * seen, 100 * (area / seen - 1),
+                 force_range(measured, cycle));
+    }
+    fmt::print("\n");
+  }
+}
+
+int run_test(const CommandLine& line) {
+  TestFlags flags;
+  const Keys keys = keys_of(flags);
+  set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
+  flags.fabric = last_text(line.flags, "fabric", flags.fabric);
+  check_test(flags.test);
+  const FabFabric fabric = read_fab_fabric(flags.fabric, "--fabric");
+  const bool measured = !flags.data.empty();
+  const FabLoops loops = measured ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab"),
+                                               flags.direction, flags.test)
+                                  : loops_without_data(flags);
+  Run run(line, flags.options, to_json(keys));
+  const ComparedLoops compared(loops, run_fab(loops, fabric.strip(flags.direction)), measured);
+  add_metrics(run, compared);
+  write_loops(run, "fab.csv", compared);
+  if (!flags.options.no_images) {
+    const std::string title = fabric.name + ", " + loops.name();
+    draw_loops(run, "plot_fab", "FAB loops of " + title, compared);
+    draw_shapes(run, "plot_shapes", "Strip between clamps, " + title, compared);
+  }
+  finish_with_report(run);
+  if (!flags.options.json) print_cycles(compared);
+  return 0;
+}
+
+}  // namespace
+
+Experiment fab() {
+  return {.name = "fab",
+          .question = "virtual FAB loop test: a strip buckled or stretched between clamps, in growing cycles",
+          .run = run_test,
+          .own_keys = own_keys_of<keys_of>};
+}
+
+}  // namespace hysteron::experiments

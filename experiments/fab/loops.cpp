@@ -1,0 +1,144 @@
+#include "experiments/fab/loops.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "render/plot.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/identification/fab_cycles.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Style = render::Series::Style;
+
+constexpr const char* kCycleColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
+constexpr double kMillimetre = 1e3;
+
+const char* color_of(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
+
+// Both branches of a cycle, one behind the other.
+render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle, Style style) {
+  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
+  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
+    for (std::size_t i = 0; i < force[b].size(); ++i) {
+      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
+      series.y.push_back(force[b][i]);
+    }
+  return series;
+}
+
+double rms_of(const BranchForces& a, const BranchForces& b) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < a[i].size(); ++k, ++count) sum += std::pow(a[i][k] - b[i][k], 2);
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace
+
+ComparedLoops::ComparedLoops(FabLoops loops, FabRun run, bool measured)
+    : loops(std::move(loops)), run(std::move(run)), measured(measured) {
+  if (measured) zero = force_zero(this->loops, this->run.force);
+}
+
+BranchForces ComparedLoops::measured_forces() const {
+  BranchForces forces = forces_of(loops);
+  for (auto& branch : forces)
+    for (double& force : branch) force -= zero;
+  return forces;
+}
+
+TesterUnits tester_units(const std::string& name) {
+  if (name == "si") return TesterUnits::si;
+  if (name == "fab") return TesterUnits::fab;
+  throw Error::request("units = " + name + " must be si (m, N) | fab (cm, gf) for loops of a FAB tester")
+      .of("units", name);
+}
+
+void add_metrics(Run& run, const ComparedLoops& compared) {
+  const BranchForces measured = compared.measured_forces();
+  for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
+    const auto add = [&](const std::string& before, const BranchForces& force) {
+      const std::string name = "_cycle" + std::to_string(cycle + 1);
+      run.metric(before + "area" + name + "_J_per_m", loop_area(compared.loops, force, cycle));
+      run.metric(before + "peak_force" + name + "_N_per_m", peak_force(compared.loops, force, cycle));
+      run.metric(before + "force_range" + name + "_N_per_m", force_range(force, cycle));
+    };
+    add("", compared.run.force);
+    if (compared.measured) add("measured_", measured);
+  }
+  if (compared.measured) {
+    run.metric("difference_rms_N_per_m", rms_of(compared.run.force, measured));
+    run.metric("measured_force_zero_N_per_m", compared.zero);
+  }
+  const FabRun& r = compared.run;
+  run.metric("work_J_per_m", r.work);
+  run.metric("dissipated_J_per_m", r.dissipated);
+  run.metric("energy_imbalance_percent", 100 * std::abs(r.work - r.stored - r.dissipated) / r.dissipated);
+  if (compared.loops.bends()) run.metric("peak_curvature_per_m", r.peak_curvature);
+}
+
+void write_loops(Run& run, const std::string& name, const ComparedLoops& compared) {
+  const FabLoops& loops = compared.loops;
+  std::vector<CsvField> head = {"direction", "test",           "branch", "clamp_distance_m",
+                                "force_N",   "gauge_length_m", "width_m"};
+  if (compared.measured) head.emplace_back("measured_force_N");
+  CsvFile file(run.path(name), head);
+  const BranchForces measured = compared.measured_forces();
+  for (std::size_t b = 0; b < loops.branches.size(); ++b)
+    for (std::size_t i = 0; i < loops.branches[b].distance.size(); ++i) {
+      std::vector<CsvField> row = {loops.direction,
+                                   loops.test,
+                                   b,
+                                   loops.branches[b].distance[i],
+                                   compared.run.force[b][i] * loops.width,
+                                   loops.gauge,
+                                   loops.width};
+      if (compared.measured) row.emplace_back(measured[b][i] * loops.width);
+      file.row(row);
+    }
+  file.commit();
+}
+
+void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {
+  render::Plot plot{title, {"distance of the clamps [mm]"}, {"force per width, tension > 0 [N/m]"}};
+  const BranchForces measured = compared.measured_forces();
+  for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
+    render::Series model = series_of(compared.loops, compared.run.force, cycle, Style::line);
+    model.label = "cycle " + std::to_string(cycle + 1) +
+                  fmt::format(", {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.run.force, cycle));
+    plot.series.push_back(model);
+    if (!compared.measured) continue;
+    render::Series data = series_of(compared.loops, measured, cycle, Style::points);
+    data.label = fmt::format("measured, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, measured, cycle));
+    plot.series.push_back(data);
+  }
+  run.plot(name, plot);
+}
+
+void draw_shapes(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {
+  if (compared.run.shapes.empty()) return;
+  render::Plot plot{title, {"along the line of the clamps [mm]"}, {"height [mm]"}};
+  plot.equal_scales = true;
+  const double up = compared.loops.bends_up() ? 1 : -1;
+  for (std::size_t i = 0; i < compared.run.shapes.size(); ++i) {
+    const bool back = i > 0 && i % 2 == 0;
+    render::Series series{.label = i == 0 ? "laid" : "", .x = {}, .y = {}};
+    if (i > 0) series.label = "cycle " + std::to_string((i + 1) / 2) + (back ? ", back" : ", out");
+    series.style = back ? Style::dashed : Style::line;
+    if (i > 0) series.color = color_of(static_cast<int>(i - 1) / 2);
+    const auto& line = compared.run.shapes[i];
+    for (const Eigen::Vector2d& point : line) {
+      series.x.push_back(kMillimetre * (point.x() - line.back().x() / 2));
+      series.y.push_back(kMillimetre * up * point.y());
+    }
+    plot.series.push_back(series);
+  }
+  run.plot(name, plot);
+}
+
+}  // namespace hysteron::experiments

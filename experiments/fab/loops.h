@@ -1,0 +1,34 @@
+// Loops of a FAB tester beside simulated ones: metrics, tables and plots, for `fab` and `fit --fab`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "sim/reference/fab_test.h"
+
+namespace hysteron::experiments {
+
+// Measured loops (forces are NaN where nobody measured) and a run along their way.
+struct ComparedLoops {
+  FabLoops loops;
+  FabRun run;
+  bool measured = true;
+  double zero = 0;  // of the measured force, found by this run [N/m]
+
+  ComparedLoops(FabLoops loops, FabRun run, bool measured);
+  BranchForces measured_forces() const;  // from that zero [N/m]
+};
+
+// `si` | `fab`; Error::request for others.
+TesterUnits tester_units(const std::string& name);
+
+// area_cycle1_J_per_m, peak_force_cycle1_N_per_m, ... and measured_..., rms, zero, energy balance.
+void add_metrics(Run& run, const ComparedLoops& compared);
+// In the columns that `fit --fab` reads, the measured force behind.
+void write_loops(Run& run, const std::string& name, const ComparedLoops& compared);
+void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared);
+// The strip at the turns of the clamps; nothing of a strip that stretches.
+void draw_shapes(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,173 @@
+#include "experiments/fit/from_fab.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/fab/loops.h"
+#include "experiments/fit/predictions.h"
+#include "render/plot.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+#include "sim/base/parallel.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kThreads = 2;
+
+std::vector<double> numbers_of(const std::string& text, const std::string& key) {
+  std::vector<double> numbers;
+  for (const std::string& word : split(text)) {
+    const auto number = number_in(word);
+    if (!number || *number <= 0)
+      throw Error::request(key + " = " + text + " must be numbers > 0 separated by commas").of(key, text);
+    numbers.push_back(*number);
+  }
+  if (numbers.empty() || !std::is_sorted(numbers.begin(), numbers.end(), std::less_equal<>()))
+    throw Error::request(key + " = " + text + " must be numbers that rise").of(key, text);
+  return numbers;
+}
+
+std::vector<std::string> directions_of(const std::string& text, const std::vector<FabLoops>& loops) {
+  std::vector<std::string> directions = split(text);
+  if (!directions.empty()) return directions;
+  for (const FabLoops& one : loops)
+    if (std::find(directions.begin(), directions.end(), one.direction) == directions.end())
+      directions.push_back(one.direction);
+  return directions;
+}
+
+// Loops of one direction that bend, or that stretch, among the tests asked for.
+std::vector<FabLoops> asked(const FabAnswer& answer, const std::string& direction, bool bending) {
+  std::vector<FabLoops> loops;
+  for (const std::string& test : answer.tests) {
+    const FabLoops& one = find_loops(answer.loops, direction, test);
+    if (one.bends() == bending) loops.push_back(one);
+  }
+  return loops;
+}
+
+std::string where_from(const FabFlags& flags, const std::vector<std::string>& directions) {
+  return "cycle " + flags.cycles + " of " + flags.tests + " along " + join(directions, ", ") + " in " +
+         std::filesystem::path(flags.file).filename().string();
+}
+
+void write_spectrum(Run& run, const FabIdentification& found) {
+  CsvFile file(run.path("spectrum.csv"), "direction,kind,threshold,stiffness,standard error,unit,determined");
+  const auto rows = [&](const std::string& direction, const char* kind, const StopsLaw& law,
+                        double spring_error, const std::vector<double>& errors,
+                        const std::vector<bool>& determined, const char* unit) {
+    file.row({direction, kind, "", law.spring, spring_error, unit, determined[0] ? 1 : 0});
+    for (int j = 0; j < law.stops(); ++j)
+      file.row({direction, kind, law.thresholds[j], law.stiffnesses[j], errors[j], unit,
+                determined[j + 1] ? 1 : 0});
+  };
+  for (const FabBending& b : found.bending)
+    rows(b.direction, "bending", b.law, b.spring_error, b.stiffness_errors, b.determined, "N m");
+  for (const FabTension& t : found.tension)
+    rows(t.direction, "tension", t.law, t.spring_error, t.stiffness_errors, t.determined, "N/m");
+  file.commit();
+}
+
+void add_fab_metrics(Run& run, const FabAnswer& answer) {
+  std::vector<std::string> open;
+  for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
+    const FabBending& b = answer.found.bending[i];
+    const std::string p = b.direction + ".";
+    run.metric(p + "b2_N_m", b.law.spring);
+    run.metric(p + "b2_N_m_stderr", b.spring_error);
+    run.metric(p + "b1_N_m", b.law.initial_stiffness());
+    run.metric(p + "HB_N", b.law.friction());
+    run.metric(p + "HB_N_stderr", b.friction_error);
+    run.metric(p + "residual_over_noise", b.residual_rms);
+    run.metric(p + "iterations", b.iterations);
+    run.metric(p + "converged", b.converged);
+    run.metric(p + "one_stop.threshold_per_m", answer.one_stop[i].law.thresholds[0]);
+    run.metric(p + "one_stop.residual_over_noise", answer.one_stop[i].residual_rms);
+    for (const std::string& name : b.undetermined()) open.push_back(b.direction + " " + name);
+  }
+  for (const FabTension& t : answer.found.tension) {
+    const std::string p = t.direction + ".tension.";
+    run.metric(p + "spring_N_per_m", t.law.spring);
+    run.metric(p + "spring_N_per_m_stderr", t.spring_error);
+    run.metric(p + "initial_N_per_m", t.law.initial_stiffness());
+    run.metric(p + "friction_N_per_m", t.law.friction());
+    run.metric(p + "residual_rms_percent", 100 * t.residual_rms / t.largest_force);
+    for (const std::string& name : t.undetermined()) open.push_back(t.direction + " " + name);
+  }
+  run.metric("undetermined", open);
+}
+
+}  // namespace
+
+FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density) {
+  FabAnswer answer;
+  answer.loops = read_fab(flags.file, tester_units(units), "fit");
+  answer.tests = split(flags.tests);
+  for (const double cycle : numbers_of(flags.cycles, "fab.cycles"))
+    answer.cycles.push_back(static_cast<int>(cycle));
+  const std::vector<std::string> directions = directions_of(flags.directions, answer.loops);
+  answer.found.from = where_from(flags, directions);
+  FabBendingQuestion bending;
+  bending.cycles = answer.cycles;
+  bending.thresholds = numbers_of(flags.thresholds, "fab.thresholds");
+  bending.density = density;
+  bending.noise = flags.noise;
+  FabTensionQuestion tension;
+  tension.cycles = answer.cycles;
+  std::vector<FabBending> stops(directions.size()), one(directions.size());
+  std::vector<FabTension> stretched(directions.size());
+  in_parallel(directions.size(), kThreads, [&](std::size_t i) {
+    if (const auto loops = asked(answer, directions[i], true); !loops.empty()) {
+      stops[i] = identify_fab_bending(loops, bending);
+      one[i] = identify_one_stop(loops, bending);
+    }
+    if (const auto loops = asked(answer, directions[i], false); !loops.empty())
+      stretched[i] = identify_fab_tension(loops, tension);
+  });
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (stops[i].rows > 0) answer.found.bending.push_back(stops[i]), answer.one_stop.push_back(one[i]);
+    if (stretched[i].rows > 0) answer.found.tension.push_back(stretched[i]);
+  }
+  if (answer.found.bending.empty())
+    throw Error::request("needs a test that bends (U.., D..) among --fab.tests for b1, b2 and k0")
+        .of("fab.tests", flags.tests);
+  return answer;
+}
+
+void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures) {
+  FabIdentification one{answer.one_stop, {}, answer.found.from + ", by one stop"};
+  write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
+  write_fab_fabric(run.path("one_stop.toml"), one, notes);
+  write_spectrum(run, answer.found);
+  add_fab_metrics(run, answer);
+  const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
+  write_predictions(run, predictions);
+  if (pictures) draw_predictions(run, notes.name, predictions);
+}
+
+std::string summary(const FabAnswer& answer) {
+  std::string text;
+  for (const FabBending& b : answer.found.bending) {
+    const std::vector<std::string> open = b.undetermined();
+    text += fmt::format(
+        "along {}: b2 = {:.3g} +- {:.2g} N m, HB = {:.3g} +- {:.2g} N, b1 = {:.3g} N m; rms {:.2g} "
+        "of the noise, {} iterations{}\n",
+        b.direction, b.law.spring, b.spring_error, b.law.friction(), b.friction_error,
+        b.law.initial_stiffness(), b.residual_rms, b.iterations, b.converged ? "" : " without converging");
+    text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
+  }
+  for (const FabTension& t : answer.found.tension)
+    text += fmt::format(
+        "along {}: stretch {:.3g} +- {:.2g} N/m beside stops, {:.3g} N/m at first; rms {:.2g} % "
+        "of the largest force\n",
+        t.direction, t.law.spring, t.spring_error, t.law.initial_stiffness(),
+        100 * t.residual_rms / t.largest_force);
+  return text;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,36 @@
+// `fit --fab`: a fabric's friction elements from the loops of a FAB tester, and what they predict of the
+// loops that were not fitted.
+#pragma once
+
+#include <string>
+
+#include "experiments/workbench/app/run.h"
+#include "sim/identification/fab_fabric.h"
+
+namespace hysteron::experiments {
+
+struct FabFlags {
+  std::string file, directions, tests = "D1", cycles = "2", thresholds = "4,8,16,32,64,128,256";
+  double noise = 7.5e-4;
+};
+
+// Loops that were identified from, and all others of the file.
+struct FabAnswer {
+  FabIdentification found;
+  std::vector<FabBending> one_stop;  // by direction, as found.bending
+  std::vector<FabLoops> loops;       // of the whole file
+  std::vector<std::string> tests;    // that were fitted
+  std::vector<int> cycles;
+};
+
+// Throws Error::request for what the file does not have.
+FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density);
+
+// fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, predictions.csv,
+// plots and metrics.
+void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures);
+
+// What a reader is told.
+std::string summary(const FabAnswer& answer);
+
+}  // namespace hysteron::experiments

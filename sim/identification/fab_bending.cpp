@@ -1,0 +1,176 @@
+#include "sim/identification/fab_bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/identification/covariance.h"
+#include "sim/identification/fab_cycles.h"
+#include "sim/identification/least_squares.h"
+#include "sim/reference/buckled_strip.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kStiffnessSpread = 1.5;  // prior standard deviations of logarithms: a factor of 4.5 ...
+constexpr double kSpringSpread = 1;       // ... and of 2.7
+// HB/b2 that the prior of b2 is centred on [1/m]: the KES pairs of assets/fabrics have 18 to 53.
+constexpr double kFrictionOverSpring = 50;
+constexpr double kFarthest = 9;      // of a logarithm from its prior
+constexpr double kLargestZero = 10;  // [N/m]
+
+// Up to the turn before which a branch still goes the other way, and on the way of settling after it.
+bool is_settling(const FabLoops& loops, int branch, std::size_t index, double settling) {
+  const std::vector<double>& distance = loops.branches[branch].distance;
+  const bool inwards = distance.back() < distance.front();
+  const auto turn = inwards ? std::max_element(distance.begin(), distance.end())
+                            : std::min_element(distance.begin(), distance.end());
+  return index <= static_cast<std::size_t>(turn - distance.begin()) ||
+         std::abs(distance[index] - *turn) < settling;
+}
+
+// The friction moment that loses as much as the loop: 2 HB times the change of int |K| ds, the same for any
+// elastic law without weight.
+double friction_of_loop(const FabLoops& loops, int cycle) {
+  const FabBranch& out = loops.branches[2 * cycle];
+  const auto [low, high] = std::minmax_element(out.distance.begin(), out.distance.end());
+  BuckledStripTest elastica({{1, {}, {}}, loops.gauge, 0, 32}, *high, BuckledStripTest::Start::relaxed);
+  const double before = elastica.bend();
+  elastica.go_to(*low, 0.02);
+  return std::abs(loop_area(loops, forces_of(loops), cycle)) / (2 * (elastica.bend() - before));
+}
+
+// Parameters: logarithms of b2 and of the moments p_j r_j over their priors, then the zeros of force.
+class BendingModel {
+ public:
+  BendingModel(const std::vector<FabLoops>& loops, const FabBendingQuestion& question)
+      : loops_(loops),
+        question_(question),
+        stops_(static_cast<int>(question.thresholds.size())),
+        rows_(rows_of(loops, question.cycles)) {
+    double friction = 0;
+    for (const FabLoops& one : loops)
+      for (const int cycle : question.cycles) friction += friction_of_loop(one, cycle - 1);
+    for (FabRow& row : rows_) {
+      const FabLoops& one = loops[row.loops];
+      row.weight = one.width / question.noise *
+                   (is_settling(one, row.branch, row.index, question.settling) ? question.trust : 1);
+    }
+    prior_friction = friction / static_cast<double>(loops.size() * question.cycles.size());
+  }
+
+  StopsLaw law(const VectorXd& p) const {
+    StopsLaw law{std::exp(p[0]) * prior_spring(), question_.thresholds, {}};
+    for (int j = 0; j < stops_; ++j)
+      law.stiffnesses.push_back(std::exp(p[1 + j]) * prior_friction / stops_ / law.thresholds[j]);
+    return law;
+  }
+
+  // Rows, then the distances of logarithms from their priors; not a number where no equilibrium is found.
+  VectorXd residuals(const VectorXd& p) const {
+    const int last = *std::max_element(question_.cycles.begin(), question_.cycles.end());
+    std::vector<BranchForces> force;
+    try {
+      for (const FabLoops& loops : loops_)
+        force.push_back(run_fab(loops, {law(p), {}, question_.density}, 2 * last).force);
+    } catch (const Error&) {
+      return VectorXd::Constant(size(), kNone);
+    }
+    VectorXd result(size());
+    for (int i = 0; i < rows(); ++i) {
+      const FabRow& row = rows_[i];
+      result[i] =
+          row.weight * (force[row.loops][row.branch][row.index] + p[1 + stops_ + row.loops] - row.force);
+    }
+    result[rows()] = p[0] / kSpringSpread;
+    result.tail(stops_) = p.segment(1, stops_) / kStiffnessSpread;
+    return result;
+  }
+
+  VectorXd start() const {
+    VectorXd p = VectorXd::Zero(parameters());
+    for (int i = 0; i < rows(); ++i) p[1 + stops_ + rows_[i].loops] += rows_[i].force;
+    for (std::size_t l = 0; l < loops_.size(); ++l)
+      p[1 + stops_ + l] /= static_cast<double>(
+          std::count_if(rows_.begin(), rows_.end(), [&](const FabRow& r) { return r.loops == int(l); }));
+    return p;
+  }
+
+  int rows() const { return static_cast<int>(rows_.size()); }
+  int stops() const { return stops_; }
+  int parameters() const { return 1 + stops_ + static_cast<int>(loops_.size()); }
+  int size() const { return rows() + 1 + stops_; }
+  double prior_spring() const { return prior_friction / kFrictionOverSpring; }
+
+  double prior_friction = 0;  // [N]
+
+ private:
+  const std::vector<FabLoops>& loops_;
+  const FabBendingQuestion& question_;
+  int stops_;
+  std::vector<FabRow> rows_;
+};
+
+void set_bending_errors(const BendingModel& model, const LeastSquares& best, FabBending& found) {
+  const Eigen::MatrixXd c = posterior(best, model.rows());
+  const VectorXd error = c.diagonal().cwiseMax(0).cwiseSqrt();
+  found.spring_error = error[0] * found.law.spring;
+  found.determined = {is_determined(error[0])};
+  VectorXd moment = VectorXd::Zero(model.parameters());
+  for (int j = 0; j < model.stops(); ++j) {
+    found.stiffness_errors.push_back(error[1 + j] * found.law.stiffnesses[j]);
+    found.determined.push_back(is_determined(error[1 + j]));
+    moment[1 + j] = found.law.stiffnesses[j] * found.law.thresholds[j];
+  }
+  const VectorXd zeros = error.tail(error.size() - 1 - model.stops());
+  found.zero_errors.assign(zeros.begin(), zeros.end());
+  found.friction_error = std::sqrt(std::max(0.0, moment.dot(c * moment)));
+}
+
+}  // namespace
+
+std::vector<std::string> FabBending::undetermined() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < determined.size(); ++i)
+    if (!determined[i]) names.push_back(i == 0 ? "b2" : "stop " + number_text(law.thresholds[i - 1]) + "/m");
+  return names;
+}
+
+FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
+  check_cycles(loops, question.cycles);
+  const BendingModel model(loops, question);
+  VectorXd low = VectorXd::Constant(model.parameters(), -kFarthest), high = -low;
+  low.tail(loops.size()).setConstant(-kLargestZero);
+  high.tail(loops.size()).setConstant(kLargestZero);
+  const LeastSquares best =
+      minimize([&](const VectorXd& p) { return model.residuals(p); }, model.start(), low, high);
+  FabBending found;
+  found.direction = loops[0].direction;
+  found.law = model.law(best.parameters);
+  const VectorXd zeros = best.parameters.tail(loops.size());
+  found.zero.assign(zeros.begin(), zeros.end());
+  found.rows = model.rows();
+  found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
+  found.prior_friction = model.prior_friction;
+  found.prior_spring = model.prior_spring();
+  found.iterations = best.iterations;
+  found.converged = best.converged;
+  set_bending_errors(model, best, found);
+  return found;
+}
+
+FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
+  FabBending best;
+  for (const double threshold : question.thresholds) {
+    FabBendingQuestion one = question;
+    one.thresholds = {threshold};
+    FabBending found = identify_fab_bending(loops, one);
+    if (best.rows == 0 || found.residual_rms < best.residual_rms) best = std::move(found);
+  }
+  return best;
+}
+
+}  // namespace hysteron

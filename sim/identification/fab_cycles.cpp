@@ -1,0 +1,48 @@
+#include "sim/identification/fab_cycles.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+
+void check_cycles(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
+  for (const FabLoops& one : loops)
+    for (const int cycle : cycles)
+      if (cycle < 1 || cycle > one.cycles())
+        throw Error::request("cycle " + std::to_string(cycle) + " of " + one.name() + " must be 1 to " +
+                             std::to_string(one.cycles()))
+            .of("fab.cycles", std::to_string(cycle));
+}
+
+std::vector<FabRow> rows_of(const std::vector<FabLoops>& loops, const std::vector<int>& cycles) {
+  std::vector<FabRow> rows;
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    for (const int cycle : cycles)
+      for (int b = 2 * cycle - 2; b < 2 * cycle; ++b)
+        for (std::size_t i = 0; i < loops[l].branches[b].force.size(); ++i)
+          rows.push_back({static_cast<int>(l), b, i, loops[l].branches[b].force[i], 0});
+  return rows;
+}
+
+Eigen::MatrixXd posterior(const LeastSquares& best, int rows) {
+  const auto parameters = best.jacobian.cols();
+  const double free = std::max<double>(1, rows - static_cast<double>(parameters));
+  const double variance = std::max(1.0, best.residuals.head(rows).squaredNorm() / free);
+  const Eigen::MatrixXd data = best.jacobian.topRows(rows),
+                        prior = best.jacobian.bottomRows(best.jacobian.rows() - rows);
+  const Eigen::MatrixXd information = data.transpose() * data / variance + prior.transpose() * prior;
+  return information.ldlt().solve(Eigen::MatrixXd::Identity(parameters, parameters));
+}
+
+double force_zero(const FabLoops& loops, const BranchForces& model) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < model.size(); ++b)
+    for (std::size_t i = 0; i < model[b].size(); ++i, ++count)
+      sum += loops.branches[b].force[i] - model[b][i];
+  return sum / static_cast<double>(count);
+}
+
+}  // namespace hysteron

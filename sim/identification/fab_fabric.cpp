@@ -1,0 +1,260 @@
+#include "sim/identification/fab_fabric.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/fabric_reader.h"
+#include "sim/scene/toml_file.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kNormal95 = 1.96;   // half width of a 95 % interval over the standard deviation
+constexpr double kWidestKnown = 10;  // factor beyond which the prior, of 19, decides
+constexpr int kEvenStops = 32;       // virgin moments to M0/(4 N^2)
+
+std::string list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value);
+  return "[" + text + "]";
+}
+
+// What the data say of a stiffness.
+std::string verdict(double relative_error, bool determined) {
+  if (determined) return "identified";
+  const double factor = std::exp(kNormal95 * relative_error);
+  return factor > kWidestKnown ? "not determined, the prior's"
+                               : fmt::format("not determined, known within a factor of {:.1f}", factor);
+}
+
+// A comment on each stop: value, standard error, and what decided about it.
+std::string notes_of(const StopsLaw& law, const std::vector<double>& errors,
+                     const std::vector<bool>& determined, const char* threshold_unit, const char* unit) {
+  std::string text;
+  for (int j = 0; j < law.stops(); ++j)
+    text += fmt::format("#   {}{}: {:.3g} +- {:.2g} {}, {}\n", number_text(law.thresholds[j]), threshold_unit,
+                        law.stiffnesses[j], errors[j], unit,
+                        verdict(errors[j] / law.stiffnesses[j], determined[j + 1]));
+  return text;
+}
+
+std::string table(const std::string& name, const StopsLaw& law, const std::string& from) {
+  return "[" + name + "]\nthresholds = " + list(law.thresholds) + "\nstiffnesses = " + list(law.stiffnesses) +
+         "\nsource = \"" + from + "\"\nconfidence = \"fitted\"\n";
+}
+
+std::string bending_tables(const FabIdentification& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, found.bending.size()); ++i) {
+    const FabBending& b = found.bending[i];
+    text += "\n# Bends along " + b.direction + ", identified from " + found.from +
+            "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n" +
+            notes_of(b.law, b.stiffness_errors, b.determined, "/m", "N m") +
+            table(i == 0 ? "bending.stops" : "bending.stops.weft", b.law, found.from);
+  }
+  return text;
+}
+
+std::string tension_tables(const FabIdentification& found) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, found.tension.size()); ++i) {
+    const FabTension& t = found.tension[i];
+    text += "\n# Stretch along " + t.direction + ", identified from " + found.from +
+            "; thresholds (strain) are a grid that was given, stiffnesses [N/m]:\n" +
+            notes_of(t.law, t.stiffness_errors, t.determined, "", "N/m") +
+            table(i == 0 ? "membrane.stops.warp" : "membrane.stops.weft", t.law, found.from);
+  }
+  return text;
+}
+
+Estimate derived(double value, double error, const std::string& source) {
+  return {value, error, true, source, "derived"};
+}
+
+// b1, b2 and k0 with the same first slope, last slope and friction moment, for laws that know no stops.
+Identification three_numbers(const FabIdentification& found) {
+  Identification numbers;
+  const FabBending& b = found.bending[0];
+  numbers.law = "stops";
+  numbers.b2 = {b.law.spring, b.spring_error, static_cast<bool>(b.determined[0]),
+                "elasticity beside the stops, identified from " + found.from};
+  const double b1 = b.law.initial_stiffness();
+  numbers.b1 = derived(b1, kNone, "b2 and the sum of the stops' stiffnesses");
+  numbers.k0 = derived(2 * b.law.friction() / (b1 - b.law.spring), kNone,
+                       "2 HB/(b1 - b2) of the stops, so that M0 is their friction moment");
+  for (const FabBending& one : found.bending) {
+    std::vector<std::string> open = one.undetermined();
+    numbers.statements.push_back(
+        "along " + one.direction +
+        (open.empty() ? ": all stops are determined" : ": not determined: " + join(open, ", ")) +
+        fmt::format(" (HB = {:.3g} +- {:.2g} N, rms {:.2g} of the noise)", one.law.friction(),
+                    one.friction_error, one.residual_rms));
+  }
+  return numbers;
+}
+
+// In [parameters], behind what write_fabric() knows.
+std::string ratio_line(const char* name, double ratio, const std::string& source) {
+  return fmt::format("{} = {{value = {}, source = \"{}\", confidence = \"derived\"}}\n", name,
+                     number_text(ratio), source);
+}
+
+std::string stiffness_line(const char* name, double value, const std::string& source) {
+  return fmt::format("{} = {{value = {}, unit = \"N/m\", source = \"{}\", confidence = \"fitted\"}}\n", name,
+                     number_text(value), source);
+}
+
+std::string further_parameters(const FabIdentification& found) {
+  std::string text;
+  if (found.bending.size() > 1) {
+    const double ratio = found.bending[1].law.spring / found.bending[0].law.spring;
+    text += ratio_line("weft-bending", ratio, "b2 along the second direction over the first") +
+            ratio_line("bias-bending", (1 + ratio) / 2, "the mean of both directions, not measured");
+  }
+  const char* const kNames[] = {"warp", "weft"};
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, found.tension.size()); ++i)
+    text += stiffness_line(kNames[i], found.tension[i].law.spring,
+                           "stretch beside its stops, identified from " + found.from);
+  return text;
+}
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  const TomlNode* find(const TomlNode* node, const std::vector<std::string>& path) const {
+    for (const std::string& name : path)
+      if (node) node = node->find(name);
+    return node;
+  }
+
+  // The stops of a table beside that spring.
+  StopsLaw law(const TomlNode& table, double spring) const {
+    StopsLaw law{spring, numbers(table, "thresholds"), numbers(table, "stiffnesses")};
+    if (law.thresholds.size() != law.stiffnesses.size())
+      throw refusal(table, "thresholds and stiffnesses must be as many");
+    for (std::size_t j = 0; j < law.thresholds.size(); ++j) {
+      if (!(law.thresholds[j] > (j == 0 ? 0 : law.thresholds[j - 1])))
+        throw refusal(table, "thresholds must be > 0 and rise");
+      if (!(law.stiffnesses[j] >= 0)) throw refusal(table, "stiffnesses must be >= 0");
+    }
+    return law;
+  }
+
+  // The value of a parameter {value = .., ..}; none if it is not there.
+  std::optional<double> parameter(const TomlNode& root, const std::string& name) const {
+    const TomlNode* node = find(&root, {"parameters", name, "value"});
+    if (!node) return std::nullopt;
+    if (const auto* integer = std::get_if<std::int64_t>(&node->value)) return static_cast<double>(*integer);
+    if (const auto* real = std::get_if<double>(&node->value)) return *real;
+    throw refusal(*node, name + " must be a number");
+  }
+
+  double required(const TomlNode& root, const std::string& name) const {
+    const auto value = parameter(root, name);
+    if (!value) throw refusal(root, "parameters needs " + name);
+    return *value;
+  }
+
+ private:
+  Error refusal(const TomlNode& node, const std::string& what) const {
+    return Error::request(what + " (" + place(file_, node) + ")");
+  }
+  std::vector<double> numbers(const TomlNode& table, const std::string& name) const {
+    const TomlNode* node = table.find(name);
+    if (node && node->kind == TomlNode::Kind::table) node = node->find("value");
+    const auto* values = node ? std::get_if<std::vector<double>>(&node->value) : nullptr;
+    if (!values || values->empty()) throw refusal(table, table.key + "." + name + " must be numbers");
+    return *values;
+  }
+
+  std::string file_;
+};
+
+// Friction uniform on [0, k0] as even stops.
+StopsLaw of_three_numbers(const VirginCurve& curve) {
+  StopsLaw law{curve.b2, {}, {}};
+  if (!(curve.b1 > curve.b2)) return law;
+  for (int j = 0; j < kEvenStops; ++j) {
+    law.thresholds.push_back((j + 0.5) * curve.k0 / kEvenStops);
+    law.stiffnesses.push_back((curve.b1 - curve.b2) / kEvenStops);
+  }
+  return law;
+}
+
+// M = sqrt(q) M_law(sqrt(q) K): the metric by which cloth bends along weft.
+StopsLaw scaled(StopsLaw law, double q) {
+  law.spring *= q;
+  for (double& threshold : law.thresholds) threshold /= std::sqrt(q);
+  for (double& stiffness : law.stiffnesses) stiffness *= q;
+  return law;
+}
+
+// Half of each side by side: responses are the mean of both.
+StopsLaw mean_of(const StopsLaw& a, const StopsLaw& b) {
+  StopsLaw law{(a.spring + b.spring) / 2, {}, {}};
+  for (const StopsLaw* of : {&a, &b}) {
+    law.thresholds.insert(law.thresholds.end(), of->thresholds.begin(), of->thresholds.end());
+    for (const double stiffness : of->stiffnesses) law.stiffnesses.push_back(stiffness / 2);
+  }
+  return law;
+}
+
+}  // namespace
+
+void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
+                      const FabricNotes& notes) {
+  AtomicFile target(file.string());
+  target.stream() << fabric_text(three_numbers(found), notes) << further_parameters(found)
+                  << bending_tables(found) << tension_tables(found);
+  target.commit();
+}
+
+FabStrip FabFabric::strip(const std::string& direction) const {
+  if (direction == "L" || direction == "warp") return {warp, warp_tension, density};
+  if (direction == "W" || direction == "weft") return {weft, weft_tension, density};
+  if (direction == "B" || direction == "bias")
+    return {mean_of(warp, weft), mean_of(warp_tension, weft_tension), density};
+  throw Error::request("direction = " + direction + " must be L (warp) | W (weft) | B (bias)")
+      .of("fab.direction", direction);
+}
+
+FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin) {
+  const std::string file = find_asset("fabrics", name_or_file, origin).string();
+  const TomlNode root = read_toml(file);
+  const Reader reader(file);
+  FabFabric fabric;
+  const TomlNode* stops = reader.find(&root, {"bending", "stops"});
+  if (!stops) {
+    const Fabric read = read_fabric(name_or_file, origin).fabric;
+    fabric.name = read.name;
+    fabric.density = read.density;
+    fabric.warp = of_three_numbers(read.virgin_curve());
+    fabric.weft = scaled(fabric.warp, read.weft_bending);
+  } else {
+    const TomlNode* name = root.find("name");
+    const auto* text = name ? std::get_if<std::string>(&name->value) : nullptr;
+    fabric.name = text ? *text : std::filesystem::path(file).stem().string();
+    fabric.density = reader.required(root, "density");
+    const double b2 = reader.required(root, "b2"), q = reader.parameter(root, "weft-bending").value_or(1);
+    fabric.warp = reader.law(*stops, b2);
+    const TomlNode* weft = stops->find("weft");
+    fabric.weft = weft ? reader.law(*weft, q * b2) : scaled(fabric.warp, q);
+  }
+  const Fabric usual;
+  const auto tension = [&](const char* name, double otherwise) {
+    const double spring = reader.parameter(root, name).value_or(otherwise);
+    const TomlNode* table = reader.find(&root, {"membrane", "stops", name});
+    return table ? reader.law(*table, spring) : StopsLaw{spring, {}, {}};
+  };
+  fabric.warp_tension = tension("warp", usual.warp);
+  fabric.weft_tension = tension("weft", usual.weft);
+  return fabric;
+}
+
+}  // namespace hysteron

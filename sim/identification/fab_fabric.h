@@ -1,0 +1,48 @@
+// A fabric as the loops of a FAB tester identify it, as a file and from one.
+//
+//   [bending.stops]            thresholds = [..] [1/m], stiffnesses = [..] [N m]: along the first direction
+//   [bending.stops.weft]       the same along the second, beside fabric.b2 times fabric.weft-bending
+//   [membrane.stops.warp]      thresholds = [..] (strain), stiffnesses = [..] [N/m]; also .weft
+//
+// Read from any fabric: one without stops bends as its b1, b2 and k0 say.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/identification/fab_bending.h"
+#include "sim/identification/fab_tension.h"
+#include "sim/identification/fabric_file.h"
+
+namespace hysteron {
+
+// What was identified, the directions in the same order: warp first, then weft.
+struct FabIdentification {
+  std::vector<FabBending> bending;
+  std::vector<FabTension> tension;
+  std::string from;  // "cycle 2 of D1 in loops.csv"
+};
+
+// Every number with its source, its standard error and whether the data determine it.  Throws Error::machine.
+void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
+                      const FabricNotes& notes);
+
+// The laws that a strip cut along one of three directions follows.
+struct FabFabric {
+  std::string name;
+  double density = 0;                   // [kg/m^2]
+  StopsLaw warp, weft;                  // of bending
+  StopsLaw warp_tension, weft_tension;  // of stretch
+
+  // "L" and "warp", "W" and "weft"; "B" and "bias": half of each, the mean of the rigidities (Cooper 1960
+  // with a twisting rigidity of that mean).  Error::request for others.
+  FabStrip strip(const std::string& direction) const;
+};
+
+// By name (assets/fabrics) or file.  Throws as read_fabric(), and Error::request with file and line for stops
+// that are no numbers, not as many, or not positive and rising.
+FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin);
+
+}  // namespace hysteron

@@ -1,0 +1,38 @@
+// Tension stiffness and friction elements of stretch from the loops of a FAB tester, as fab_bending.h has
+// those of bending: a fixed grid of thresholds (strain), a prior on logarithms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/identification/identification.h"
+#include "sim/reference/fab_test.h"
+
+namespace hysteron {
+
+struct FabTensionQuestion {
+  std::vector<int> cycles = {2};                                        // the first being 1
+  std::vector<double> thresholds = {0.002, 0.005, 0.0125, 0.03, 0.08};  // (strain), rising
+  double noise = 2e-3;  // of the force of the whole strip [N], beside `share` of the largest force
+  double share = 0.01;  // that no such law describes to less
+};
+
+struct FabTension {
+  std::string direction;
+  StopsLaw law;  // [N/m] against strain
+  double spring_error = kNone;
+  std::vector<double> stiffness_errors;
+  std::vector<bool> determined;  // of the spring, then of each stop
+  std::vector<double> zero;      // of force, by fitted loops [N/m]
+  double residual_rms = 0;       // [N/m]
+  double largest_force = 0;      // of the fitted rows, over the zero [N/m]
+  int rows = 0, iterations = 0;
+  bool converged = false;
+
+  std::vector<std::string> undetermined() const;  // "warp spring", "stop 0.08"
+};
+
+// From loops of one direction that stretch.  Throws Error::request if a cycle is not there.
+FabTension identify_fab_tension(const std::vector<FabLoops>& loops, const FabTensionQuestion& question);
+
+}  // namespace hysteron

@@ -1,0 +1,54 @@
+// What a FAB tester records: a strip clamped at both ends, one clamp moved towards the other and back (it
+// buckles up or down) or away and back (it stretches), in cycles of growing amplitude; force against
+// distance.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hysteron {
+
+struct FabBranch {                      // one way, out or back
+  std::vector<double> distance, force;  // of the clamps [m]; per width of the strip, tension > 0 [N/m]
+};
+
+struct FabLoops {
+  std::string direction;            // "L", "W", "B": along which the strip was cut
+  std::string test;                 // "U1" bends up, "D1" down, "S1" stretches; gauges 1, 2
+  double gauge = 0;                 // length of the strip between the clamps [m]
+  double width = 0;                 // [m]
+  std::vector<FabBranch> branches;  // out, back, out, back, ...
+
+  int cycles() const { return static_cast<int>(branches.size()) / 2; }
+  bool bends() const { return test.front() != 'S'; }
+  bool bends_up() const { return test.front() == 'U'; }
+  std::string name() const { return direction + " " + test; }
+};
+
+enum class TesterUnits { si, fab };
+
+// A table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their units
+// as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
+// decimal commas are read, too).  Force is of the whole width.  Throws Error::machine, Error::request with
+// file and line: other units than said, a column or a number that is missing, branches out of order,
+// distances that no such strip has.
+std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
+                               const std::string& reader);
+
+// Of the loops in a file; Error::request names what there is.
+const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& direction,
+                           const std::string& test);
+
+// Readings of one cycle, the first being 0, on which the zero of force has no influence: forces are taken
+// from their mean over the cycle.  `force`: per branch, as in the loops (theirs, or a model's).
+using BranchForces = std::vector<std::vector<double>>;
+BranchForces forces_of(const FabLoops& loops);
+// Of both branches by the trapezoidal rule, work lost > 0, per width [J/m].
+double loop_area(const FabLoops& loops, const BranchForces& force, int cycle);
+// Largest less smallest force [N/m].
+double force_range(const BranchForces& force, int cycle);
+// The largest push of a buckled strip, or pull of a stretched one, >= 0 unless the zero is elsewhere [N/m].
+double peak_force(const FabLoops& loops, const BranchForces& force, int cycle);
+
+}  // namespace hysteron

@@ -1,0 +1,35 @@
+// The tests of a FAB tester, simulated along the clamps' own way: every distance that was recorded, in order.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/reference/fab_loops.h"
+#include "sim/reference/stops_law.h"
+
+namespace hysteron {
+
+struct FabStrip {
+  StopsLaw bending;    // [N m] against curvature; of the direction along which the strip is cut
+  StopsLaw stretch;    // [N/m] against strain
+  double density = 0;  // weight bears on a strip that bends [kg/m^2]
+};
+
+struct FabRun {
+  BranchForces force;  // per branch of the loops, up to the last simulated [N/m]
+  std::vector<std::vector<Eigen::Vector2d>> shapes;  // of a strip that bends: at first, at each branch's end
+  double work = 0, stored = 0, dissipated = 0;       // of the clamps, from the first distance on [J/m]
+  double peak_curvature = 0;                         // [1/m]
+};
+
+// All branches, or the first `branches`.  A strip that bends is laid slack at the first distance, where its
+// friction carries nothing, as recorded forces begin between the branches of the loop; its weight acts
+// against a bend up and with one down.  Throws Error::run where no equilibrium is found.
+FabRun run_fab(const FabLoops& loops, const FabStrip& strip, int branches = -1);
+
+// A test that nobody recorded: cycles from `gauge` less `slack` to each of the compressions (`loops` bend) or
+// extensions and back [m], a branch in `steps` rows.
+FabLoops made_up_loops(const std::string& test, double gauge, double slack,
+                       const std::vector<double>& amplitudes, int steps);
+
+}  // namespace hysteron

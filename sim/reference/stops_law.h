@@ -1,0 +1,36 @@
+// Friction elements as a scalar law (Iwan 1966): a spring beside stops, springs p_j that slip at r_j,
+//
+//   y = b x + sum_j p_j clamp(x - S_j, -r_j, r_j),   S_j dragged along
+//
+// of bending (x curvature [1/m], y moment per width [N], b and p_j [N m]) or of stretch (x strain, y force
+// per width [N/m], b and p_j [N/m]).  A branch after a reversal is the virgin curve doubled (Masing 1926).
+#pragma once
+
+#include <vector>
+
+namespace hysteron {
+
+struct StopsLaw {
+  double spring = 0;                            // b
+  std::vector<double> thresholds, stiffnesses;  // r_j > 0, p_j >= 0; as many
+
+  int stops() const { return static_cast<int>(thresholds.size()); }
+  double initial_stiffness() const;  // b + sum p_j, also after each reversal
+  double friction() const;           // sum p_j r_j: half the width of a loop on which every stop slips
+  // Enclosed by a cycle between +-amplitude: 4 p_j r_j (A - r_j) of each stop that slips.
+  double loop_area(double amplitude) const;
+};
+
+// One point of a body with that law.
+struct StopsPoint {
+  double response = 0, tangent = 0;   // y, dy/dx
+  double stored = 0, dissipated = 0;  // energy now, and what the step to here lost
+};
+
+// At x, `anchors` (S_j, as many as stops) being those of the last accepted step; exact if x is monotone in
+// the step.  stored + dissipated is the incremental potential, whose slope is the response.
+StopsPoint respond(const StopsLaw& law, const double* anchors, double x);
+// Drags the anchors along to x.
+void accept(const StopsLaw& law, double* anchors, double x);
+
+}  // namespace hysteron

@@ -1,0 +1,85 @@
+// `hysteron fab` from flags to its folder.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/experiment.h"
+#include "sim/base/csv.h"
+#include "sim/reference/fab_loops.h"
+#include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+class FabCommand : public testing::Test {
+ protected:
+  int fab(std::vector<Flag> flags, const std::string& out = "out") {
+    for (const auto& [key, value] : {std::pair{"quick", "true"}, {"quiet", "true"}, {"json", "true"}})
+      flags.push_back({key, value});
+    flags.push_back({"out", (folder_.path() / out).string()});
+    testing::internal::CaptureStdout();
+    const int code = experiment_named("fab").run({"fab", "hysteron fab", flags, {}});
+    testing::internal::GetCapturedStdout();
+    return code;
+  }
+  nlohmann::json metrics(const std::string& out = "out") const {
+    return nlohmann::json::parse(text_of(folder_.path() / out / "manifest.json")).at("metrics");
+  }
+  Folder folder_;
+};
+
+TEST_F(FabCommand, WithoutDataStatesAreasThatGrowWithTheCompression) {
+  ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.compressions", "0.003,0.005,0.007"}}), 0);
+  const auto m = metrics();
+  EXPECT_GT(m.at("area_cycle1_J_per_m"), 0);
+  EXPECT_GT(m.at("area_cycle2_J_per_m"), m.at("area_cycle1_J_per_m"));
+  EXPECT_GT(m.at("area_cycle3_J_per_m"), m.at("area_cycle2_J_per_m"));
+  EXPECT_LT(m.at("energy_imbalance_percent"), 2);
+  for (const char* name : {"plot_fab.png", "plot_shapes.png", "fab.csv", "report.html"})
+    EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
+}
+
+// What it writes are data: going their way the same fabric meets them.
+TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
+  ASSERT_EQ(fab({{"fabric", "cotton-broad"}}), 0);
+  const std::string record = (folder_.path() / "out" / "fab.csv").string();
+  ASSERT_EQ(fab({{"fabric", "cotton-broad"}, {"fab.data", record}, {"no-images", "true"}}, "again"), 0);
+  const auto m = metrics("again");
+  constexpr double kSixDigits = 1e-4;
+  for (const char* name : {"area_cycle1_J_per_m", "area_cycle3_J_per_m", "force_range_cycle2_N_per_m"}) {
+    EXPECT_NEAR(m.at(name), metrics().at(name), kSixDigits * metrics().at(name).get<double>()) << name;
+    EXPECT_NEAR(m.at(name), m.at(std::string("measured_") + name), kSixDigits * m.at(name).get<double>())
+        << name;
+  }
+}
+
+TEST_F(FabCommand, FollowsStopsThatAFileStates) {
+  const fs::path file = folder_.path() / "stops.toml";
+  std::ofstream(file)
+      << "name = \"stops\"\n[parameters]\n"
+         "b2 = {value = 3e-6, unit = \"N m\", source = \"test\", confidence = \"given\"}\n"
+         "density = {value = 0.2, unit = \"kg/m^2\", source = \"test\", confidence = \"given\"}\n"
+         "[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n"
+         "[bending.stops.weft]\nthresholds = [10, 50]\nstiffnesses = [4e-6, 1e-6]\n";
+  const std::vector<Flag> along_warp = {{"fabric", file.string()}, {"no-images", "true"}};
+  std::vector<Flag> along_weft = along_warp, along_bias = along_warp;
+  along_weft.push_back({"fab.direction", "W"});
+  along_bias.push_back({"fab.direction", "B"});
+  ASSERT_EQ(fab(along_warp, "l"), 0);
+  ASSERT_EQ(fab(along_weft, "w"), 0);
+  ASSERT_EQ(fab(along_bias, "b"), 0);
+  const double l = metrics("l").at("area_cycle1_J_per_m"), w = metrics("w").at("area_cycle1_J_per_m");
+  EXPECT_GT(l, w);
+  EXPECT_NEAR(metrics("b").at("area_cycle1_J_per_m"), (l + w) / 2, 0.05 * l);
+}
+
+TEST_F(FabCommand, RefusesWhatNoTesterDoes) {
+  EXPECT_NE(test::refusal([&] { fab({{"fab.test", "X1"}}); }).find("U.."), std::string::npos);
+  EXPECT_NE(test::refusal([&] { fab({{"fab.direction", "Q"}}); }).find("L (warp)"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { fab({{"fab.compressions", "0.02"}}); }).find("0.8 of"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,117 @@
+// Stops come back from the loops of a FAB tester that they make, with noise.
+#include "sim/identification/fab_bending.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "sim/identification/fab_tension.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kWidth = 0.04, kDensity = 0.3, kNoise = 7.5e-4;  // [m], [kg/m^2], [N]
+const StopsLaw kLaw{4e-6, {4, 16, 64}, {2e-5, 2e-6, 8e-7}};
+
+// HYSTERON_SEEDS=50 for a longer test by hand.
+unsigned seeds() {
+  const char* given = std::getenv("HYSTERON_SEEDS");
+  return given ? static_cast<unsigned>(std::atoi(given)) : 3;
+}
+
+// As a tester records: rows every half millimetre, an unknown zero of force.
+FabLoops recorded(const StopsLaw& law, const std::string& test, unsigned seed, double noise = kNoise) {
+  FabLoops loops = made_up_loops(test, 0.021, 0.0015, {0.0039, 0.0064, 0.0089}, 13);
+  loops.direction = "L";
+  loops.width = kWidth;
+  const BranchForces force = run_fab(loops, {law, law, kDensity}).force;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0, noise / kWidth);
+  for (std::size_t b = 0; b < force.size(); ++b)
+    for (std::size_t i = 0; i < force[b].size(); ++i)
+      loops.branches[b].force[i] = force[b][i] + 0.1 + normal(random);
+  return loops;
+}
+
+FabBendingQuestion question() {
+  FabBendingQuestion question;
+  question.thresholds = kLaw.thresholds;
+  question.density = kDensity;
+  return question;
+}
+
+// Three standard errors of the logarithm, whose prior and likelihood are nearly normal.
+bool within(double found, double truth, double error) {
+  return std::abs(std::log(found / truth)) <= 3 * error / found;
+}
+
+TEST(FabBending, ComesBackFromNoiseWithinThreeStandardErrors) {
+  int checks = 0, misses = 0;
+  const auto check = [&](bool hit) { ++checks, misses += !hit; };
+  for (unsigned seed = 1; seed <= seeds(); ++seed) {
+    const FabBending found = identify_fab_bending({recorded(kLaw, "D1", seed)}, question());
+    EXPECT_TRUE(found.converged) << seed;
+    check(within(found.law.spring, kLaw.spring, found.spring_error));
+    check(within(found.law.friction(), kLaw.friction(), found.friction_error));
+    check(std::abs(found.zero[0] - 0.1) <= 3 * found.zero_errors[0]);
+    for (int j = 0; j < kLaw.stops(); ++j)
+      check(within(found.law.stiffnesses[j], kLaw.stiffnesses[j], found.stiffness_errors[j]));
+  }
+  EXPECT_LE(misses, 1 + checks / 100);  // of 18 at 99.7 %, two are one case in 700
+}
+
+// Areas of the cycles that were not fitted, and of the bend to the other side.
+TEST(FabBending, FromOneCyclePredictsTheOthersAndTheBendUp) {
+  const FabBending found = identify_fab_bending({recorded(kLaw, "D1", 7)}, question());
+  const double tolerance = 3 * found.friction_error / found.law.friction();  // areas grow with friction
+  EXPECT_LT(tolerance, 0.5);
+  for (const char* test : {"D1", "U1"}) {
+    const FabLoops truth = recorded(kLaw, test, 1, 0);
+    const BranchForces predicted = run_fab(truth, {found.law, {}, kDensity}).force;
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      const double area = loop_area(truth, forces_of(truth), cycle);
+      EXPECT_NEAR(loop_area(truth, predicted, cycle) / area, 1, tolerance) << test << " " << cycle;
+    }
+  }
+}
+
+TEST(FabBending, SaysThatACycleDoesNotTellStopsBeyondIt) {
+  FabBendingQuestion wide = question();
+  wide.thresholds.push_back(512);
+  const FabBending found = identify_fab_bending({recorded(kLaw, "D1", 3)}, wide);
+  EXPECT_FALSE(found.determined.back());
+  EXPECT_EQ(found.undetermined().back(), "stop 512/m");
+  EXPECT_GT(found.law.spring, 0.3 * kLaw.spring);
+}
+
+TEST(FabBending, OfOneStopIsTheBestOfTheGrid) {
+  const StopsLaw one{3e-6, {16}, {8e-6}};
+  EXPECT_EQ(identify_one_stop({recorded(one, "D1", 5)}, question()).law.thresholds, one.thresholds);
+}
+
+TEST(FabBending, RefusesACycleThatIsNotThere) {
+  FabBendingQuestion beyond = question();
+  beyond.cycles = {4};
+  EXPECT_NE(test::refusal([&] { identify_fab_bending({recorded(kLaw, "D1", 1)}, beyond); }).find("1 to 3"),
+            std::string::npos);
+}
+
+TEST(FabTension, ComesBackFromNoiseWithinThreeStandardErrors) {
+  FabTensionQuestion asked;
+  asked.thresholds = {0.005, 0.03};
+  const StopsLaw law{60, asked.thresholds, {300, 40}};
+  for (unsigned seed = 1; seed <= seeds(); ++seed) {
+    FabLoops loops = recorded(law, "S1", seed, asked.noise);
+    const FabTension found = identify_fab_tension({loops}, asked);
+    EXPECT_TRUE(within(found.law.spring, law.spring, found.spring_error)) << seed;
+    for (int j = 0; j < law.stops(); ++j)
+      EXPECT_TRUE(within(found.law.stiffnesses[j], law.stiffnesses[j], found.stiffness_errors[j]))
+          << seed << ", stop " << j;
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

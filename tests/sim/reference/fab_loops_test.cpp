@@ -1,0 +1,103 @@
+// Loops of a FAB tester: what is read, what is refused, and what is read off them.
+#include "sim/reference/fab_loops.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/reference/fab_test.h"
+#include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron {
+namespace {
+
+using test::Folder;
+using test::refusal;
+
+constexpr const char* kHeadSi = "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n";
+constexpr const char* kHeadFab =
+    "direction;test;branch;clamp_distance_cm;force_gf;gauge_length_cm;width_cm\n";
+
+// A parallelogram between 18 and 16 mm: forces 1 N/m apart over 2 mm.
+std::string si_rows() {
+  std::string text = kHeadSi;
+  for (const char* row : {"0,0.018,-0.01", "0,0.0175,-0.01", "0,0.0165,-0.01", "0,0.016,-0.01",
+                          "1,0.016,0.03", "1,0.0165,0.03", "1,0.0175,0.03", "1,0.018,0.03"})
+    text += std::string("L,D1,") + row + ",0.021,0.04\n";
+  return text;
+}
+
+std::string fab_rows(const std::string& before) {
+  std::string text = before + kHeadFab;
+  for (const char* row : {"0;1,8;-1,0197162", "0;1,75;-1,0197162", "0;1,65;-1,0197162", "0;1,6;-1,0197162",
+                          "1;1,6;3,0591486", "1;1,65;3,0591486", "1;1,75;3,0591486", "1;1,8;3,0591486"})
+    text += std::string("L;D1;") + row + ";2,1;4\n";
+  return text;
+}
+
+TEST(FabLoops, OfAParallelogramEncloseBaseTimesHeight) {
+  const Folder folder;
+  const FabLoops loops =
+      find_loops(read_fab(folder.write("a.csv", si_rows()), TesterUnits::si, "t"), "L", "D1");
+  ASSERT_EQ(loops.cycles(), 1);
+  EXPECT_NEAR(loop_area(loops, forces_of(loops), 0), 2e-3 * 1, 1e-12);
+  EXPECT_NEAR(force_range(forces_of(loops), 0), 1, 1e-12);
+}
+
+// 1 gf = 9.80665e-3 N by definition.
+TEST(FabLoops, InTheTestersUnitsAreTheSameLoops) {
+  const Folder folder;
+  const auto si = read_fab(folder.write("a.csv", si_rows()), TesterUnits::si, "t");
+  const auto fab =
+      read_fab(folder.write("b.csv", fab_rows("FAB 2.1\nfabric; Shirley\n\n")), TesterUnits::fab, "t");
+  ASSERT_EQ(fab.size(), 1u);
+  for (int b = 0; b < 2; ++b)
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(fab[0].branches[b].distance[i], si[0].branches[b].distance[i], 1e-12);
+      EXPECT_NEAR(fab[0].branches[b].force[i], si[0].branches[b].force[i], 1e-7);
+    }
+}
+
+TEST(FabLoops, AreRefusedInOtherUnitsThanSaid) {
+  const Folder folder;
+  const std::string si = folder.write("a.csv", si_rows()), fab = folder.write("b.csv", fab_rows(""));
+  EXPECT_NE(refusal([&] { read_fab(si, TesterUnits::fab, "t"); }).find("clamp_distance_cm"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { read_fab(fab, TesterUnits::si, "t"); }).find("clamp_distance_m"),
+            std::string::npos);
+}
+
+TEST(FabLoops, AreRefusedWhereLengthsAreNoStrips) {
+  const Folder folder;
+  std::string text = si_rows();
+  for (std::size_t at; (at = text.find("0.021,0.04")) != std::string::npos;) text.replace(at, 10, "2.1,4");
+  EXPECT_NE(refusal([&] { read_fab(folder.write("a.csv", text), TesterUnits::si, "t"); }).find("2.1"),
+            std::string::npos);
+}
+
+TEST(FabLoops, AreRefusedWithARowThatIsNoNumber) {
+  const Folder folder;
+  std::string text = si_rows();
+  text.replace(text.find("-0.01"), 5, "-0,01");
+  EXPECT_NE(refusal([&] { read_fab(folder.write("a.csv", text), TesterUnits::si, "t"); }).find("a.csv:2"),
+            std::string::npos);
+}
+
+TEST(FabLoops, ThatAreNotThereAreNamed) {
+  const Folder folder;
+  const auto all = read_fab(folder.write("a.csv", si_rows()), TesterUnits::si, "t");
+  EXPECT_NE(refusal([&] { find_loops(all, "B", "D1"); }).find("L D1"), std::string::npos);
+}
+
+// The clamps' work is what the strip stores and loses.
+TEST(FabRun, BalancesTheWorkOfTheClamps) {
+  const FabStrip strip{{2e-6, {4, 32, 128}, {2e-5, 1e-6, 4e-7}}, {30, {0.01, 0.05}, {100, 20}}, 0.3};
+  for (const char* name : {"U1", "D1", "S1"}) {
+    const FabLoops loops = made_up_loops(name, 0.021, 0.0015, {0.0035, 0.006}, 400);
+    const FabRun run = run_fab(loops, strip);
+    EXPECT_GT(run.dissipated, 0) << name;
+    EXPECT_NEAR((run.work - run.stored) / run.dissipated, 1, 1e-3) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hysteron

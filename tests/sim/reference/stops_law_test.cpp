@@ -1,0 +1,129 @@
+// Friction elements as a scalar law against the closed forms of Masing loops.
+#include "sim/reference/stops_law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/reference/stretched_strip.h"
+
+namespace hysteron {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+struct Driven {
+  StopsLaw law;
+  std::vector<double> anchors = std::vector<double>(law.stops(), 0.0);
+  double x = 0, dissipated = 0;
+
+  double go_to(double next) {
+    const StopsPoint at = respond(law, anchors.data(), next);
+    accept(law, anchors.data(), next);
+    dissipated += at.dissipated;
+    x = next;
+    return at.response;
+  }
+};
+
+const std::vector<StopsLaw> kLaws = {{1e-6, {60}, {6e-6}},
+                                     {2e-6, {4, 32, 256}, {4e-5, 1e-6, 1e-7}},
+                                     {5e-6, {15, 40, 90, 180}, {1e-5, 2e-6, 0, 1e-6}}};
+
+TEST(StopsLaw, DissipatesTheClosedFormInACycle) {
+  for (const StopsLaw& law : kLaws)
+    for (const double amplitude : {3.0, 50.0, 400.0}) {
+      Driven point{law};
+      point.go_to(amplitude);
+      const double before = point.dissipated;
+      point.go_to(-amplitude);
+      point.go_to(amplitude);
+      EXPECT_NEAR(point.dissipated - before, law.loop_area(amplitude),
+                  kRounding * (1 + law.loop_area(amplitude)));
+    }
+}
+
+// y - y_r = 2 f((x - x_r)/2) (Masing 1926).
+TEST(StopsLaw, ReturnsByTheVirginCurveDoubled) {
+  for (const StopsLaw& law : kLaws) {
+    Driven point{law};
+    const double reversal = point.go_to(300);
+    for (const double change : {-5.0, -60.0, -250.0}) {
+      Driven virgin{law};
+      const double doubled = 2 * virgin.go_to(change / 2);
+      EXPECT_NEAR(point.go_to(300 + change) - reversal, doubled, kRounding * std::abs(reversal));
+    }
+  }
+}
+
+TEST(StopsLaw, StatesItsWidthAsTwiceTheSumOfItsMoments) {
+  for (const StopsLaw& law : kLaws) {
+    Driven point{law};
+    point.go_to(2000);
+    const double down = point.go_to(0);
+    point.go_to(-2000);
+    EXPECT_NEAR(point.go_to(0) - down, 2 * law.friction(), kRounding);
+    EXPECT_NEAR(-down, law.friction(), kRounding);
+  }
+}
+
+TEST(StopsLaw, HasAPotentialWhoseSlopeIsItsResponse) {
+  const StopsLaw& law = kLaws[1];
+  Driven point{law};
+  point.go_to(120);
+  const auto potential = [&](double x) {
+    const StopsPoint at = respond(law, point.anchors.data(), x);
+    return at.stored + at.dissipated;
+  };
+  const double step = 1e-3;
+  for (const double x : {119.0, 90.0, -30.0}) {
+    const double slope = (potential(x + step) - potential(x - step)) / (2 * step);
+    const double response = respond(law, point.anchors.data(), x).response;
+    EXPECT_NE(response, 0);
+    EXPECT_NEAR(slope, response, 1e-8 * std::abs(response));
+  }
+}
+
+const StopsLaw kTension{20, {0.005, 0.03}, {200, 40}};  // [N/m] against strain
+constexpr double kLength = 0.02;
+
+TEST(StretchedStrip, PullsByItsVirginCurve) {
+  StretchedStripTest test(kTension, kLength);
+  test.go_to(kLength * 1.1);
+  EXPECT_NEAR(test.force(), 20 * 0.1 + 200 * 0.005 + 40 * 0.03, 1e-9);
+}
+
+// From y_m = f(A) down to zero by the doubled virgin curve: there it goes slack, and keeps that strain.
+TEST(StretchedStrip, GoesSlackWhereTheMasingBranchMeetsZero) {
+  StretchedStripTest test(kTension, kLength);
+  test.go_to(kLength * 1.1);
+  test.go_to(kLength);
+  EXPECT_TRUE(test.slack());
+  // Both stops have turned around: 20 e = 200 * 0.005 + 40 * 0.03.
+  const double strain = (200 * 0.005 + 40 * 0.03) / 20;
+  ASSERT_GT(strain, 0.1 - 2 * 0.03);  // so that the second has not; then 20 e + 40 (e - 0.1 + 0.03) = 1
+  const double partly = (1 + 40 * 0.07) / 60;
+  EXPECT_NEAR(test.strain(), partly, 1e-12);
+  test.go_to(kLength * 1.02);
+  EXPECT_TRUE(test.slack());
+  EXPECT_NEAR(test.strain(), partly, 1e-12);
+}
+
+TEST(StretchedStrip, EnclosesWhatItDissipates) {
+  StretchedStripTest test(kTension, kLength);
+  double work = 0, distance = kLength, force = 0;
+  for (const double to : {1.1, 1.0, 1.2, 1.0})
+    for (const double from = distance; distance != kLength * to;) {
+      const double next = std::abs(kLength * to - distance) < 1.5e-7
+                              ? kLength * to
+                              : distance + std::copysign(1e-7, kLength * to - from);
+      test.go_to(next);
+      work += (force + test.force()) / 2 * (next - distance);
+      distance = next;
+      force = test.force();
+    }
+  EXPECT_NEAR((work - test.energy()) / test.dissipated(), 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace hysteron
