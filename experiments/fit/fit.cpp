@@ -45,7 +45,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
     {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
     {"param", at<&F::param>, "", any(), "", "parameters of that law"},
-    {"stops", at<&F::stops>, "", between(1, kMostStops), "", "instead of a law: this many friction elements with free thresholds"},
+    {"stops", at<&F::stops>, "", between(1, kMostFittedStops), "", "instead of a law: this many friction elements with free thresholds"},
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
     {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},

@@ -1,4 +1,5 @@
 // `hysteron law`: flags of the law alone.
+#include <algorithm>
 #include <filesystem>
 
 #include "experiments/law/law.h"
@@ -13,6 +14,7 @@ struct LawFlags {
   std::string law = "prandtl";
   std::string fabric = "cotton-broad";
   double b1 = 0, b2 = 0, k0 = 0;
+  BendingParts parts;  // of the fabric
   Parameters param;
   std::string in, out;
 };
@@ -20,7 +22,7 @@ struct LawFlags {
 using L = LawFlags;
 // clang-format off
 const KeyRow<LawFlags> kRows[] = {
-    {"fabric", at<&L::fabric>, "", any(), "", "whose b1, b2, k0 are taken where not given"},
+    {"fabric", at<&L::fabric>, "", any(), "", "whose b1, b2, k0 are taken where not given, and what its file has beyond them; its stops unless b1 or k0 is given"},
     {"law", at<&L::law>, "", any(), "", "see `hysteron list laws`"},
     {"b1", at<&L::b1>, "N m", at_least(0), "", "initial bending rigidity, >= b2"},
     {"b2", at<&L::b2>, "N m", at_least(0), "", "bending rigidity of the straight branch"},
@@ -32,10 +34,18 @@ const KeyRow<LawFlags> kRows[] = {
 // clang-format on
 
 void take_fabric(LawFlags& flags, const std::string& origin) {
-  const Fabric fabric = read_fabric(flags.fabric, origin).fabric;
-  flags.b1 = fabric.b1;
-  flags.b2 = fabric.b2;
-  flags.k0 = fabric.k0;
+  const VirginCurve curve = read_fabric(flags.fabric, origin).fabric.virgin_curve();
+  flags.b1 = curve.b1;
+  flags.b2 = curve.b2;
+  flags.k0 = curve.k0;
+  flags.parts = curve.parts;
+}
+
+// b1 and k0 by hand are friction of three numbers.
+void drop_stops_unless_asked_for(const CommandLine& line, LawFlags& flags) {
+  const bool by_hand = std::any_of(line.flags.begin(), line.flags.end(),
+                                   [](const Flag& flag) { return flag.path == "b1" || flag.path == "k0"; });
+  if (by_hand) flags.parts.stops = flags.parts.weft_stops = {};
 }
 
 int run_law(const CommandLine& line) {
@@ -50,12 +60,14 @@ int run_law(const CommandLine& line) {
   }
   take_fabric(flags, "--fabric");
   for (const Flag& flag : line.flags) apply(flag);
+  drop_stops_unless_asked_for(line, flags);
   if (flags.in.empty() || flags.out.empty()) throw Error::request("needs --in K.csv and --out M.csv");
 
   std::error_code missing;
   if (std::filesystem::equivalent(flags.in, flags.out, missing))
     throw Error::request("--out " + flags.out + " is the input: give another file").of("out", flags.out);
-  return run_law_command({flags.law, {flags.b1, flags.b2, flags.k0}, flags.param, flags.in, flags.out});
+  return run_law_command(
+      {flags.law, {flags.b1, flags.b2, flags.k0, flags.parts}, flags.param, flags.in, flags.out});
 }
 
 }  // namespace

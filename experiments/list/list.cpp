@@ -9,6 +9,7 @@
 #include "render/offscreen.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
+#include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/time/back_end.h"
@@ -42,18 +43,57 @@ std::string bending_source(const Fabric& fabric) {
   return short_citation(fabric.provenance.at("b2").source);
 }
 
+// B [N m] and 2HB [N] as KES-FB2 reads them: of three numbers b2 and the whole friction moment, of stops what
+// they are within the tester's amplitude.
+std::pair<double, double> tester_pair(const Fabric& fabric) {
+  const Spectrum& stops = fabric.bending.stops;
+  if (stops.empty()) return {fabric.b2, 2 * fabric.virgin_curve().friction_moment()};
+  const KesProtocol p;
+  const double rise = stops.friction_at(p.slope_to) - stops.friction_at(p.slope_from);
+  return {fabric.b2 + rise / (p.slope_to - p.slope_from), stops.loop_width(p.amplitude, p.width_at)};
+}
+
+std::string listed(const std::vector<double>& numbers) {
+  std::vector<std::string> words;
+  for (double x : numbers) words.push_back(short_number(x));
+  return join(words, ", ");
+}
+
+// A line for each part that the fabric has beyond three numbers, with where it comes from.
+void print_parts(const Fabric& fabric) {
+  const BendingParts& parts = fabric.bending;
+  const auto print = [&](const char* key, const std::string& text) {
+    const Provenance& from = fabric.provenance.at(key);
+    std::cout << "  " << text << " (" << from.confidence << ": " << short_citation(from.source) << ")\n";
+  };
+  const auto stops = [&](const char* key, const char* along, const Spectrum& of) {
+    if (of.empty()) return;
+    print(key, std::string("stops") + along + ": " + listed(of.thresholds) + " 1/m, " +
+                   listed(of.stiffnesses) + " N m; HB " + short_number(of.friction_moment()) + " N");
+  };
+  stops("bending.stops.thresholds", "", parts.stops);
+  stops("bending.stops.weft.thresholds", " along weft", parts.weft_stops);
+  if (!parts.branches.empty())
+    print("bending.branches.times", "relaxing branches: " + listed(parts.branches.times) + " s, " +
+                                        listed(parts.branches.stiffnesses) + " N m");
+  if (parts.set.on())
+    print("bending.set.yield", "permanent set: yield " + short_number(parts.set.yield) + " 1/m, hardening " +
+                                   short_number(parts.set.hardening) + " N m");
+}
+
 void list_fabrics_table() {
   const std::vector<int> widths = {20, 11, 10, 11, 9, 17};
   print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "bending from"},
             widths);
   for (const FabricFile& file : list_fabrics()) {
     const Fabric& f = file.fabric;
-    const double hb = f.virgin_curve().friction_moment();
-    const bool friction = hb > 0;
-    print_row({f.name, short_number(f.b2), friction ? short_number(2 * hb) : "-",
-               friction ? short_number(hb / f.b2, 3) : "-", friction ? short_number(f.k0) : "-",
+    const auto [b, width] = tester_pair(f);
+    const bool friction = width > 0;
+    print_row({f.name, short_number(b), friction ? short_number(width) : "-",
+               friction ? short_number(width / 2 / b, 3) : "-", friction ? short_number(f.k0) : "-",
                short_number(f.density), bending_source(f)},
               widths);
+    print_parts(f);
   }
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }

@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
+#include "sim/scene/scene_reader.h"
 #include "sim/scene/toml_file.h"
 
 namespace hysteron {
@@ -13,6 +14,7 @@ namespace {
 
 const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "given", "assumed"};
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
+const std::vector<std::string> kSaidByStops = {"b1", "k0"};
 
 struct Reader {
   std::string file;
@@ -60,21 +62,31 @@ struct Reader {
       throw refusal(node.key + " must be a table {value, unit, source, confidence}, stderr if known", node);
     }
     only_known(node, {"value", "unit", "source", "confidence", "stderr"});
-    PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), text(node, "confidence")}};
+    PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), confidence(node, node)}};
     if (node.find("unit")) number.unit = text(node, "unit");
     if (node.find("stderr")) {
       number.provenance.standard_error = this->number(node, "stderr");
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
-    if (!std::count(kConfidences.begin(), kConfidences.end(), number.provenance.confidence)) {
-      throw refusal(node.key + ": confidence = " + number.provenance.confidence + " must be " +
-                        join(kConfidences, " | "),
-                    node);
-    }
     if (sources && sources->find(number.provenance.source)) {
       number.provenance.source = text(*sources, number.provenance.source);
     }
     return number;
+  }
+
+  // Of a table of lists, which may leave it out: then the file itself is the source.
+  Provenance provenance(const TomlNode& table, const TomlNode* sources) const {
+    Provenance from{place(file, table), "given"};
+    if (table.find("source")) from.source = text(table, "source");
+    if (sources && sources->find(from.source)) from.source = text(*sources, from.source);
+    if (table.find("confidence")) from.confidence = confidence(table, table);
+    return from;
+  }
+
+  std::string confidence(const TomlNode& table, const TomlNode& of) const {
+    const std::string word = text(table, "confidence");
+    if (std::count(kConfidences.begin(), kConfidences.end(), word)) return word;
+    throw refusal(of.key + ": confidence = " + word + " must be " + join(kConfidences, " | "), of);
   }
 };
 
@@ -95,10 +107,51 @@ void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* 
   result.place[node.key] = origin;
 }
 
+// [bending] and the tables in it: the keys fabric.bending.* as bare values, each table with a source of its
+// own.
+void read_lists(const Reader& reader, const TomlNode& table, const std::string& path, const TomlNode* sources,
+                Scene& scene) {
+  const Keys keys = bind_scene(scene);
+  for (const TomlNode& node : table.children) {
+    if (node.key == "source" || node.key == "confidence") continue;
+    const std::string name = path + "." + node.key, origin = place(reader.file, node);
+    if (node.kind == TomlNode::Kind::table) {
+      read_lists(reader, node, name, sources, scene);
+      continue;
+    }
+    assign(find_key(keys, "fabric." + name, origin), node.value, origin);
+    scene.fabric.provenance[name] = reader.provenance(table, sources);
+    scene.origin["fabric." + name] = origin;
+  }
+}
+
+// b1 and k0 that have the first slope and the friction moment of the stops, for laws that do not take these,
+// where the file leaves them out.
+void note_three_numbers(Fabric& fabric) {
+  const Spectrum& stops = fabric.bending.stops;
+  if (stops.empty()) return;
+  if (fabric.provenance.try_emplace("b1", Provenance{"b2 and the stops' stiffnesses", "derived"}).second)
+    fabric.b1 = fabric.b2 + stops.stiffness();
+  if (fabric.provenance.try_emplace("k0", Provenance{"2 HB/(b1 - b2) of the stops", "derived"}).second)
+    fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
+}
+
+void read_bending(const Reader& reader, const TomlNode& table, const TomlNode* sources, FabricFile& result) {
+  Scene scene;
+  scene.fabric = std::move(result.fabric);
+  read_lists(reader, table, "bending", sources, scene);
+  check_bending_parts(scene);
+  note_three_numbers(scene.fabric);
+  result.fabric = std::move(scene.fabric);
+  for (const auto& [key, place] : scene.origin)
+    result.place[key.substr(std::string("fabric.").size())] = place;
+}
+
 // What the file leaves out keeps the program's default and says so.
 void note_defaults(Fabric& fabric) {
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
+    if (key.path.starts_with("fabric.bending.")) continue;  // the fabric has none of it
     fabric.provenance.try_emplace(key.path.substr(7), Provenance{"the program's default", "assumed"});
   }
 }
@@ -108,7 +161,7 @@ void note_defaults(Fabric& fabric) {
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
   const TomlNode root = read_toml(reader.file);
-  reader.only_known(root, {"name", "description", "sources", "parameters", "published"});
+  reader.only_known(root, {"name", "description", "sources", "parameters", "bending", "published"});
   const TomlNode* sources = root.find("sources");
   const TomlNode& parameters = reader.required(root, "parameters");
 
@@ -116,7 +169,12 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   result.fabric.name = reader.text(root, "name");
   result.description = reader.text(root, "description");
   for (const TomlNode& node : parameters.children) read_parameter(reader, node, sources, result);
-  for (const std::string& name : kRequired) reader.required(parameters, name);
+  if (const TomlNode* bending = root.find("bending")) read_bending(reader, *bending, sources, result);
+  for (const std::string& name : kRequired) {
+    const bool said =
+        !result.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
+    if (!said) reader.required(parameters, name);
+  }
   if (const TomlNode* published = root.find("published")) {
     for (const TomlNode& node : published->children) {
       result.fabric.published[node.key] = reader.quantity(node, sources);

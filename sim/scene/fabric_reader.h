@@ -7,6 +7,9 @@
 //   [parameters]         the keys fabric.* of a scene, in their SI units
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
 //                        optional: stderr = 2e-7, the standard error in the same unit
+//   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
+//   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
+//   source = "kes"                     optional, as is confidence: of the whole table
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
 #pragma once
@@ -30,9 +33,9 @@ inline constexpr double kGramForceSquareCentimetrePerCentimetre = 9.80665e-5;  /
 inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        // [N]
 
 // Reads a fabric by name (assets/fabrics) or file; `origin` says who asks ("--fabric").  b1, b2, k0, density
-// and thickness must be there; other parameters keep the program's default, whose provenance says so.  Throws
-// Error::request with file and line for unknown or missing keys, wrong units, missing sources, values out of
-// range.
+// and thickness must be there, but b1 and k0 may be left to the stops; other parameters keep the program's
+// default, whose provenance says so.  Throws Error::request with file and line for unknown or missing keys,
+// wrong units, missing sources, values out of range.
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin);
 
 // All fabrics of the assets folder, by name.

@@ -21,8 +21,8 @@ template <class... Cases>
 Overload(Cases...) -> Overload<Cases...>;
 
 std::string type_name(const Field& field) {
-  static const char* const kNames[] = {"flag",   "integer", "integer",    "number",
-                                       "vector", "text",    "name=value", "text"};
+  static const char* const kNames[] = {"flag", "integer",    "integer", "number", "vector",
+                                       "text", "name=value", "text",    "numbers"};
   return kNames[field.index()];
 }
 
@@ -52,9 +52,10 @@ Error refusal(const KeyDescription& key, const std::string& value, const std::st
 Error wrong_type(const KeyDescription& key, const Value& value, const std::string& origin) {
   static const std::map<std::string, std::string> kArticle = {
       {"flag", "true or false"},   {"integer", "an integer"}, {"number", "a number"},
-      {"vector", "three numbers"}, {"text", "a text"},        {"name=value", "of the form name=value"}};
+      {"vector", "three numbers"}, {"text", "a text"},        {"name=value", "of the form name=value"},
+      {"numbers", "numbers"}};
   std::string must = kArticle.at(key.type);
-  if (key.type == "integer" || key.type == "number" || key.type == "vector") {
+  if (key.type == "integer" || key.type.starts_with("number") || key.type == "vector") {
     if (key.range.text() != "finite") must += " " + key.range.text();
     if (!key.unit.empty()) must += " [" + key.unit + "]";
   }
@@ -120,6 +121,14 @@ void assign_vector(const KeyDescription& key, Eigen::Vector3d& target, const Val
   target = {(*components)[0], (*components)[1], (*components)[2]};
 }
 
+void assign_numbers(const KeyDescription& key, Numbers& target, const Value& value,
+                    const std::string& origin) {
+  const auto* numbers = std::get_if<Numbers>(&value);
+  if (!numbers) throw wrong_type(key, value, origin);
+  for (double x : *numbers) check_number(key, x, value_text(value), origin);
+  target = *numbers;
+}
+
 // The whole text as a number; false if anything is left over.
 template <class Number>
 bool parse(std::string_view text, Number& number) {
@@ -164,7 +173,7 @@ std::string usual_text(const Field& field) {
           [](unsigned* x) { return std::to_string(*x); }, [&](double* x) { return rounded(*x); },
           [&](Eigen::Vector3d* v) { return rounded(v->x()) + " " + rounded(v->y()) + " " + rounded(v->z()); },
           [](std::string* x) { return *x; }, [](Parameters*) { return std::string(); },
-          [](const NamedValue& x) { return x.name(); }},
+          [](const NamedValue& x) { return x.name(); }, [](Numbers*) { return std::string(); }},
       field);
 }
 
@@ -209,6 +218,7 @@ void assign(const BoundKey& key, const Value& value, const std::string& origin) 
                         *target = *text;
                       },
                       [&](Parameters* target) { assign_parameter(what, *target, value, origin); },
+                      [&](Numbers* target) { assign_numbers(what, *target, value, origin); },
                       [&](const NamedValue& target) {
                         const auto* text = std::get_if<std::string>(&value);
                         if (!text) throw wrong_type(what, value, origin);
@@ -228,6 +238,8 @@ Value parse_text(const KeyDescription& key, const std::string& text) {
   if (key.type == "integer" && parse(text, integer)) return integer;
   if ((key.type == "integer" || key.type == "number") && parse(text, number)) return number;
   if (key.type == "vector" && parse_components(text).size() == 3) return parse_components(text);
+  if (key.type == "numbers" && (text == "[]" || !parse_components(text).empty()))
+    return parse_components(text);
   return text;
 }
 

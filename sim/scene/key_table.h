@@ -54,14 +54,16 @@ NamedValue named_value(E* value) {
           [](const void* of) { return static_cast<std::size_t>(*static_cast<const E*>(of)); }};
 }
 
-// What a key points to: flag, integer, count, number, vector, text, parameters by name, or an enumeration.
+// What a key points to: flag, integer, count, number, vector, text, parameters by name, an enumeration, or
+// numbers, as many as there are.
 using Parameters = std::map<std::string, std::string>;
-using Field =
-    std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*, NamedValue>;
+using Numbers = std::vector<double>;
+using Field = std::variant<bool*, int*, unsigned*, double*, Eigen::Vector3d*, std::string*, Parameters*,
+                           NamedValue, Numbers*>;
 
 struct KeyDescription {
   std::string path;                    // "fabric.b2"
-  std::string type;                    // flag | integer | number | vector | text | name=value
+  std::string type;                    // flag | integer | number | vector | text | name=value | numbers
   std::string unit;                    // "N m", "" for plain numbers and texts
   Range range;                         // of numbers
   std::vector<std::string> choices;    // of texts; empty: any text
@@ -118,8 +120,8 @@ using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<
 // Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::request for a wrong
 // type, a number outside its range or not finite, or a text that is no choice.
 void assign(const BoundKey& key, const Value& value, const std::string& origin);
-// A flag's text as the value that a file would hold: numbers in C notation, vectors as three numbers apart by
-// spaces or commas.  A text that is none of these stays text (and is refused by assign).
+// A flag's text as the value that a file would hold: numbers in C notation, vectors and lists as numbers
+// apart by spaces or commas.  A text that is none of these stays text (and is refused by assign).
 Value parse_text(const KeyDescription& key, const std::string& text);
 
 // Throws Error::request for an unknown key, naming the nearest known one.

@@ -12,6 +12,7 @@ using Json = nlohmann::ordered_json;
 using S = Scene;
 using C = ClothShape;
 using F = Fabric;
+using B = BendingParts;
 
 // clang-format off
 const KeyRow<Scene> kSceneRows[] = {
@@ -44,6 +45,14 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.shear", at<&S::fabric, &F::shear>, "N/m", at_least(0), "", "in-plane shear stiffness"},
     {"fabric.damping", at<&S::fabric, &F::damping>, "s", at_least(0), "", "viscosity over stiffness, of the membrane and of bending (b1)"},
     {"fabric.friction", at<&S::fabric, &F::friction>, "", at_least(0), "", "Coulomb coefficient against obstacles and itself"},
+    {"fabric.bending.stops.thresholds", at<&S::fabric, &F::bending, &B::stops, &Spectrum::thresholds>, "1/m", positive(), "", "prandtl, chapman: curvatures at which friction elements slip, ascending; none: b1, b2 and k0 say how"},
+    {"fabric.bending.stops.stiffnesses", at<&S::fabric, &F::bending, &B::stops, &Spectrum::stiffnesses>, "N m", positive(), "", "of these elements, beside fabric.b2"},
+    {"fabric.bending.stops.weft.thresholds", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::thresholds>, "1/m", positive(), "", "the same for bends along weft; none: as fabric.weft-bending has it"},
+    {"fabric.bending.stops.weft.stiffnesses", at<&S::fabric, &F::bending, &B::weft_stops, &Spectrum::stiffnesses>, "N m", positive(), "", "the same for bends along weft"},
+    {"fabric.bending.branches.times", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::times>, "s", positive(), "", "chapman: times in which viscoelastic branches relax, ascending"},
+    {"fabric.bending.branches.stiffnesses", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::stiffnesses>, "N m", positive(), "", "of these branches, beside fabric.b2"},
+    {"fabric.bending.set.yield", at<&S::fabric, &F::bending, &B::set, &PermanentSet::yield>, "1/m", at_least(0), "", "prandtl, chapman: curvature over fabric.b2 times which a moment leaves permanent set"},
+    {"fabric.bending.set.hardening", at<&S::fabric, &F::bending, &B::set, &PermanentSet::hardening>, "N m", at_least(0), "", "by which that moment rises with the set; 0: no set"},
     {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name; the table [param] of a file"},
     {"element", at<&S::element>, "", any(), "", "bending element"},

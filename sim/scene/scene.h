@@ -51,11 +51,12 @@ struct Fabric {
   double shear = 60;
   double damping = 1e-4;
   double friction = 0.3;
+  BendingParts bending = {};
 
-  std::map<std::string, Provenance> provenance;      // of each parameter above, by its name
+  std::map<std::string, Provenance> provenance;      // of each parameter above that it has, by its key
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
-  VirginCurve virgin_curve() const { return {b1, b2, k0}; }  // along warp
+  VirginCurve virgin_curve() const;  // along warp; stops along weft as laws see them behind the metric
   bool bends_alike() const { return weft_bending == 1 && bias_bending == 1; }
 };
 

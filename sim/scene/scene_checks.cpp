@@ -32,6 +32,7 @@ void check_fabric(const Scene& scene) {
     throw Error::request(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
                          number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)");
   }
+  check_bending_parts(scene);
 }
 
 bool is_obj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }

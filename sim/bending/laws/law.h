@@ -11,6 +11,7 @@
 
 #include <concepts>
 
+#include "sim/bending/laws/bending_parts.h"
 #include "sim/device/host_device.h"
 
 namespace hysteron {
@@ -102,11 +103,13 @@ concept WeakeningLaw = requires(const Law& law, const HistoryOf<Law>& h) {
   { Law::set_of(h) } -> std::convertible_to<CurvatureOf<Law>>;
 };
 
-// The three numbers that define a fabric's bending (model: M = b1 K + c1 K^2 up to K0, then M0 + b2 K).
+// The three numbers that define a fabric's bending (model: M = b1 K + c1 K^2 up to K0, then M0 + b2 K), and
+// what it has beyond them, which the laws that know of it take in their place.
 struct VirginCurve {
   double b1;  // initial bending rigidity [N m], b1 >= b2
   double b2;  // bending rigidity B of the straight branch [N m]
   double k0;  // elastic limit, the curvature at which friction saturates [1/m]
+  BendingParts parts = {};
 
   double friction_moment() const { return (b1 - b2) * k0 / 2; }                // M0 = HB [N]
   double elastic_limit_moment() const { return friction_moment() + b2 * k0; }  // Ma [N]

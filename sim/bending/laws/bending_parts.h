@@ -1,0 +1,83 @@
+// What a fabric's bending has beyond b1, b2 and k0: friction elements with thresholds of their own, branches
+// that relax in time, permanent set.  All of them empty where a fabric's file says nothing of them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace hysteron {
+
+// Friction elements beside the elasticity b2: springs p_j [N m] that slip at curvatures r_j [1/m]
+// (Prandtl-Ishlinskii with free thresholds; Ngo Ngoc & Boivin 2004).  For K from virgin cloth
+//   M = b2 K + sum_j p_j clip(K, r_j),
+// and a branch after a reversal is that curve doubled (Masing 1926).
+struct Spectrum {
+  std::vector<double> thresholds;   // r_j, ascending [1/m]
+  std::vector<double> stiffnesses;  // p_j [N m]
+
+  bool empty() const { return thresholds.empty() && stiffnesses.empty(); }
+  std::size_t size() const { return thresholds.size(); }
+
+  // sum_j p_j: first slope over the last [N m].
+  double stiffness() const {
+    return sum([](double) { return 1.0; });
+  }
+  // HB = sum_j p_j r_j: half the width of a loop in its middle, beyond all thresholds [N].
+  double friction_moment() const {
+    return sum([](double r) { return r; });
+  }
+  // Friction on the virgin curve at this curvature >= 0 [N].
+  double friction_at(double curvature) const {
+    return sum([&](double r) { return std::min(curvature, r); });
+  }
+  // 2HB of the closed loop between +-amplitude, read at this curvature [N].
+  double loop_width(double amplitude, double curvature) const {
+    return sum([&](double r) {
+      const auto since = [&](double turn) { return std::min(std::abs(curvature - turn), 2 * r); };
+      return since(-amplitude) + since(amplitude) - 2 * std::min(amplitude, r);
+    });
+  }
+  // What that loop encloses, 4 sum_j p_j r_j (A - r_j)+ [J/m^2].
+  double loop_area(double amplitude) const {
+    return 4 * sum([&](double r) { return r * std::max(0.0, amplitude - r); });
+  }
+
+ private:
+  template <class Of>
+  double sum(const Of& of_threshold) const {
+    double total = 0;
+    for (std::size_t j = 0; j < size(); ++j) total += stiffnesses[j] * of_threshold(thresholds[j]);
+    return total;
+  }
+};
+
+// Springs c_i in series with dashpots, beside elasticity and friction: dm_i/dt = c_i dK/dt - m_i/tau_i.
+struct RelaxingBranches {
+  std::vector<double> times;        // tau_i, ascending [s]
+  std::vector<double> stiffnesses;  // c_i [N m]
+
+  bool empty() const { return times.empty() && stiffnesses.empty(); }
+  std::size_t size() const { return times.size(); }
+};
+
+// A rest curvature K_p that grows where the moment passes b2 yield + hardening K_p; none without hardening.
+struct PermanentSet {
+  double yield = 0;      // K_y [1/m]
+  double hardening = 0;  // h [N m]
+
+  bool on() const { return hardening > 0; }
+};
+
+struct BendingParts {
+  Spectrum stops;             // along warp
+  Spectrum weft_stops;        // along weft, as many as along warp; none: as the rigidities have it
+  RelaxingBranches branches;  // `chapman` alone
+  PermanentSet set;
+};
+
+// Most of them that a law takes.
+inline constexpr int kMostStops = 32, kMostBranches = 4;
+
+}  // namespace hysteron

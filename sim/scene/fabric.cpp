@@ -1,0 +1,69 @@
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/scene/scene_reader.h"
+#include "sim/scene/shown_key.h"
+
+namespace hysteron {
+namespace {
+
+// Lists of one table: as many of the one as of the other, the first ascending.
+struct PairedLists {
+  const char* table;  // of the fabric
+  const char* first_name;
+  const char* second_name;
+  const std::vector<double>& first;
+  const std::vector<double>& second;
+  std::size_t most;
+};
+
+void check_pairs(const Scene& scene, const PairedLists& lists) {
+  const std::string table = std::string("fabric.") + lists.table + ".";
+  const std::string key = table + lists.first_name;
+  const std::string of = lists.first.empty() && !scene.origin.contains(key) ? table + lists.second_name : key;
+  const auto refuse = [&](const std::string& what) {
+    throw Error::request(key + " " + what + " (" + origin_of(scene, of) + ")").of(key, "");
+  };
+  if (lists.first.size() != lists.second.size())
+    refuse("has " + std::to_string(lists.first.size()) + " numbers and must have as many as " + table +
+           lists.second_name + ", " + std::to_string(lists.second.size()));
+  if (lists.first.size() > lists.most)
+    refuse("has " + std::to_string(lists.first.size()) + " numbers and must have at most " +
+           std::to_string(lists.most));
+  for (std::size_t i = 1; i < lists.first.size(); ++i)
+    if (!(lists.first[i] > lists.first[i - 1]))
+      refuse("must be ascending: " + number_text(lists.first[i]) + " follows " +
+             number_text(lists.first[i - 1]));
+}
+
+}  // namespace
+
+VirginCurve Fabric::virgin_curve() const {
+  VirginCurve curve{b1, b2, k0, bending};
+  // The metric (curvature_operator.h) has multiplied the curvatures that laws see by its root.
+  for (double& r : curve.parts.weft_stops.thresholds) r *= std::sqrt(weft_bending);
+  for (double& p : curve.parts.weft_stops.stiffnesses) p /= weft_bending;
+  return curve;
+}
+
+void check_bending_parts(const Scene& scene) {
+  const BendingParts& b = scene.fabric.bending;
+  const auto stops = [&](const char* table, const Spectrum& of) {
+    check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
+  };
+  stops("bending.stops", b.stops);
+  stops("bending.stops.weft", b.weft_stops);
+  const std::string weft = "fabric.bending.stops.weft.thresholds";
+  if (!b.weft_stops.empty() && b.weft_stops.size() != b.stops.size())
+    throw Error::request(weft + " has " + std::to_string(b.weft_stops.size()) +
+                         " numbers and must have as many as fabric.bending.stops.thresholds, " +
+                         std::to_string(b.stops.size()) + " (" + origin_of(scene, weft) + ")");
+  check_pairs(scene, {"bending.branches", "times", "stiffnesses", b.branches.times, b.branches.stiffnesses,
+                      kMostBranches});
+  if (b.set.on() != (b.set.yield > 0))
+    throw Error::request(shown(scene, "fabric.bending.set.yield", b.set.yield, "1/m") + " and " +
+                         shown(scene, "fabric.bending.set.hardening", b.set.hardening, "N m") +
+                         " must both be > 0, or both 0: no set");
+}
+
+}  // namespace hysteron
