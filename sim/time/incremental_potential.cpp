@@ -74,7 +74,7 @@ PotentialValue IncrementalPotential<Real, Device>::evaluate(const Vec3<Real>* x,
   compute_gradient(x);
   if (contact_) {
     contact_->evaluate(x, start_.now, gradient_.data());
-    add_energies(contact_->energies(), vertices_);
+    add_energies(contact_->energies(), contact_->energies_count());
   }
   if (self_contact_) {
     self_contact_->evaluate(x, start_.now, gradient_.data());
@@ -188,7 +188,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
         if (grips.any_at(i)) matrix.diagonal[i] += grips.stiffness(i, x[i], sliding_share);
         rest[i].setZero();
       });
-  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, sliding_share);
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix, sliding_share);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
     self_contact_->linearise(x, start_.now, sliding_share);
