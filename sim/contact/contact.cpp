@@ -35,11 +35,14 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       stored_(device, vertices_),
       loss_(device, vertices_),
       work_(device, vertices_),
-      energy_(device, vertices_),
+      energy_(device, 0),
       inside_(device, 1),
       force_(device, scene.integrator == Integrator::quasi_static ? vertices_ : 0),
       share_(device),
-      scratch_(device) {}
+      scratch_(device) {
+  if (is_sharper_than_mesh(scene, mesh)) faces_.emplace(device, mesh, scene, model_);
+  energy_ = Buffer<double, Device>(device, vertices_ + (faces_ ? faces_->faces() : 0));
+}
 
 template <class Real, class Device>
 void Contact<Real, Device>::move(double start, double end) {
@@ -60,11 +63,13 @@ void Contact<Real, Device>::visit(Archive& archive) {
   hysteron::visit(archive, device_, loss_);
   hysteron::visit(archive, device_, work_);
   hysteron::visit(archive, device_, force_);
+  if (faces_) faces_->visit(archive);
 }
 
 template <class Real, class Device>
 void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
-                                Mat3<Real>* diagonal) {
+                                const BlockRowsView<Real>* matrix) {
+  Mat3<Real>* diagonal = matrix ? matrix->diagonal : nullptr;
   const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
@@ -81,6 +86,7 @@ void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, R
         diagonal[i] += step * step *
                        (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
       });
+  if (faces_) faces_->add(set, x, before, step, rhs, matrix);
 }
 
 template <class Real, class Device>
@@ -122,7 +128,7 @@ int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before,
         slipped[i] = stretched;
       },
       HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
-  return static_cast<int>(inside_.download()[0]);
+  return static_cast<int>(inside_.download()[0]) + (faces_ ? faces_->commit(set, x, before, held) : 0);
 }
 
 template <class Real, class Device>
@@ -135,6 +141,7 @@ double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
   for_each(
       device_, "contact energy", vertices_,
       HYST_KERNEL(int i) { energy[i] = touch(set, model, x[i], area[i]).energy + stored[i]; });
+  if (faces_) faces_->store_energies(set, x, energy + vertices_);
   const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -142,14 +149,21 @@ double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
 template <class Real, class Device>
 ContactLoss Contact<Real, Device>::losses() const {
   const std::vector<double> loss = loss_.download(), work = work_.download();
-  return {std::accumulate(loss.begin(), loss.end(), 0.0), std::accumulate(work.begin(), work.end(), 0.0)};
+  ContactLoss lost{std::accumulate(loss.begin(), loss.end(), 0.0),
+                   std::accumulate(work.begin(), work.end(), 0.0)};
+  if (faces_) {
+    const ContactLoss between = faces_->losses();
+    lost.friction += between.friction;
+    lost.obstacle_work += between.obstacle_work;
+  }
+  return lost;
 }
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
   return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
          loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() +
-         force_.bytes() + share_.bytes() + scratch_.bytes();
+         force_.bytes() + share_.bytes() + scratch_.bytes() + (faces_ ? faces_->bytes() : 0);
 }
 
 template class Contact<double, ThisDevice>;

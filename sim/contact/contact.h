@@ -6,9 +6,15 @@
 // pushes them out; a state of equilibrium is not, unless it is crushed.  Friction is a Prandtl stop in the
 // tangent plane: an elastic slip of up to 1 % of the thickness, limited to mu f_n by radial return.  It holds
 // a resting cloth for good, where a velocity-smoothed friction would let it creep.
+//
+// Obstacles that are sharper than the mesh are felt by the triangles between the vertices, too
+// (face_contact.h).
 #pragma once
 
-#include "sim/contact/compression.h"
+#include <optional>
+
+#include "sim/contact/contact_model.h"
+#include "sim/contact/face_contact.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/device/algorithms.h"
 #include "sim/device/archive_buffer.h"
@@ -25,24 +31,6 @@ struct LaggedFriction {
   Real limit;        // mu f_n [N]; 0: no contact
 };
 
-template <class Real>
-struct ContactModel {
-  ObstacleShell<Real> shell;
-  Real slip;        // elastic slip of friction [m]
-  Real tangential;  // most of its stiffness [N/m^3]
-
-  // Stiffness of friction's stop [N/m].
-  HYST_HD Real stop_stiffness(Real limit, Real area) const {
-    const Real most = tangential * area;
-    return limit < most * slip ? limit / slip : most;
-  }
-};
-
-struct ContactLoss {
-  double friction = 0;       // dissipated [J]
-  double obstacle_work = 0;  // done on the cloth by moving obstacles [J]
-};
-
 template <class Real, class Device>
 class Contact {
  public:
@@ -50,21 +38,23 @@ class Contact {
 
   // Places the obstacles for the step from `start` to `end` [s].
   void move(double start, double end);
-  // Adds step * force to rhs and step^2 * stiffness to the diagonal blocks, unless these are null.
+  // Adds step * force to rhs and step^2 * stiffness to the matrix, unless that is null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
-           Mat3<Real>* diagonal);
+           const BlockRowsView<Real>* matrix);
   // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
-  // its energies() per vertex.  add_stiffness() is its positive semidefinite part (sliding_share:
+  // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part (sliding_share:
   // sliding_stop.h).
   void lag(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // [J]
-  void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, Mat3<Real>* diagonal,
+  int energies_count() const { return static_cast<int>(energy_.size()); }
+  void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, BlockRowsView<Real> matrix,
                      Real sliding_share);
+  bool has_faces() const { return faces_.has_value(); }
 
-  // Free vertices do not pass through a solid that has another side, nor it through them
-  // (contact_sweep.cpp).  keep_out() ends each path of a step from `start` to `end` where it meets an
+  // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that has
+  // another side, nor it through them (contact_sweep.cpp, face_sweep.cpp).  keep_out() ends each path of a step from `start` to `end` where it meets an
   // obstacle that bars it, reaches() says whether none is barred, and feasible_step() how long a step along
   // `direction` from x may be, up to `max_step`.
   void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
@@ -72,7 +62,7 @@ class Contact {
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
 
   // Accepts the positions: slips, losses and the obstacles' work, which in quasi-static scenes is that of the
-  // mean of the forces before and after.  Returns how many vertices are in a solid.
+  // mean of the forces before and after.  Returns how many vertices and triangles are in a solid.
   int commit(const Vec3<Real>* position, const Vec3<Real>* before, const char* held);
   // Vertices that may be there while they are held: they were when they or the obstacle came.
   void spare(const std::vector<char>& vertices) { spared_.upload(vertices); }
@@ -101,6 +91,7 @@ class Contact {
   Buffer<double, Device> loss_, work_, energy_, inside_;
   Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
+  std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
   GrowingBuffer<Real, Device> share_;            // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;
 };

@@ -30,6 +30,7 @@ void Contact<Real, Device>::lag(const Vec3<Real>* x) {
         lagged[i] = {t.normal, -t.obstacle_motion, t.friction * t.strongest};
         if (touching[i] == t.index + 1) lagged[i].start += slipped[i];
       });
+  if (faces_) faces_->lag(set, x);
 }
 
 template <class Real, class Device>
@@ -52,15 +53,17 @@ void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* befo
         energy[i] += static_cast<double>(k * (slides ? limit * (length - limit / 2) : length * length / 2));
         gradient[i] += (slides ? k * limit / length : k) * e;
       });
+  if (faces_) faces_->evaluate(set, x, before, Real(-1), gradient, energy + vertices_);
 }
 
 template <class Real, class Device>
-void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before, Mat3<Real>* diagonal,
-                                          Real sliding_share) {
+void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
+                                          BlockRowsView<Real> matrix, Real sliding_share) {
   const ContactModel<Real> model = model_;
   const ObstacleSet<Real> set = set_;
   const Real* area = area_.data();
   const LaggedFriction<Real>* lagged = lagged_.data();
+  Mat3<Real>* diagonal = matrix.diagonal;
   for_each(
       device_, "contact stiffness", vertices_, HYST_KERNEL(int i) {
         diagonal[i] += touch(set, model, x[i], area[i]).normal_stiffness;
@@ -69,6 +72,7 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
         const Real k = model.stop_stiffness(lagged[i].limit, area[i]);
         diagonal[i] += sliding_stiffness<Real>(e, lagged[i].normal, k, lagged[i].limit / k, sliding_share);
       });
+  if (faces_) faces_->add_stiffness(set, x, before, Real(1), matrix, sliding_share);
 }
 
 template class Contact<double, ThisDevice>;

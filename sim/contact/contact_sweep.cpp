@@ -14,6 +14,7 @@ void Contact<Real, Device>::keep_out(const Vec3<Real>* start, Vec3<Real>* end, c
       device_, "contact: guess", vertices_, HYST_KERNEL(int i) {
         if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest);
       });
+  if (faces_) faces_->keep_out(set, start, end, held, rest);
 }
 
 template <class Real, class Device>
@@ -25,7 +26,8 @@ bool Contact<Real, Device>::reaches(const Vec3<Real>* start, const Vec3<Real>* e
       device_, "contact: reached", vertices_, HYST_KERNEL(int i) {
         share[i] = held[i] || hysteron::reaches(set, start[i], end[i]) ? Real(1) : Real(0);
       });
-  return smallest(device_, scratch_, share, vertices_, Real(1)) > 0;
+  if (!(smallest(device_, scratch_, share, vertices_, Real(1)) > 0)) return false;
+  return !faces_ || faces_->reaches(set, start, end, held);
 }
 
 // Where all go the same share of their way, as along a direction of Newton's method.
@@ -47,7 +49,8 @@ double Contact<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real
           share[i] = free < share[i] ? free : share[i];
         }
       });
-  return max_step * static_cast<double>(smallest(device_, scratch_, share, vertices_, Real(1)));
+  const double free = max_step * static_cast<double>(smallest(device_, scratch_, share, vertices_, Real(1)));
+  return faces_ ? faces_->feasible_step(set, x, direction, held, free) : free;
 }
 
 template class Contact<double, ThisDevice>;

@@ -1,12 +1,40 @@
 #include "sim/contact/obstacle_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "sim/base/enum_names.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron {
+
+namespace {
+
+double radius_at_rest(const Obstacle& o) {
+  switch (o.kind) {
+    case ObstacleKind::box:
+      return o.rim;
+    case ObstacleKind::cylinder:
+      return std::min(o.radius, o.rim);
+    case ObstacleKind::sphere:
+    case ObstacleKind::capsule:
+      return o.radius;
+    case ObstacleKind::ground:
+    case ObstacleKind::hollow:
+    case ObstacleKind::torus:
+      break;
+  }
+  return INFINITY;
+}
+
+}  // namespace
+
+double sharpest_radius(const Obstacle& o) {
+  double scale = 1;
+  for (const Keyframe& key : o.motion.keys) scale = std::min(scale, key.scale);
+  return scale * radius_at_rest(o);
+}
 
 template <class Real>
 ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, double fabric_friction,
@@ -32,6 +60,7 @@ ObstacleSet<Real> obstacles_during(const std::vector<Obstacle>& obstacles, doubl
     item.friction = static_cast<Real>(o.friction < 0 ? fabric_friction : o.friction);
     item.index = static_cast<int>(i);
     item.thinnest = static_cast<Real>(now.scale * form_of(o).half_thickness);
+    item.sharpest = static_cast<Real>(sharpest_radius(o));
   }
   return set;
 }

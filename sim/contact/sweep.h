@@ -23,26 +23,36 @@ HYST_HD Vec3<Real> carried(const Obstacle3<Real>& obstacle, const Vec3<Real>& x)
   return obstacle.back_rotation.transpose() * (x - obstacle.back_translation) / scale2;
 }
 
-// Share of `way` from `from`, at `distance` from the surface, before a point is `depth` below it.
-template <class Real>
-HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way,
-                         Real distance, Real depth) {
-  const Real length = way.norm(), first = distance + depth;
+// Share of a path of this length on which what moves along it, at `distance` from the surface at first, stays
+// above `depth` below it; distance_at(share) from there on.
+template <class Real, class DistanceAt>
+HYST_HD Real share_above(Real length, Real distance, Real depth, Real thinnest,
+                         const DistanceAt& distance_at) {
+  const Real first = distance + depth;
   if (!(length > first)) return 1;
   if (!(first > 0)) return 0;
-  const Real near = static_cast<Real>(kTouching) * (first < obstacle.thinnest ? first : obstacle.thinnest);
+  const Real near = static_cast<Real>(kTouching) * (first < thinnest ? first : thinnest);
   Real gone = 0, free = first;
   for (int k = 0; k < kMostAdvances; ++k) {
     const Real safe = static_cast<Real>(1 - kTouching) * free, next = gone + (safe > near ? safe : near);
     const bool at_end = !(next < length);
     const Real reached = at_end ? length : next;
-    free = distance_to<Real>(obstacle, from + reached / length * way).value + depth;
+    free = distance_at(reached / length) + depth;
     if (!(free > 0)) break;
     if (at_end) return 1;
     gone = reached;
     if (free < near) break;
   }
   return gone / length;
+}
+
+// Of a point that starts at `from` and goes `way`.
+template <class Real>
+HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way,
+                         Real distance, Real depth) {
+  return share_above<Real>(way.norm(), distance, depth, obstacle.thinnest, [&](Real share) {
+    return distance_to<Real>(obstacle, from + share * way).value;
+  });
 }
 
 // Share of `way` from `from` on which a point does not go through the obstacle.  One that is past the middle

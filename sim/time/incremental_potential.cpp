@@ -91,7 +91,7 @@ PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, 
   if (contact_) {
     contact_->evaluate(x, start_.now, gradient_.data());
     energies.list[0] = contact_->energies();
-    energies.count[0] = vertices_;
+    energies.count[0] = contact_->energies_count();
   }
   if (self_contact_) {
     self_contact_->evaluate(x, start_.now, gradient_.data());
@@ -221,7 +221,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
         rest[i].setZero();
         descent[i] = -gradient[i];
       });
-  if (contact_) contact_->add_stiffness(x, start_.now, matrix.diagonal, sliding_share);
+  if (contact_) contact_->add_stiffness(x, start_.now, matrix, sliding_share);
   if (!bending_lags_) bending_.add_stiffness_diagonal(rest);
   if (self_contact_) {
     self_contact_->linearise(x, start_.now, sliding_share);

@@ -194,7 +194,7 @@ void LinearisedSolve<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, 
   body_.clock.end(Stage::membrane);
   if (!body_.contact) return;
   body_.clock.begin(Stage::contact);
-  body_.contact->add(body_.x.data(), body_.before.data(), h, rhs, matrix.diagonal);
+  body_.contact->add(body_.x.data(), body_.before.data(), h, rhs, &matrix);
   body_.clock.end(Stage::contact);
 }
 

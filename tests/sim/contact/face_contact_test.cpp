@@ -1,0 +1,236 @@
+// Obstacles that are sharper than the mesh: what stands between the vertices does not enter triangles.
+#include "sim/contact/face_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sim/base/enum_names.h"
+#include "sim/contact/face_touch.h"
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector3d;
+using test::Trial;
+
+constexpr double kSide = 0.1;           // of the cloth [m]
+constexpr double kClosed = 1e-9;        // of the energy balance
+constexpr double kGravity = 9.81;
+constexpr int kDivisions = 20;          // of a triangle's edges: 231 points
+
+using Triangle = Vector3d[3];
+
+// Calls visit(point) on a grid of the triangle.
+template <class Visit>
+void on_grid(const Vector3d (&x)[3], const Visit& visit) {
+  for (int i = 0; i <= kDivisions; ++i)
+    for (int j = 0; j <= kDivisions - i; ++j) {
+      const double a = double(i) / kDivisions, b = double(j) / kDivisions;
+      visit(Vector3d(a * x[0] + b * x[1] + (1 - a - b) * x[2]));
+    }
+}
+
+double least_distance(const Obstacle3<double>& obstacle, const Vector3d (&x)[3]) {
+  double least = 1e30;
+  on_grid(x, [&](const Vector3d& p) { least = std::min(least, distance_to<double>(obstacle, p).value); });
+  return least;
+}
+
+// Of all triangles of a simulation from all its obstacles [m].
+double least_distance(const Trial& trial, Simulation& simulation) {
+  const auto set =
+      obstacles_during<double>(trial.scene.obstacle, 0.3, simulation.time(), simulation.time());
+  const auto position = simulation.positions();
+  double least = 1e30;
+  for (const auto& face : trial.cloth.mesh.face) {
+    const Triangle x = {position[face[0]], position[face[1]], position[face[2]]};
+    for (int o = 0; o < set.count; ++o) least = std::min(least, least_distance(set.item[o], x));
+  }
+  return least;
+}
+
+Obstacle box(const Vector3d& half, const Vector3d& center, double rim = 1e-4) {
+  Obstacle o;
+  o.kind = ObstacleKind::box;
+  o.size = half;
+  o.rim = rim;
+  o.center = center;
+  return o;
+}
+
+Obstacle rod(double radius, const Vector3d& center) {
+  Obstacle o;
+  o.kind = ObstacleKind::capsule;
+  o.radius = radius;
+  o.height = 0.3;
+  o.axis = {0, 1, 0};
+  o.center = center;
+  return o;
+}
+
+Obstacle3<double> placed(const Obstacle& o) { return obstacles_during<double>({o}, 0.3, 0, 0).item[0]; }
+
+ContactModel<double> model_of(const Scene& scene) {
+  const ObstacleShell<double> shell = obstacle_shell(scene);
+  return {shell, kElasticSlip * shell.thickness, 0.5 * shell.stiffest()};
+}
+
+// What is convex, with edges, corners and rounded sides.
+std::vector<Obstacle> convex_obstacles() {
+  Obstacle cylinder = rod(0.01, {0, 0, 0});
+  cylinder.kind = ObstacleKind::cylinder;
+  cylinder.height = 0.02;
+  Obstacle ball = rod(0.004, {0, 0, 0});
+  ball.kind = ObstacleKind::sphere;
+  return {box({0.01, 0.02, 0.01}, {0, 0, 0}), box({0.01, 0.02, 0.01}, {0, 0, 0}, 2e-3),
+          rod(1e-3, {0, 0, 0}), cylinder, ball};
+}
+
+void random_triangle(std::mt19937& generator, double size, Vector3d (&x)[3]) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  for (Vector3d& p : x) p = {uniform(generator), uniform(generator), uniform(generator)};
+}
+
+// Moves a triangle along the obstacle's normal until its least distance is `distance` (outside).
+void put_at(const Obstacle3<double>& obstacle, double distance, Vector3d (&x)[3]) {
+  for (int k = 0; k < 50; ++k) {
+    const Triangle p = {obstacle.rotation.transpose() * (x[0] - obstacle.center),
+                        obstacle.rotation.transpose() * (x[1] - obstacle.center),
+                        obstacle.rotation.transpose() * (x[2] - obstacle.center)};
+    const FacePoint<double> nearest = face_point<double>(obstacle.shape, p, 5e-5);
+    for (Vector3d& corner : x)
+      corner += (distance - nearest.distance) * (obstacle.rotation * nearest.normal).normalized();
+  }
+}
+
+TEST(FacePoint, IsTheNearestPointOfATriangleToAConvexSolid) {
+  constexpr double kSpacing = 0.03 * 2 / kDivisions;  // of the points that it is compared with [m]
+  std::mt19937 generator(5);
+  for (const Obstacle& o : convex_obstacles()) {
+    const Obstacle3<double> obstacle = placed(o);
+    for (int n = 0; n < 50; ++n) {
+      Triangle x, p;
+      random_triangle(generator, 0.03, x);
+      for (int k = 0; k < 3; ++k) p[k] = obstacle.rotation.transpose() * x[k];
+      const double found = face_point<double>(obstacle.shape, p, 0).distance,
+                   sampled = least_distance(obstacle, x);
+      EXPECT_LT(found, sampled + 1e-12) << name_of(o.kind);
+      EXPECT_GT(found, sampled - kSpacing) << name_of(o.kind);
+      EXPECT_LT(least_possible(obstacle.shape, p), found + 1e-12) << name_of(o.kind);
+    }
+  }
+}
+
+// The nearest point of anything on a flat side is a corner.
+TEST(FaceTouch, LeavesFlatContactToTheVertices) {
+  const Scene scene;
+  const ContactModel<double> model = model_of(scene);
+  const Obstacle3<double> table = placed(box({0.1, 0.1, 0.1}, {0, 0, -0.1}));
+  std::mt19937 generator(7);
+  for (int n = 0; n < 100; ++n) {
+    Triangle x;
+    random_triangle(generator, 0.02, x);
+    for (Vector3d& p : x) p.z() = scene.fabric.thickness * (0.5 + p.z() / 0.05);
+    EXPECT_FALSE(face_touch(table, model, x, 1e-4).bears());
+    EXPECT_EQ(face_touch(table, model, x, 1e-4).energy, 0);
+  }
+}
+
+// Central differences of the energy: the error falls with the square of their width, or is rounding.
+TEST(FaceTouch, ForceIsTheGradientOfItsEnergy) {
+  const Scene scene;
+  const ContactModel<double> model = model_of(scene);
+  const double thickness = scene.fabric.thickness, area = 5e-5;
+  std::mt19937 generator(11);
+  int bearing = 0, with_corners = 0;
+  for (const Obstacle& o : convex_obstacles()) {
+    const Obstacle3<double> obstacle = placed(o);
+    for (int n = 0; n < 60; ++n) {
+      Triangle x, d;
+      random_triangle(generator, n % 2 ? 0.01 : 0.0015, x);
+      random_triangle(generator, 1, d);
+      put_at(obstacle, 0.3 * thickness, x);
+      const FaceTouch<double> touch = face_touch(obstacle, model, x, area);
+      if (!touch.bears()) continue;
+      ++bearing;
+      with_corners += touch.pull[0].norm() + touch.pull[1].norm() + touch.pull[2].norm() > 0;
+      double slope = 0;
+      for (int k = 0; k < 3; ++k) slope -= touch.on_corner(k).dot(d[k]);
+      EXPECT_NE(slope, 0);
+      const auto error_of = [&](double width) {
+        Triangle ahead, behind;
+        for (int k = 0; k < 3; ++k) {
+          ahead[k] = x[k] + width * d[k];
+          behind[k] = x[k] - width * d[k];
+        }
+        return std::abs((face_touch(obstacle, model, ahead, area).energy -
+                         face_touch(obstacle, model, behind, area).energy) /
+                            (2 * width) -
+                        slope);
+      };
+      const double coarse = error_of(4e-7), fine = error_of(1e-7), rounding = 1e-5 * touch.force;
+      EXPECT_LT(fine, coarse / 10 + rounding) << name_of(o.kind) << " " << n;
+    }
+  }
+  EXPECT_GT(bearing, 100);
+  EXPECT_GT(with_corners, 10);
+}
+
+// Off corners in the shell and along the normal of a side that is straight there, nothing else curves it.
+TEST(FaceTouch, StiffnessIsTheSecondDerivativeAlongTheNormal) {
+  const Scene scene;
+  const ContactModel<double> model = model_of(scene);
+  const Obstacle3<double> thin = placed(rod(1e-3, {0, 0, 0}));
+  const double height = 1e-3 + 0.4 * scene.fabric.thickness, width = 1e-7, area = 5e-5;
+  const auto at = [&](double z) {
+    const Triangle x = {{-0.01, -0.004, z}, {0.01, -0.004, z}, {0.001, 0.009, z}};
+    return face_touch(thin, model, x, area);
+  };
+  const double difference = -(at(height + width).force - at(height - width).force) / (2 * width);
+  EXPECT_GT(difference, 0);
+  EXPECT_NEAR(at(height).stiffness / difference, 1, 1e-6);
+}
+
+Scene sheet(int triangles, const std::string& integrator = "implicit") {
+  Scene scene = test::free_square(triangles);
+  scene.cloth.length = kSide;
+  scene.cloth.position = {-kSide / 2, -kSide / 2, scene.fabric.thickness};
+  scene.law = "prandtl";
+  scene.integrator = value_named<Integrator>(integrator);
+  scene.solver_tolerance = 1e-6;
+  scene.step = 1.0 / 120;
+  return scene;
+}
+
+struct Sharp {
+  const char* name;
+  Obstacle obstacle;
+};
+
+std::vector<Sharp> sharp_obstacles() {
+  return {{"wall of 2 cm", box({0.01, 0.1, 0.05}, {0, 0, -0.05})},
+          {"column of 4 cm", box({0.02, 0.02, 0.05}, {0, 0, -0.05})},
+          {"rod of 1 mm", rod(1e-3, {0, 0, -1e-3})}};
+}
+
+TEST(FaceContact, SheetLetDownOnEdgesCornersAndRodsIsNeverInThem) {
+  for (const Sharp& of : sharp_obstacles()) {
+    Scene scene = sheet(200);
+    scene.obstacle = {of.obstacle};
+    const Trial trial(scene);
+    const auto simulation = trial.simulation();
+    for (int k = 0; k < 6; ++k) {
+      simulation->advance(10);
+      EXPECT_GT(least_distance(trial, *simulation), 0) << of.name;
+    }
+    EXPECT_EQ(simulation->deep_steps(), 0) << of.name;
+    EXPECT_EQ(simulation->unbalanced_steps(), 0) << of.name;
+    EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << of.name;
+    std::printf("%s: least distance %.3f mm, newton %ld\n", of.name, 1e3 * least_distance(trial, *simulation), (long)simulation->newton_iterations());
+  }
+}
+
+}  // namespace
+}  // namespace hysteron
