@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
@@ -17,6 +18,7 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/base/comma_list.h"
+#include "sim/base/parallel.h"
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/time/simulation.h"
@@ -37,16 +39,17 @@ struct BenchOptions {
   bool laws = false;
   double elements = 1e6;
   bool hard = false;
-  std::string hard_scenes = "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press";
-  int hard_steps = 20, hard_triangles = 800;
+  std::string hard_scenes =
+      "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press,fold,crease,drape";
+  int hard_steps = 20, hard_triangles = 300;
   bool profile = false;
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
     {"laws", at<&BenchOptions::laws>, "", any(), "", "the laws alone: error on random histories, time and memory per element"},
     {"elements", at<&BenchOptions::elements>, "", between(1, 1e8), "", "of --laws"},
-    {"hard", at<&BenchOptions::hard>, "", any(), "", "scenes to their end; then their hardest steps again with other choices of the solver's, of which table.csv tells"},
-    {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes or TOML files, separated by commas"},
+    {"hard", at<&BenchOptions::hard>, "", any(), "", "scenes to their end, as many at a time as --threads says (0: all cores); then their hardest steps again with other choices of the solver's, of which table.csv tells"},
+    {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes, TOML files, or the specimens fold, crease and drape, separated by commas"},
     {"hard-steps", at<&BenchOptions::hard_steps>, "", between(1, 1000), "", "of --hard: how many steps of each scene"},
     {"hard-triangles", at<&BenchOptions::hard_triangles>, "", between(1, 1e6), "", "of --hard"},
     {"profile", at<&BenchOptions::profile>, "", any(), "", "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
@@ -181,29 +184,32 @@ int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
   return 0;
 }
 
-Scene hard_scene(const std::string& name, const Setup& setup, int triangles) {
-  Scene scene = default_scene();
-  apply_scene_file(scene, name, {});
-  scene.device = setup.scene.device;
-  scene.threads = setup.scene.threads;
-  scene.precision = setup.scene.precision;
-  scene.triangles = triangles;
-  check_scene(scene);
-  return scene;
+// How many steps are taken at a time.
+int jobs_of(const Scene& scene) {
+  if (scene.threads > 0) return scene.threads;
+  return scene.device == DeviceChoice::cuda
+             ? 1
+             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 int bench_hard_steps(const CommandLine& line, const Setup& setup, BenchOptions own) {
   Options options = setup.options;
   options.json = false;  // of its rows, not of the manifest
   Run run(line, options, to_json(bind(kRows, own)));
-  std::vector<HardScene> scenes;
-  for (const std::string& name : split(own.hard_scenes)) {
-    run.progress("looking for hard steps of " + name);
-    scenes.push_back(find_hard_steps(name, hard_scene(name, setup, own.hard_triangles), own.hard_steps));
-    if (!scenes.back().broken_off.empty()) run.progress("warning: " + scenes.back().broken_off);
-  }
-  const std::vector<Metrics> rows = hard_step_table(
-      scenes, solver_variants(), [&](const std::string& done) { run.progress("taken again: " + done); });
+  const std::vector<std::string> names = split(own.hard_scenes);
+  Scene like = setup.scene;
+  const int jobs = jobs_of(like);
+  like.threads = 1;  // of each job
+  std::vector<HardStates> scenes(names.size());
+  run.progress("looking for the hardest steps of " + own.hard_scenes);
+  in_parallel(names.size(), jobs, [&](std::size_t i) {
+    scenes[i] = find_hard_steps(hard_scene(names[i], own.hard_triangles, like), own.hard_steps);
+  });
+  for (const HardStates& scene : scenes)
+    if (!scene.broken_off.empty()) run.progress("warning: " + scene.of.name + ": " + scene.broken_off);
+  const std::vector<Metrics> rows =
+      hard_step_table(scenes, solver_variants(), jobs,
+                      [&](const std::string& done) { run.progress("taken again: " + done); });
   write_table(run, rows);
   run.finish();
   if (setup.options.json) {

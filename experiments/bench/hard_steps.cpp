@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sim/base/error.h"
+#include "sim/base/parallel.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -81,9 +82,10 @@ Metrics row_of(const std::string& variant, const std::string& scene, Effort effo
 
 }  // namespace
 
-HardScene find_hard_steps(const std::string& name, Scene scene, int steps) {
-  HardScene found{name, scene, make_cloth(scene), {}, {}};
-  const auto simulation = make_simulation(scene, found.cloth);
+HardStates find_hard_steps(const HardScene& of, int steps) {
+  HardStates found{of, {}, {}};
+  const Scene& scene = of.scene;
+  const auto simulation = make_simulation(scene, of.cloth);
   std::multimap<long, std::string> hardest;  // by Newton's iterations
   const long all = std::lround(scene.seconds / scene.step);
   try {
@@ -120,17 +122,20 @@ std::vector<SolverVariant> solver_variants() {
           {"full stiffness from the start", [=](T& t) { t.full_stiffness = kAny; }}};
 }
 
-std::vector<Metrics> hard_step_table(const std::vector<HardScene>& scenes,
-                                     const std::vector<SolverVariant>& variants,
+std::vector<Metrics> hard_step_table(const std::vector<HardStates>& scenes,
+                                     const std::vector<SolverVariant>& variants, int jobs,
                                      const std::function<void(const std::string&)>& progress) {
   std::vector<Metrics> rows;
   for (const SolverVariant& variant : variants) {
     Effort all;
-    for (const HardScene& scene : scenes) {
+    for (const HardStates& scene : scenes) {
+      std::vector<Effort> each(scene.states.size());
+      in_parallel(each.size(), jobs,
+                  [&](std::size_t i) { each[i] = take(scene.of, variant, scene.states[i]); });
       Effort effort;
-      for (const std::string& state : scene.states) effort.add(take(scene, variant, state));
+      for (const Effort& one : each) effort.add(one);
       all.add(effort);
-      rows.push_back(row_of(variant.name, scene.name, effort));
+      rows.push_back(row_of(variant.name, scene.of.name, effort));
     }
     rows.push_back(row_of(variant.name, "all", all));
     progress(variant.name);

@@ -4,27 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/drape/apparatus.h"
 #include "experiments/drape/outline.h"
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
 #include "sim/base/error.h"
-#include "sim/contact/compression.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 namespace {
-
-struct DrapeChoice {
-  std::string release = "lowered";  // lowered: a plate under the ring sinks; dropped: it is gone at once;
-                                    // relifted: lowered, lifted flat again, lowered a second time
-  double disc = 0.09;               // pedestal's radius [m]
-  double lowering = 0.6;            // time in which the plate sinks [s]
-  double still = 2e-3;              // settled when no vertex moves faster [m/s]
-  double plate = 0.12;              // how far the plate sinks [m]
-
-  int strokes() const { return release == "dropped" ? 0 : release == "lowered" ? 1 : 3; }  // of the plate
-  double released() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
-};
 
 using D = DrapeChoice;
 // clang-format off
@@ -36,9 +24,8 @@ const KeyRow<DrapeChoice> kRows[] = {
 };
 // clang-format on
 
-constexpr double kPedestalHeight = 0.14;  // [m]
-constexpr int kDirections = 3600;         // rays of the outline
-constexpr double kProminence = 2e-3;      // a fold stands out by more than this in the outline [m]
+constexpr int kDirections = 3600;     // rays of the outline
+constexpr double kProminence = 2e-3;  // a fold stands out by more than this in the outline [m]
 constexpr int kShadowPixels = 1500;
 
 Setup defaults() {
@@ -75,39 +62,6 @@ void check_disc(const Scene& scene, const DrapeChoice& choice) {
   throw Error::request("drape.disc = " + number_text(choice.disc) +
                        " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m")
       .of("drape.disc", number_text(choice.disc));
-}
-
-// Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
-void add_apparatus(Scene& scene, const DrapeChoice& choice) {
-  // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
-  // apparatus, and the plate throws nothing up when it goes down.
-  constexpr double kOwnWeights = 4;
-  const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
-  const double shell = distance_under(obstacle_shell(scene), pressure);
-  scene.cloth.position = {0, 0, shell};
-  Obstacle pedestal;
-  pedestal.kind = ObstacleKind::cylinder;
-  pedestal.radius = choice.disc;
-  pedestal.height = kPedestalHeight;
-  pedestal.center = {0, 0, -kPedestalHeight / 2};
-  Obstacle clamp = pedestal;
-  clamp.height = 0.01;
-  clamp.center = {0, 0, 2 * shell + clamp.height / 2};
-  clamp.visible = false;
-  scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});
-  if (choice.release == "dropped") return;
-  Obstacle plate = clamp;
-  plate.radius = scene.cloth.radius + 0.01;
-  plate.center = {0, 0, -plate.height / 2};
-  plate.friction = 0;
-  for (int k = 0; k <= choice.strokes(); ++k) {
-    Keyframe key;
-    key.time = k * choice.lowering;
-    key.position.z() = k % 2 ? -choice.plate : 0;
-    plate.motion.keys.push_back(key);
-  }
-  plate.until = choice.released();
-  scene.obstacle.push_back(plate);
 }
 
 // The cloth's shadow from above with the rim of the pedestal and of the flat specimen, and its dark area.

@@ -3,9 +3,8 @@
 namespace hysteron {
 
 double barrier_stiffness(double thickness) {
-  constexpr double kPressure = 50 * 98.0665;  // [Pa]
   const double range = (1 - kHardest) * thickness, gap = range - kCompressed * thickness;
-  return -kPressure / barrier(1.0, gap, range).slope;
+  return -kTestPressure / barrier(1.0, gap, range).slope;
 }
 
 ObstacleShell<double> obstacle_shell(const Scene& scene) {

@@ -9,9 +9,10 @@
 
 namespace hysteron {
 
-inline constexpr double kHardest = 0.5;       // share of a shell to which pressure can press it
-inline constexpr double kCompressed = 0.2;    // of the shell, at the pressure of the test
-inline constexpr double kElasticSlip = 0.01;  // of friction, over the thickness
+inline constexpr double kTestPressure = 50 * 98.0665;  // 50 gf/cm^2 [Pa]
+inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can press it
+inline constexpr double kCompressed = 0.2;             // of the shell, at the pressure of the test
+inline constexpr double kElasticSlip = 0.01;           // of friction, over the thickness
 
 // Stiffness k of the barrier of such a shell [N/m^3].
 double barrier_stiffness(double thickness);

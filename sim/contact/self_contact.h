@@ -64,6 +64,8 @@ class SelfContact {
   // called on the path up to there.  moved() tells which of its points was taken.
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1);
   void moved(const Vec3<Real>* x);
+  // Vertices that were held are free: the next prepare() looks for their pairs, too.
+  void look_anew() { pending_ = ready_; }
 
   // As in Contact.
   void lag(const Vec3<Real>* x);

@@ -29,12 +29,15 @@ struct Candidates {  // what the loops need, by value
   Real thickness, reach;
   Sweep<Real> sweep;
   const char* held;
+  const int* hand;  // null: pairs that are not all held
 
   HYST_HD bool is_out(const int (&v)[4], bool edges) const {
     for (int i = 0; i < (edges ? 2 : 1); ++i)
       for (int j = edges ? 2 : 1; j < 4; ++j)
         if (v[i] == v[j]) return true;
-    return held[v[0]] && held[v[1]] && held[v[2]] && held[v[3]];
+    const bool all_held = held[v[0]] && held[v[1]] && held[v[2]] && held[v[3]];
+    if (!hand) return all_held;
+    return !all_held || (hand[v[0]] == hand[v[1]] && hand[v[0]] == hand[v[2]] && hand[v[0]] == hand[v[3]]);
   }
 
   // Whether the pair can matter; completes it.
@@ -147,10 +150,11 @@ Vec3<Real> SelfPairs<Real, Device>::mean_of(const Vec3<Real>* direction) {
 // is all, by a second walk where it is not.
 template <class Real, class Device>
 template <bool kWrite>
-void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach) {
+void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held, Real reach,
+                                     const int* hand) {
   const Candidates<Real> candidates{
-      rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_,
-      reach,        sweep,        held};
+      rest_.data(), face_.data(), edge_.data(), vertex_area_.data(), edge_area_.data(), thickness_, reach,
+      sweep,        held,         hand};
   const BoxTreeView<Real> triangles = triangle_tree_.view(), edges = edge_tree_.view();
   int *found = found_.data(), *kept = kept_.data();
   const int* start = start_.data();
@@ -187,7 +191,7 @@ void SelfPairs<Real, Device>::search(const Sweep<Real>& sweep, const char* held,
 
 template <class Real, class Device>
 void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length,
-                                   const char* held, Real reach) {
+                                   const char* held, Real reach, const int* hand) {
   std::swap(start_, old_start_);
   pair_.swap(old_pair_);
   const Sweep<Real> sweep{x, direction, mean_of(direction), step_length, thickness_ + 2 * reach};
@@ -195,10 +199,10 @@ void SelfPairs<Real, Device>::find(const Vec3<Real>* x, const Vec3<Real>* direct
   Sweep<Real> half = sweep;  // both edges' boxes are wider
   half.margin = sweep.margin / 2;
   edge_tree_.fit(half);
-  search<false>(sweep, held, reach);
+  search<false>(sweep, held, reach, hand);
   count_ = exclusive_scan(device_, scratch_, found_.data(), rows_, start_.data());
   pair_.reserve(count_);
-  search<true>(sweep, held, reach);
+  search<true>(sweep, held, reach, hand);
 }
 
 template <class Real, class Device>

@@ -25,7 +25,8 @@ struct SelfPair {
 
 // The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
 // of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
-// by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held.
+// by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held; of
+// those alone whose vertices are held by different hands there is a list of its own (hand_sweep.h).
 //
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
@@ -38,8 +39,10 @@ class SelfPairs {
   SelfPairs(Device& device, const ClothMesh& mesh, double thickness);
 
   // Makes the list anew; what is kept of pairs that stay is the caller's to carry over: `old_start`, of as
-  // many rows, and old_pairs() are those of the list before.
-  void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach);
+  // many rows, and old_pairs() are those of the list before.  With the number of the hand at each vertex
+  // `hand`: the pairs whose vertices are all held, but not all by one hand.
+  void find(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length, const char* held, Real reach,
+            const int* hand = nullptr);
   // The list; boxes and the list before are made anew by find().
   void visit(Archive& archive);
   Vec3<Real> mean_of(const Vec3<Real>* direction);
@@ -54,7 +57,7 @@ class SelfPairs {
 
   // A part of find(); public because nvcc allows no device lambda in a private member function.
   template <bool kWrite>
-  void search(const Sweep<Real>& sweep, const char* held, Real reach);
+  void search(const Sweep<Real>& sweep, const char* held, Real reach, const int* hand);
 
  private:
   Device& device_;

@@ -83,7 +83,7 @@ void Body<Real, Device>::begin_stage(double start, Real h) {
 
 template <class Real, class Device>
 void Body<Real, Device>::end_stage(double time) {
-  hands.note_lag(*this);
+  hands.end_stage(*this);
   if (self_contact) self_contact->commit(x.data(), before.data());
   if (!contact) return;
   clock.begin(Stage::contact);

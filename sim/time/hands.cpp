@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 #include "sim/time/body.h"
 #include "sim/time/refusals.h"
@@ -10,6 +11,19 @@ namespace hysteron {
 
 namespace {
 constexpr double kGive = 0.5;  // of the fabric's thickness: what a hand gives under all its strength
+constexpr double kStrongest = 10 * kTestPressure;  // of rigid hands that give way [Pa]
+
+// Layers that hands hold can meet where two are rigid and one of them moves.
+bool may_meet(const Scene& scene) {
+  int rigid = 0;
+  bool moves = false;
+  for (const Pin& pin : scene.pin) {
+    if (pin.strength > 0) continue;
+    ++rigid;
+    moves |= !pin.motion.keys.empty() || pin.home > 0;
+  }
+  return scene.self_contact && rigid > 1 && moves;
+}
 }  // namespace
 
 template <class Real, class Device>
@@ -31,21 +45,24 @@ Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& clot
   pin_ = Buffer<int, Device>(device, cloth.pins(scene, 0));
   const int vertices = cloth.mesh.vertices();
   if (with_arcs) arc_ = Buffer<Vec3<Real>, Device>(device, vertices);
+  if (may_meet(scene)) {
+    way_ = Buffer<Vec3<Real>, Device>(device, vertices);
+    sweep_ = std::make_unique<HandSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
+  }
   if (!limited_) return;
   place_ = Buffer<Vec3<Real>, Device>(device, start);
   strength_ = Buffer<Real, Device>(device, vertices);
-  lag_ = Buffer<Real, Device>(device, vertices);
-  scratch_ = std::make_unique<Scratch<Device>>(device);
 }
 
 template <class Real, class Device>
 std::size_t Hands<Real, Device>::bytes() const {
   return start_.bytes() + home_.bytes() + pin_.bytes() + arc_.bytes() + place_.bytes() + strength_.bytes() +
-         lag_.bytes() + (scratch_ ? scratch_->bytes() : 0);
+         lag_.bytes() + way_.bytes() + (sweep_ ? sweep_->bytes() : 0) + (scratch_ ? scratch_->bytes() : 0);
 }
 
 template <class Real, class Device>
 bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double start) {
+  regain(body);
   if (start < next_) return false;
   const auto next = std::upper_bound(times_.begin(), times_.end(), start);
   next_ = next == times_.end() ? 1e30 : *next;
@@ -125,12 +142,12 @@ HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double 
 template <class Real, class Device>
 void Hands<Real, Device>::visit(Archive& archive, Device& device) {
   archive(next_);
-  archive(work_);
   hysteron::visit(archive, device, start_);
   hysteron::visit(archive, device, pin_);
-  if (!limited_) return;
-  archive(largest_lag_);
-  archive(slack_stages_);
+  for (double* number : {&work_, &largest_lag_}) archive(*number);
+  for (long* count : {&slack_stages_, &barred_stages_}) archive(*count);
+  archive(behind_);
+  archive(pulls_);
   hysteron::visit(archive, device, place_);
   hysteron::visit(archive, device, strength_);
 }
@@ -139,6 +156,10 @@ template <class Real, class Device>
 void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
   if (!moving_) return;
   const HandPlacements<Real> placed = placements(body.scene, start, static_cast<double>(h));
+  goes_ = false;
+  for (std::size_t p = 0; p < body.scene.pin.size(); ++p)
+    goes_ |= !(body.scene.pin[p].strength > 0) &&
+             (placed.homewards[p] != 0 || !placed.turn[p].isZero(0) || !placed.shift[p].isZero(0));
   const int* pin = pin_.data();
   const char* held = body.held.data();
   const Real* strength = strength_.data();
@@ -166,16 +187,100 @@ void Hands<Real, Device>::move(Body<Real, Device>& body, double start, Real h) {
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::note_lag(Body<Real, Device>& body) {
-  if (!limited_) return;
+bool Hands<Real, Device>::are_barred(Body<Real, Device>& body, Real h) {
+  if (behind_ > give_) return true;
+  if (!sweep_ || !(goes_ || behind_ > 0)) return false;
+  const char* held = body.held.data();
+  const Vec3<Real>* v = body.v.data();
+  Vec3<Real>* way = way_.data();
+  for_each(
+      *body.device, "ways of hands", body.vertices,
+      HYST_KERNEL(int i) { way[i] = held[i] ? Vec3<Real>(h * v[i]) : Vec3<Real>(Vec3<Real>::Zero()); });
+  return !sweep_->is_free(body.x.data(), way, held, pin_.data());
+}
+
+// What gives way starts at rest: the balance counts no kinetic energy of held vertices.
+template <class Real, class Device>
+bool Hands<Real, Device>::give_way(Body<Real, Device>& body, Real h) {
+  rigid_ = body.held.download();
+  const std::vector<Vec3<Real>> x = body.x.download();
+  std::vector<Vec3<Real>> v = body.v.download(), place = place_.download();
+  std::vector<Real> strength = strength_.download();
+  std::vector<char> held = rigid_;
+  place.resize(body.vertices);
+  strength.resize(body.vertices);
+  for (int i = 0; i < body.vertices; ++i) {
+    if (!held[i] || v[i].isZero(0)) continue;
+    place[i] = x[i] + h * v[i];
+    strength[i] = static_cast<Real>(kStrongest * body.cloth.mesh.vertex_area[i]);
+    v[i].setZero();
+    held[i] = 0;
+  }
+  if (held == rigid_) return false;
+  if (place_.size() == 0) {
+    place_ = Buffer<Vec3<Real>, Device>(*body.device, place);
+    strength_ = Buffer<Real, Device>(*body.device, strength);
+  }
+  place_.upload(place);
+  strength_.upload(strength);
+  body.v.upload(v);
+  body.held.upload(held);
+  body.self_contact->look_anew();
+  return gives_way_ = pulls_ = true;
+}
+
+// Before another stage: hands are rigid, whether the last one was accepted or not.
+template <class Real, class Device>
+void Hands<Real, Device>::regain(Body<Real, Device>& body) {
+  if (!pulls_) return;
+  if (gives_way_) body.held.upload(rigid_);
+  const std::vector<char> held = body.held.download();
+  std::vector<Real> strength = strength_.download();
+  for (int i = 0; i < body.vertices; ++i)
+    if (held[i]) strength[i] = 0;
+  strength_.upload(strength);
+  gives_way_ = pulls_ = false;
+}
+
+// The hand stops what it holds again.  Until the next stage its pull is known, as the force on the cloth.
+template <class Real, class Device>
+void Hands<Real, Device>::hold_again(Body<Real, Device>& body) {
+  const std::vector<char> held = body.held.download();
+  const std::vector<Vec3<Real>> x = body.x.download(), v = body.v.download(), place = place_.download();
+  const std::vector<Real> mass = body.mass.download();
+  for (int i = 0; i < body.vertices; ++i) {
+    if (!rigid_[i] || held[i]) continue;
+    work_ -= static_cast<double>(mass[i]) / 2 * v[i].template cast<double>().squaredNorm();
+    behind_ = std::max(behind_, (x[i] - place[i]).norm());
+  }
+  body.held.upload(rigid_);
+  gives_way_ = false;
+}
+
+template <class Real, class Device>
+Real Hands<Real, Device>::farthest_behind(Body<Real, Device>& body) {
+  if (!scratch_) {
+    scratch_ = std::make_unique<Scratch<Device>>(*body.device);
+    lag_ = Buffer<Real, Device>(*body.device, body.vertices);
+  }
   const Grips<Real> grips = this->grips();
   const Vec3<Real>* x = body.x.data();
   Real* lag = lag_.data();
   for_each(
       *body.device, "lag of hands", body.vertices, HYST_KERNEL(int i) { lag[i] = -grips.lag(i, x[i]); });
-  const Real largest = -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
+  return -smallest(*body.device, *scratch_, lag, body.vertices, Real(0));
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::end_stage(Body<Real, Device>& body) {
+  behind_ = 0;
+  if (!limited_ && !gives_way_) return;
+  const Real largest = farthest_behind(body);
   largest_lag_ = std::max(largest_lag_, static_cast<double>(largest));
   if (largest > give_) ++slack_stages_;
+  if (!gives_way_) return;
+  ++barred_stages_;
+  hold_again(body);
 }
 
 template class Hands<double, ThisDevice>;

@@ -1,9 +1,15 @@
 // Hands: which vertices are held, and how those move.
+//
+// A rigid hand brings its vertices exactly to their place.  Where cloth bars its way, it gives way for the
+// stage: its vertices are free, and it pulls as a hand of limited strength does (grips.h), with ten times the
+// pressure of the compression test (compression.h) on the area of each.  Once all that gave way are within
+// the give of that pull again, hands are rigid again.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "sim/contact/hand_sweep.h"
 #include "sim/device/algorithms.h"
 #include "sim/device/archive_buffer.h"
 #include "sim/scene/cloth.h"
@@ -33,7 +39,7 @@ class Hands {
   Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
 
   // Hands take hold and let go where that is due at `start`; Error::run where cloth is let go in an obstacle.
-  // Says whether any did.
+  // Says whether any did.  What gave way is held again.
   bool attach_and_release(Body<Real, Device>& body, double start);
   // Gives held vertices the constant velocity that brings them to their place at the end of the stage.
   void move(Body<Real, Device>& body, double start, Real h);
@@ -41,31 +47,46 @@ class Hands {
   bool any_moves() const { return moving_; }
   // Of a stage: along the arcs as its end sees them, duration times velocity [m]; null if no hand moves.
   const Vec3<Real>* arcs() const { return arc_.data(); }
-  // Those of limited strength.
+  // Those of limited strength, and those that give way in this stage.
   Grips<Real> grips() const { return {place_.data(), strength_.data(), give_}; }
-  // Notes how far vertices lag behind such hands at the end of a stage, and counts stages in which a hand
-  // pulls with all its strength.
-  void note_lag(Body<Real, Device>& body);
+  // Whether rigid hands cannot go the way of a stage that move() has begun: they are behind already, or would
+  // lead what they hold through each other.  Where the cloth itself bars it, the step finds out.
+  bool are_barred(Body<Real, Device>& body, Real h);
+  // Rigid hands that move give way for this stage; false where none moves.
+  bool give_way(Body<Real, Device>& body, Real h);
+  // Accepts the stage: what gave way is held again.  Notes how far vertices lag behind, and counts stages in
+  // which a hand pulls with all its strength.
+  void end_stage(Body<Real, Device>& body);
   long slack_stages() const { return slack_stages_; }
+  long barred_stages() const { return barred_stages_; }
   double largest_lag() const { return largest_lag_; }  // [m]
   // What outlives a step; where things were at t = 0 does not change.
   void visit(Archive& archive, Device& device);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
   std::size_t bytes() const;
 
+  // Parts; public because nvcc allows no device lambda in a private member function.
+  Real farthest_behind(Body<Real, Device>& body);
+
  private:
   // Says whether `held` differs from what was.
   bool book(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
   void share_strength(const Scene& scene, const std::vector<int>& pins);
+  void regain(Body<Real, Device>& body);
+  void hold_again(Body<Real, Device>& body);
   HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
-  bool moving_ = false;   // or of limited strength
-  bool limited_ = false;  // any is of limited strength
-  double next_ = 0;       // when hands take hold or let go next [s]
+  bool moving_ = false;                     // or of limited strength
+  bool limited_ = false;                    // any is of limited strength
+  bool goes_ = false;                       // a rigid one in the stage
+  bool gives_way_ = false, pulls_ = false;  // rigid ones in this stage; in it or in the one accepted last
+  double next_ = 0;                         // when hands take hold or let go next [s]
   double work_ = 0, largest_lag_ = 0;
-  long slack_stages_ = 0;
+  long slack_stages_ = 0, barred_stages_ = 0;
   Real give_;
+  Real behind_ = 0;                   // how far what gave way lagged in the stage accepted last [m]
+  std::vector<char> rigid_;           // what would be held if none gave way
   std::vector<double> times_;         // of all that
   Buffer<Vec3<Real>, Device> start_;  // where each hand has its vertices before it moves [m]
   Buffer<Vec3<Real>, Device> home_;   // where vertices were at t = 0, if a hand brings them back there
@@ -73,6 +94,8 @@ class Hands {
   Buffer<int, Device> pin_;
   Buffer<Vec3<Real>, Device> place_;  // of Grips
   Buffer<Real, Device> strength_, lag_;
+  Buffer<Vec3<Real>, Device> way_;  // of held vertices in a stage [m]; where hands might meet
+  std::unique_ptr<HandSweep<Real, Device>> sweep_;
   std::unique_ptr<Scratch<Device>> scratch_;
 };
 

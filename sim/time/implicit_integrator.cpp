@@ -58,10 +58,25 @@ double ImplicitIntegrator<Real, Device>::load_share(double time) const {
   return scene.unload > 0 ? std::max(0.0, 1 - (time - scene.ramp) / scene.unload) : 1;
 }
 
+// Rigid hands give way where cloth bars theirs; as the last resort, wherever no equilibrium is found with
+// them.
 template <class Real, class Device>
-NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, bool is_first_stage) {
-  body_.begin_stage(start, static_cast<Real>(h));
+NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, bool is_first_stage,
+                                                        bool is_last_resort) {
+  const Real length = static_cast<Real>(h);
+  Hands<Real, Device>& hands = body_.hands;
+  body_.begin_stage(start, length);
   if (body_.jumped) solver_.forget_acceleration();
+  const bool gives_way =
+      body_.self_contact && hands.are_barred(body_, length) && hands.give_way(body_, length);
+  const NewtonOutcome outcome = solve(start, h, is_first_stage);
+  const bool fails = outcome.blocked || (is_last_resort && !outcome.converged);
+  if (!fails || gives_way || !body_.self_contact || !hands.give_way(body_, length)) return outcome;
+  return solve(start, h, is_first_stage);
+}
+
+template <class Real, class Device>
+NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bool is_first_stage) {
   body_.clock.begin(Stage::solve);
   const NewtonOutcome outcome = solver_.solve(vertices_of(body_), h, load_share(start + h), is_first_stage);
   body_.clock.end(Stage::solve);
@@ -92,7 +107,8 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
-  const NewtonOutcome outcome = attempt(start, first_stage(h), solver_.has_two_stages());
+  const NewtonOutcome outcome =
+      attempt(start, first_stage(h), solver_.has_two_stages(), halvings == kMostHalvings);
   outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
 }
 
@@ -104,7 +120,7 @@ void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvin
   accept(start + first);
   ++body_.counts.parts;
   if (!solver_.has_two_stages()) return;
-  const NewtonOutcome outcome = attempt(start + first, rest, false);
+  const NewtonOutcome outcome = attempt(start + first, rest, false, halvings == kMostHalvings);
   outcome.converged ? accept(start + first + rest) : take_halves(start + first, rest, halvings, outcome);
 }
 
@@ -124,7 +140,7 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
-    const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages());
+    const NewtonOutcome outcome = attempt(now, first_stage(h), solver_.has_two_stages(), false);
     const double error = outcome.converged ? solver_.local_error(vertices_of(body_)) : 1e30;
     const double wanted = next_part(h, std::pow(tolerance_ / error, 1 / solver_.error_order()));
     if (outcome.converged && error <= tolerance_) {

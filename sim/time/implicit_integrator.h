@@ -33,7 +33,8 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
   void finish(double start, double h, int halvings);
   void take_halves(double start, double h, int halvings, const NewtonOutcome& outcome);
   double first_stage(double h) const { return solver_.has_two_stages() ? kTrapezoidalShare * h : h; }
-  NewtonOutcome attempt(double start, double h, bool is_first_stage);
+  NewtonOutcome attempt(double start, double h, bool is_first_stage, bool is_last_resort);
+  NewtonOutcome solve(double start, double h, bool is_first_stage);
   void accept(double end);
   double load_share(double time) const;
 

@@ -137,9 +137,9 @@ void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& ste
   std::string message =
       "no equilibrium of the step " + at_time(start) + "was found, even in parts of " + number(h) + " s: ";
   if (outcome.blocked) {
-    message += "pins move the cloth through itself";
+    message += "every motion leads the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
-    throw Error::run(message + "; pins with a strength lag behind instead");
+    throw Error::run(message);
   }
   if (!(outcome.load > 0))
     throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");

@@ -106,9 +106,11 @@ class Simulation {
   // Parts taken with a vertex deeper than the cloth's thickness in an obstacle: after a hard blow, or with
   // steps that are taken unbalanced (newton-iterations), of cloth that is crushed.
   virtual long deep_steps() const = 0;
-  // Of hands of limited strength: parts of steps in which one pulled with all of it, and how far vertices
-  // have lagged behind at most [m].
+  // Of hands of limited strength, and of rigid ones that gave way to the cloth: parts of steps in which one
+  // pulled with all that it may, in which rigid ones gave way, and how far vertices have lagged behind at
+  // most [m].
   virtual long slack_hand_steps() const = 0;
+  virtual long barred_hand_steps() const = 0;
   virtual double hand_lag() const = 0;
 };
 

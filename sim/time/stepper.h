@@ -41,6 +41,7 @@ class Stepper : public Simulation {
   long unbalanced_steps() const override { return body_.counts.unbalanced; }
   long deep_steps() const override { return body_.counts.deep; }
   long slack_hand_steps() const override { return body_.hands.slack_stages(); }
+  long barred_hand_steps() const override { return body_.hands.barred_stages(); }
   double hand_lag() const override { return body_.hands.largest_lag(); }
   SolverCounts solver_counts() const override {
     const StepCounts& c = body_.counts;

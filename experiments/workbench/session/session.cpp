@@ -171,9 +171,17 @@ void Session::note_deep_contact() {
 
 void Session::note_slack_hands() {
   const std::vector<Pin>& pins = setup_.scene.pin;
-  if (std::none_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.strength > 0; })) return;
+  const long barred = simulation_->barred_hand_steps();
+  const bool weak = std::any_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.strength > 0; });
+  if (!weak && barred == 0) return;
   run_->metric("slack_hand_steps_count", simulation_->slack_hand_steps());
   run_->metric("hand_lag_m", simulation_->hand_lag());
+  if (barred == 0) return;
+  run_->metric("barred_hand_steps_count", barred);
+  run_->progress(fmt::format(
+      "warning: in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
+      "lagged behind by up to {:.2g} mm",
+      barred, 1e3 * simulation_->hand_lag()));
 }
 
 // How much was left unbalanced, in the units of --newton-residual and --newton-velocity.

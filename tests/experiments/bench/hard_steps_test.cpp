@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 
+#include "sim/scene/assets.h"
+#include "sim/scene/fabric_reader.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/time/simulation.h"
 
@@ -31,6 +34,8 @@ Scene falling() {
   scene.obstacle = {ball};
   return scene;
 }
+
+HardScene falling_scene(const Scene& scene) { return {"falling", scene, make_cloth(scene)}; }
 
 // Newton's iterations of each step.
 std::vector<long> iterations(const Scene& scene) {
@@ -57,11 +62,11 @@ TEST(HardSteps, AreThoseThatTookMostIterationsAndTakeThemAgain) {
   std::vector<long> all = iterations(scene);
   std::sort(all.rbegin(), all.rend());
   const long most = std::accumulate(all.begin(), all.begin() + kSteps, 0L);
-  const HardScene hard = find_hard_steps("falling", scene, kSteps);
+  const HardStates hard = find_hard_steps(falling_scene(scene), kSteps);
   EXPECT_EQ(hard.broken_off, "");
   ASSERT_EQ(hard.states.size(), static_cast<std::size_t>(kSteps));
   const std::vector<SolverVariant> in_use = {solver_variants().front()};
-  const std::vector<Metrics> rows = hard_step_table({hard, hard}, in_use, [](const std::string&) {});
+  const std::vector<Metrics> rows = hard_step_table({hard, hard}, in_use, 2, [](const std::string&) {});
   EXPECT_EQ(rows.size(), 3u);
   EXPECT_EQ(row_of(rows, "in use", "falling").number("newton_iterations"), most);
   EXPECT_EQ(row_of(rows, "in use", "all").number("newton_iterations"), 2 * most);
@@ -77,13 +82,13 @@ TEST(HardSteps, OfEveryVariantEndInTheSameStateOnTheirOwnWays) {
   scene.fabric.friction = 0;
   scene.newton_residual = 1e-9;
   scene.newton_velocity = 1e-12;
-  const HardScene hard = find_hard_steps("falling", scene, 1);
+  const HardStates hard = find_hard_steps(falling_scene(scene), 1);
   std::vector<std::vector<Eigen::Vector3d>> ends;
   std::set<long> linear;
   for (const SolverVariant& variant : solver_variants()) {
     Scene chosen = scene;
     variant.choose(chosen.tuning);
-    const auto simulation = make_simulation(chosen, hard.cloth);
+    const auto simulation = make_simulation(chosen, hard.of.cloth);
     simulation->load(hard.states.front());
     const long before = simulation->solver_counts().linear;
     simulation->advance(1);
@@ -97,14 +102,36 @@ TEST(HardSteps, OfEveryVariantEndInTheSameStateOnTheirOwnWays) {
 
 TEST(HardSteps, ThatCannotBeTakenAreCounted) {
   Scene scene = falling();
-  const HardScene hard = find_hard_steps("falling", scene, 1);
-  HardScene impossible = hard;
-  impossible.scene.newton_residual = 0;
-  impossible.scene.newton_velocity = 0;
-  impossible.scene.newton_iterations = 1;
+  const HardStates hard = find_hard_steps(falling_scene(scene), 1);
+  HardStates impossible = hard;
+  impossible.of.scene.newton_residual = 0;
+  impossible.of.scene.newton_velocity = 0;
+  impossible.of.scene.newton_iterations = 1;
   const std::vector<Metrics> rows =
-      hard_step_table({impossible}, {solver_variants().front()}, [](const std::string&) {});
+      hard_step_table({impossible}, {solver_variants().front()}, 1, [](const std::string&) {});
   EXPECT_EQ(row_of(rows, "in use", "all").number("unbalanced"), 1);
+}
+
+TEST(HardScenes, BringTheSpecimensOfOtherExperimentsAndSceneFilesOnOneDevice) {
+  Scene like = default_scene();
+  like.threads = 1;
+  like.device = DeviceChoice::cpu;
+  for (const char* name : {"fold", "crease", "drape", "crumple-press"}) {
+    const HardScene hard = hard_scene(name, 120, like);
+    EXPECT_EQ(hard.name, name);
+    EXPECT_EQ(hard.scene.threads, 1);
+    EXPECT_GT(hard.cloth.mesh.faces(), 60) << name;
+    EXPECT_EQ(hard.scene.self_contact, std::string(name) != "drape") << name;
+    EXPECT_FALSE(hard.scene.obstacle.empty()) << name;
+    make_simulation(hard.scene, hard.cloth)->advance(1);
+  }
+}
+
+TEST(HardScenes, DrapeTheLimpestOfTheShippedFabrics) {
+  std::map<double, std::string> by_rigidity;
+  for (const std::string& name : list_assets("fabrics"))
+    by_rigidity.emplace(read_fabric(name, "test").fabric.b2, name);
+  EXPECT_EQ(by_rigidity.begin()->second, kLimpest);
 }
 
 }  // namespace

@@ -114,21 +114,6 @@ TEST(Press, OfTwoLayersBeyondTheirThicknessEndsTheRunWithPlaceAndTime) {
   EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
 }
 
-// Hands that push held layers into each other leave no feasible way where one vertex of a pair is free.
-TEST(Hands, ThatMoveTheClothThroughItselfEndTheRunWithThePlaceAndTheTime) {
-  constexpr double kGap = 5e-3, kWay = 1e-2;  // [m]
-  Trial trial = test::two_sheets(kGap, 60);
-  Pin hand;
-  hand.motion.keys = {{0, {0, 0, 0}, 0}, {kDown, {0, 0, -kWay}, 0}};
-  test::hold_upper(trial, hand, 0.7 * test::kUpperSide);
-  const Failure failure = press(trial, *trial.simulation());
-  expect_naming(failure, {"pins move the cloth through itself, ", "edge "});
-  double time = 0;
-  EXPECT_EQ(std::sscanf(failure.message.c_str(), "no equilibrium of the step at t = %lf s", &time), 1);
-  EXPECT_GT(way_done(time / kDown) * kWay, kGap - Fabric{}.thickness);
-  EXPECT_LT(time, kDown);
-}
-
 // A solid that moves over what a pin holds crushes it, too.
 TEST(Press, AgainstAPinEndsTheRun) {
   Trial trial = pressed_sheet("implicit", -2e-3);

@@ -150,7 +150,7 @@ TEST(HandsOfLimitedStrength, DoWorkThatTheBalanceCloses) {
   }
 }
 
-// Where a rigid hand ends the run (Hands, crush_test.cpp).
+// Where a rigid hand gives way (barred_hands_test.cpp).
 TEST(HandsOfLimitedStrength, ThatPushTheClothThroughItselfLagBehind) {
   constexpr double kGap = 5e-3, kWay = 1e-2, kTime = 0.1, kStrength = 0.5;  // [m], [s], [N]
   Trial trial = test::two_sheets(kGap, 60);

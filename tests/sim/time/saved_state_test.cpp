@@ -21,6 +21,7 @@ struct Saved {
   bool chapter = false;  // implicit-every = step
   LawParameters param = {};
   double strength = 0;  // of the second hand [N]
+  bool barred = false;  // two layers: a rigid hand leads the upper one through the lower
 };
 
 const LawParameters kFatigue = {{"fatigue.dc", "0.01"}};
@@ -46,6 +47,7 @@ const Saved kCases[] = {
     {"tr_bdf2_layers", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, true},
     {"tr_bdf2_fp32", "tr-bdf2", "kim", "shape", Precision::fp32},
     {"tr_bdf2_weak_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, false, false, {}, 1e-3},
+    {"tr_bdf2_barred_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, true, false, {}, 0, true},
     {"quasi_static", "quasi-static"},
 };
 
@@ -87,6 +89,11 @@ Trial trial_of(const Saved& of) {
   scene.precision = of.precision;
   scene.tolerance = of.tolerance;
   if (of.layers) scene.gravity = {4, 1, -9};
+  if (of.barred) {
+    Pin hand;
+    hand.motion.keys = {{0}, {4 * scene.step, {0, 0, -2e-3}, 0}};
+    test::hold_upper(trial, hand, test::kUpperSide / 2);
+  }
   if (of.strength > 0) scene.pin[1].strength = of.strength;
   if (of.chapter) scene.implicit_every = ImplicitEvery::step;
   if (of.integrator == std::string("quasi-static")) scene.ramp = 0.05;
@@ -109,6 +116,7 @@ void expect_same(Simulation& a, Simulation& b) {
   EXPECT_EQ(a.newton_iterations(), b.newton_iterations());
   EXPECT_EQ(a.parts_taken(), b.parts_taken());
   EXPECT_EQ(a.slack_hand_steps(), b.slack_hand_steps());
+  EXPECT_EQ(a.barred_hand_steps(), b.barred_hand_steps());
   EXPECT_EQ(a.hand_lag(), b.hand_lag());
 }
 
