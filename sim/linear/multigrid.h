@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "sim/linear/coarse_level.h"
+#include "sim/linear/cycle.h"
 #include "sim/linear/preconditioner.h"
 
 namespace hysteron {
@@ -32,32 +32,29 @@ class Multigrid : public Preconditioner<Real, Device> {
   //   held              rows that apply() leaves zero; read by apply() too
   void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
                const char* held);
-  void apply(const Vec3<Real>* r, Vec3<Real>* z) override;
+  void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   std::size_t bytes() const override;
   int levels() const { return 1 + static_cast<int>(level_.size()); }
 
   // The parts of the above; public because nvcc allows no device lambda in a private member function.
   void invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added, const char* held,
                        Mat3<Real>* inverse);
-  // Coarse matrix of the next finer level's; held may be null.
-  void coarsen(BlockRowsView<Real> finer, const char* held, CoarseLevel<Real, Device>& level);
-  void add_plate(Real rigidity, CoarseLevel<Real, Device>& level);
   void find_eigenvalue(CoarseLevel<Real, Device>& level);
-  void invert_coarsest(CoarseLevel<Real, Device>& level);
-  void restrict_to(CoarseLevel<Real, Device>& level, const Vec3<Real>* finer);
-  void sweep(CoarseLevel<Real, Device>& level, int which, const Vec3<Real>* from, Vec3<Real>* to);
-  void residual(CoarseLevel<Real, Device>& level);
-  void correct(CoarseLevel<Real, Device>& level, CoarseLevel<Real, Device>& coarser);
-  void solve_coarsest(CoarseLevel<Real, Device>& level);
+  void combine(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars);
 
  private:
   bool dense() const { return dense_[0].size() > 0; }
+  SmallLevels<Real> small_levels();
+  // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
+  void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
+  void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // twice, from y to y
 
   Device& device_;
   int vertices_;
   const char* held_ = nullptr;
   Buffer<Mat3<Real>, Device> inverse_;
   std::vector<CoarseLevel<Real, Device>> level_;
+  int first_small_ = 0;  // from this level on they share a launch
   // Blocks of the coarsest matrix, row by row, and where the next step of its inversion goes.
   Buffer<Eigen::Matrix3d, Device> dense_[2];
 };

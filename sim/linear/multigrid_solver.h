@@ -12,7 +12,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   // rigidity: the largest slope of the bending law [N m]; the systems are of mass/step^2 + stiffness [N/m].
   MultigridSolver(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy, double rigidity)
       : multigrid_(device, mesh, hierarchy),
-        pcg_(device, mesh.vertices()),
+        pcg_(device, mesh.vertices(), true),
         rigidity_(static_cast<Real>(rigidity)) {}
 
   PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,

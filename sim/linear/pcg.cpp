@@ -1,14 +1,18 @@
 #include "sim/linear/pcg.h"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "sim/linear/row_products.h"
 
 namespace hysteron {
 
 template <class Real, class Device>
-Pcg<Real, Device>::Pcg(Device& device, int rows)
+Pcg<Real, Device>::Pcg(Device& device, int rows, bool preconditioned)
     : device_(device),
       rows_(rows),
-      inverse_(device, rows),
+      inverse_(device, preconditioned ? 0 : rows),
       r_(device, rows),
       z_(device, rows),
       p_(device, rows),
@@ -27,26 +31,34 @@ GatheredForces<Real> product(const StiffnessProduct<Real>& stiffness, const Vec3
   return stiffness ? stiffness(p) : GatheredForces<Real>{};
 }
 
+// Sent to a GPU between two questions whether they were enough.
+constexpr int kIterationsAtOnce = 4;
+
+// How many times the tolerance makes a tenth of the residual.
+double decades(double tolerance) {
+  constexpr double kLeast = 0.5;
+  return std::max(-std::log10(tolerance), kLeast);
+}
+
 }  // namespace
 
 // q = matrix * guess, and the factor alpha for which alpha * guess is nearest to the solution.
 template <class Real, class Device>
 void Pcg<Real, Device>::project(const System& system, const char* held, const Vec3<Real>* rhs,
                                 const Vec3<Real>* guess) {
-  const BlockRowsView<Real> matrix = system.matrix;
-  const GatheredForces<Real> bending = product(system.bending, guess);
-  const GatheredForces<Real> pressing = product(system.self_contact, guess);
+  const SystemProduct<Real> product_of{
+      system.matrix, {}, product(system.bending, guess), product(system.self_contact, guess)};
   Vec3<Real>* q = q_.data();
-  Scalars* s = scalars_.data();
-  for_each_sum<2>(
+  PcgScalars* s = scalars_.data();
+  for_each_row_sum<2>(
       device_, "solve: guess", rows_,
-      HYST_KERNEL(int i, Sums<2>& sums) {
+      HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
         if (held[i]) return;
-        q[i] = matrix.times(i, guess);
-        if (bending.start) q[i] -= bending.at(i);
-        if (pressing.start) q[i] += pressing.at(i);
+        const Vec3<Real> product = product_of.at(lanes, i, guess);
+        if (!lanes.leads()) return;
+        q[i] = product;
         sums.term[0] += static_cast<double>(guess[i].dot(rhs[i]));
-        sums.term[1] += static_cast<double>(guess[i].dot(q[i]));
+        sums.term[1] += static_cast<double>(guess[i].dot(product));
       },
       HYST_KERNEL(const Sums<2>& total) {
         s->alpha = total.term[1] > 0 ? total.term[0] / total.term[1] : 0;
@@ -55,15 +67,15 @@ void Pcg<Real, Device>::project(const System& system, const char* held, const Ve
 
 template <class Real, class Device>
 void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3<Real>* rhs,
-                              const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
-                              double tolerance) {
+                              const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end) {
   if (guess) project(system, held, rhs, guess);
+  if (system.preconditioner) return start_preconditioned(system, held, rhs, known, guess, x, end);
   const BlockRowsView<Real> matrix = system.matrix;
   const Mat3<Real>* rest = system.rest_diagonal;
   const Vec3<Real>* q = q_.data();
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
-  Scalars* s = scalars_.data();
+  PcgScalars* s = scalars_.data();
   for_each_sum<2>(
       device_, "solve: start", rows_,
       HYST_KERNEL(int i, Sums<2>& sums) {
@@ -83,32 +95,32 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
         sums.term[1] += static_cast<double>(scale.dot(inverse[i] * scale));
       },
       HYST_KERNEL(const Sums<2>& total) {
-        s->residual = total.term[0];
-        s->target = tolerance * tolerance * total.term[1];
-        s->iterations = 0;
-        s->done = !(s->residual > s->target);
+        s->target = end.tolerance * end.tolerance * total.term[1];
+        s->begin(total.term[0], end.most_iterations);
       });
-  if (system.preconditioner) start_preconditioned(system, held, rhs, known, tolerance);
 }
 
-// The same with the caller's preconditioner: z, p and the two norms again.
+// The same with the caller's preconditioner.  Without known impulses and guess the first residual is the
+// scale.
 template <class Real, class Device>
 void Pcg<Real, Device>::start_preconditioned(const System& system, const char* held, const Vec3<Real>* rhs,
-                                             const Vec3<Real>* known, double tolerance) {
-  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *scale = q_.data();
-  Scalars* s = scalars_.data();
+                                             const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
+                                             PcgEnd end) {
+  const Vec3<Real>* q = q_.data();
+  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
+  PcgScalars* s = scalars_.data();
   for_each(
-      device_, "solve: scale", rows_, HYST_KERNEL(int i) {
-        scale[i] = held[i] ? Vec3<Real>(Vec3<Real>::Zero())
-                   : known ? Vec3<Real>(rhs[i] - known[i])
-                           : Vec3<Real>(rhs[i]);
+      device_, "solve: start", rows_, HYST_KERNEL(int i) {
+        if (held[i]) {
+          x[i] = r[i] = p[i] = Vec3<Real>::Zero();
+          return;
+        }
+        x[i] = guess ? Vec3<Real>(static_cast<Real>(s->alpha) * guess[i]) : Vec3<Real>(Vec3<Real>::Zero());
+        r[i] = guess ? Vec3<Real>(rhs[i] - static_cast<Real>(s->alpha) * q[i]) : rhs[i];
       });
-  system.preconditioner->apply(scale, z);
-  for_each_sum<1>(
-      device_, "solve: target", rows_,
-      HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(scale[i].dot(z[i])); },
-      HYST_KERNEL(const Sums<1>& total) { s->target = tolerance * tolerance * total.term[0]; });
-  system.preconditioner->apply(r, z);
+  const bool other_scale = known || guess;
+  if (other_scale) find_target(system, held, rhs, known, end);
+  system.preconditioner->apply(r, z, nullptr);
   for_each_sum<1>(
       device_, "solve: first direction", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
@@ -116,27 +128,43 @@ void Pcg<Real, Device>::start_preconditioned(const System& system, const char* h
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
       },
       HYST_KERNEL(const Sums<1>& total) {
-        s->residual = total.term[0];
-        s->done = !(s->residual > s->target);
+        if (!other_scale) s->target = end.tolerance * end.tolerance * total.term[0];
+        s->begin(total.term[0], end.most_iterations);
       });
 }
 
 template <class Real, class Device>
-void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
-  const BlockRowsView<Real> matrix = system.matrix;
-  Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
-  Scalars* s = scalars_.data();
-  const GatheredForces<Real> bending = product(system.bending, p);
-  const GatheredForces<Real> pressing = product(system.self_contact, p);
-  const ScalarRowsView<Real> softening = system.softening;
+void Pcg<Real, Device>::find_target(const System& system, const char* held, const Vec3<Real>* rhs,
+                                    const Vec3<Real>* known, PcgEnd end) {
+  Vec3<Real>*z = z_.data(), *scale = q_.data();
+  PcgScalars* s = scalars_.data();
+  for_each(
+      device_, "solve: scale", rows_, HYST_KERNEL(int i) {
+        scale[i] = held[i] ? Vec3<Real>(Vec3<Real>::Zero())
+                   : known ? Vec3<Real>(rhs[i] - known[i])
+                           : Vec3<Real>(rhs[i]);
+      });
+  system.preconditioner->apply(scale, z, nullptr);
   for_each_sum<1>(
+      device_, "solve: target", rows_,
+      HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(scale[i].dot(z[i])); },
+      HYST_KERNEL(const Sums<1>& total) { s->target = end.tolerance * end.tolerance * total.term[0]; });
+}
+
+template <class Real, class Device>
+void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
+  Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
+  PcgScalars* s = scalars_.data();
+  const SystemProduct<Real> product_of{system.matrix, system.softening, product<Real>(system.bending, p),
+                                       product<Real>(system.self_contact, p)};
+  for_each_row_sum<1>(
       device_, "solve: product", rows_,
-      HYST_KERNEL(int i, Sums<1>& sums) {
+      HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<1>& sums) {
         if (s->done || held[i]) return;
-        q[i] = softening.off_diagonal ? matrix.times(i, p, softening) : matrix.times(i, p);
-        if (bending.start) q[i] -= bending.at(i);
-        if (pressing.start) q[i] += pressing.at(i);
-        sums.term[0] += static_cast<double>(p[i].dot(q[i]));
+        const Vec3<Real> product = product_of.at(lanes, i, p);
+        if (!lanes.leads()) return;
+        q[i] = product;
+        sums.term[0] += static_cast<double>(p[i].dot(product));
       },
       HYST_KERNEL(const Sums<1>& total) {
         if (s->done) return;
@@ -158,7 +186,7 @@ template <class Real, class Device>
 void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
   const Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
-  Scalars* s = scalars_.data();
+  PcgScalars* s = scalars_.data();
   for_each_sum<1>(
       device_, "solve: advance", rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
@@ -175,7 +203,7 @@ void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
 template <class Real, class Device>
 void Pcg<Real, Device>::advance_preconditioned(const System& system, const char* held, Vec3<Real>* x) {
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
-  Scalars* s = scalars_.data();
+  PcgScalars* s = scalars_.data();
   for_each(
       device_, "solve: advance", rows_, HYST_KERNEL(int i) {
         if (s->done || held[i]) return;
@@ -183,33 +211,64 @@ void Pcg<Real, Device>::advance_preconditioned(const System& system, const char*
         x[i] += alpha * p[i];
         r[i] -= alpha * q[i];
       });
-  system.preconditioner->apply(r, z);
-  for_each_sum<1>(
-      device_, "solve: weigh", rows_,
-      HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(r[i].dot(z[i])); },
-      HYST_KERNEL(const Sums<1>& total) { s->advance(total.term[0]); });
+  system.preconditioner->apply(r, z, s);
+}
+
+// Pairs of layers, and with them self-contact's loops, change from system to system: capturing those would
+// cost more than it saves.
+template <class Real, class Device>
+bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
+  if (system.self_contact) return false;
+  const BlockRowsView<Real>& matrix = system.matrix;
+  const std::vector<const void*> key = {matrix.row_ptr,
+                                        matrix.col,
+                                        matrix.off_diagonal,
+                                        matrix.diagonal,
+                                        system.softening.off_diagonal,
+                                        system.softening.diagonal,
+                                        system.preconditioner,
+                                        system.bending ? this : nullptr,
+                                        held,
+                                        x};
+  const int rounds = system.preconditioner ? 1 : kIterationsAtOnce;
+  return loop_.run(device_, key, &scalars_.data()->done, [&] {
+    for (int k = 0; k < rounds; ++k) iterate(system, held, x);
+  });
 }
 
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve
-// took.
+// took for each decade of its tolerance.
+template <class Real, class Device>
+PcgScalars Pcg<Real, Device>::iterate_in_batches(const System& system, const char* held, Vec3<Real>* x,
+                                                 PcgEnd end) {
+  int batch = 1;
+  if (Device::kGpu)
+    batch += static_cast<int>(
+        std::min<double>(end.most_iterations, iterations_per_decade_ * decades(end.tolerance)));
+  else if (const PcgScalars first = scalars(); first.done)
+    return first;
+  for (;;) {
+    for (int k = 0; k < batch; ++k) iterate(system, held, x);
+    if (const PcgScalars now = scalars(); now.done) return now;
+    batch = Device::kGpu ? kIterationsAtOnce : 1;
+  }
+}
+
+template <class Real, class Device>
+PcgScalars Pcg<Real, Device>::scalars() const {
+  return scalars_.download()[0];
+}
+
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(const System& system, const char* held, const Vec3<Real>* rhs,
                                     const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
                                     double tolerance, int most_iterations) {
-  start(system, held, rhs, known, guess, x, tolerance);
-  constexpr int kAskAgain = 4;
-  Scalars scalars{};
-  for (int sent = 0;;) {
-    const int batch = Device::kGpu ? (sent == 0 ? last_iterations_ + 1 : kAskAgain) : 1;
-    if (sent > 0 || !Device::kGpu) {
-      device_download(device_, &scalars, scalars_.data(), sizeof(Scalars));
-      if (scalars.done || sent >= most_iterations) break;
-    }
-    for (int i = 0; i < batch; ++i) iterate(system, held, x);
-    sent += batch;
-  }
-  last_iterations_ = scalars.iterations;
-  return {scalars.iterations, scalars.done == kConverged};
+  const PcgEnd end{tolerance, most_iterations};
+  start(system, held, rhs, known, guess, x, end);
+  const PcgScalars outcome =
+      iterate_on_device(system, held, x) ? scalars() : iterate_in_batches(system, held, x, end);
+  iterations_per_decade_ = outcome.iterations / decades(tolerance);
+  return {outcome.iterations, outcome.done == PcgScalars::kConverged};
 }
 
 template class Pcg<double, ThisDevice>;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "sim/base/archive.h"
+#include "sim/device/while_loop.h"
 #include "sim/linear/block_rows.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/linear/preconditioner.h"
@@ -33,10 +34,16 @@ struct LinearSystem {
   StiffnessProduct<Real> self_contact = {};                // K p; empty: none
 };
 
+struct PcgEnd {
+  double tolerance;
+  int most_iterations;
+};
+
 template <class Real, class Device>
 class Pcg {
  public:
-  Pcg(Device& device, int rows);
+  // preconditioned: every system brings its preconditioner.
+  Pcg(Device& device, int rows, bool preconditioned = false);
 
   using System = LinearSystem<Real, Device>;
 
@@ -48,40 +55,34 @@ class Pcg {
   // downwards and as long as if that were its magnitude; then it has not converged.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
-  // How many iterations the last solve took, on which a GPU's next batches depend.
-  void visit(Archive& archive) { archive(last_iterations_); }
+  // How fast the last solve converged, on which the batches depend that a GPU is sent.
+  void visit(Archive& archive) { archive(iterations_per_decade_); }
   std::size_t bytes() const;
 
-  enum Done { kNotYet, kConverged, kIndefinite };
-  struct Scalars {  // on the device, so that iterations need no word from the host
-    double residual, target, alpha, beta;
-    int iterations, done, indefinite;
-
-    HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
-      if (done) return;
-      beta = new_residual / residual;
-      residual = new_residual;
-      iterations += 1;
-      done = indefinite ? int(kIndefinite) : !(residual > target);
-    }
-  };
   // The parts of solve(); public because nvcc allows no device lambda in a private member function.
   void project(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* guess);
   void start(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
-             const Vec3<Real>* guess, Vec3<Real>* x, double tolerance);
+             const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end);
   void start_preconditioned(const System& system, const char* held, const Vec3<Real>* rhs,
-                            const Vec3<Real>* known, double tolerance);
+                            const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end);
+  void find_target(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
+                   PcgEnd end);
   void iterate(const System& system, const char* held, Vec3<Real>* x);
   void advance(const char* held, Vec3<Real>* x);
   void advance_preconditioned(const System& system, const char* held, Vec3<Real>* x);
 
  private:
+  bool iterate_on_device(const System& system, const char* held, Vec3<Real>* x);
+  PcgScalars iterate_in_batches(const System& system, const char* held, Vec3<Real>* x, PcgEnd end);
+  PcgScalars scalars() const;
+
   Device& device_;
   int rows_;
-  int last_iterations_ = 8;
+  double iterations_per_decade_ = 4;  // of the tolerance
   Buffer<Mat3<Real>, Device> inverse_;
   Buffer<Vec3<Real>, Device> r_, z_, p_, q_;
-  Buffer<Scalars, Device> scalars_;
+  Buffer<PcgScalars, Device> scalars_;
+  WhileLoop<Device> loop_;
 };
 
 }  // namespace hysteron

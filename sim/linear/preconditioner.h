@@ -5,13 +5,40 @@
 
 namespace hysteron {
 
+// Numbers of conjugate gradients, on the device: iterations need no word from the host.
+struct PcgScalars {
+  enum Done { kNotYet, kConverged, kIndefinite, kExhausted };
+  double residual, target, alpha, beta;
+  int iterations, most_iterations, done, indefinite;
+
+  HYST_HD void begin(double first_residual, int most) {  // the target is known
+    residual = first_residual;
+    iterations = 0;
+    most_iterations = most;
+    done = !(residual > target);
+  }
+  HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
+    if (done) return;
+    beta = new_residual / residual;
+    residual = new_residual;
+    iterations += 1;
+    if (indefinite)
+      done = kIndefinite;
+    else if (!(residual > target))
+      done = kConverged;
+    else if (iterations >= most_iterations)
+      done = kExhausted;
+  }
+};
+
 template <class Real, class Device>
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
   // z = P r for the rows that are not held, z = 0 for those that are; P symmetric and positive definite, and
-  // the same for all calls within a solve.  r is zero on held rows.
-  virtual void apply(const Vec3<Real>* r, Vec3<Real>* z) = 0;
+  // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
+  // and does nothing once they are done.
+  virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
   virtual std::size_t bytes() const = 0;
 };
 

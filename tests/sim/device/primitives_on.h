@@ -5,6 +5,8 @@
 
 #include "sim/device/algorithms.h"
 #include "sim/device/host_result.h"
+#include "sim/device/team.h"
+#include "sim/device/while_loop.h"
 #include "tests/sim/device/primitives.h"
 
 namespace hysteron::test {
@@ -38,6 +40,89 @@ Totals totals(Device& device, const std::vector<double>& values) {
   return {result[0], result[1], result[2], result[3]};
 }
 
+// A lane's part of a row's sum.
+template <class LanesOfRow>
+HYST_HD Vec<double, 1> part_of_row(const LanesOfRow& lanes, const int* start, const int* item,
+                                   const double* value, int row) {
+  Vec<double, 1> part = Vec<double, 1>::Zero();
+  for (int j = start[row] + lanes.index(); j < start[row + 1]; j += LanesOfRow::kCount)
+    part[0] += value[item[j]];
+  return part;
+}
+
+template <class Device>
+std::vector<double> row_sums(Device& device, const Rows& rows, const std::vector<double>& values) {
+  const Buffer<int, Device> starts(device, rows.start), items(device, rows.item);
+  const Buffer<double, Device> in(device, values);
+  Buffer<double, Device> out(device, rows.start.size() - 1);
+  const int *start = starts.data(), *item = items.data();
+  const double* value = in.data();
+  double* sum = out.data();
+  for_each_row(
+      device, "row sums", static_cast<int>(out.size()), HYST_KERNEL(int i, const LanesOn<Device>& lanes) {
+        const Vec<double, 1> total = lanes.sum_of(part_of_row(lanes, start, item, value, i));
+        if (lanes.leads()) sum[i] = total[0];
+      });
+  return out.download();
+}
+
+template <class Device>
+Totals row_totals(Device& device, const Rows& rows, const std::vector<double>& values) {
+  const Buffer<int, Device> starts(device, rows.start), items(device, rows.item);
+  const Buffer<double, Device> in(device, values);
+  Buffer<double, Device> out(device, 3);
+  const int *start = starts.data(), *item = items.data();
+  const double* value = in.data();
+  double* total = out.data();
+  for_each_row_sum<2>(
+      device, "row totals", static_cast<int>(rows.start.size()) - 1,
+      HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
+        const Vec<double, 1> sum = lanes.sum_of(part_of_row(lanes, start, item, value, i));
+        if (!lanes.leads()) return;
+        sums.term[0] += sum[0];
+        sums.term[1] += 1;
+      },
+      HYST_KERNEL(const Sums<2>& sums) {
+        total[0] = sums.term[0];
+        total[1] = sums.term[1];
+        total[2] += 1;
+      });
+  const auto result = out.download();
+  return {result[0], 0, result[1], result[2]};
+}
+
+// One round of a ring: place i takes its neighbour's number plus `step`.
+struct Relay {
+  const int* from;
+  int* to;
+  int n, step;
+  HYST_HD void operator()(int i) const { to[i] = from[(i + 1) % n] + step; }
+  template <class LanesOfRow>
+  HYST_HD void operator()(int i, const LanesOfRow& lanes) const {
+    if (lanes.leads()) (*this)(i);
+  }
+};
+
+// Rounds element by element and rows by rows in turn.
+struct Rings {
+  int *a, *b;
+  int n, rounds;
+  template <class Team>
+  HYST_HD void operator()(int t, const Team& team) const {
+    int *from = a + t * n, *to = b + t * n;
+    for (int k = 0; k < rounds; ++k) {
+      const Relay relay{from, to, n, t == 0 ? -1 : 1};
+      if (k % 2)
+        team.for_each_row(n, relay);
+      else
+        team.for_each(n, relay);
+      int* taken = from;
+      from = to;
+      to = taken;
+    }
+  }
+};
+
 template <class Device>
 double written_to_host(Device& device, double value) {
   HostResult<double, Device> result(device);
@@ -56,6 +141,23 @@ class PrimitivesOn : public Primitives {
 
   std::vector<int> visits(int n) override { return test::visits(device_, n); }
   Totals totals(const std::vector<double>& values) override { return test::totals(device_, values); }
+
+  std::vector<double> row_sums(const Rows& rows, const std::vector<double>& values) override {
+    return test::row_sums(device_, rows, values);
+  }
+  Totals row_totals(const Rows& rows, const std::vector<double>& values) override {
+    return test::row_totals(device_, rows, values);
+  }
+
+  std::vector<int> relayed(int n, int rounds) override {
+    std::vector<int> numbers(2 * n);
+    for (int i = 0; i < 2 * n; ++i) numbers[i] = i % n;
+    Buffer<int, Device> a(device_, numbers), b(device_, numbers.size());
+    for_each_team(device_, "relay", 2, Rings{a.data(), b.data(), n, rounds});
+    return (rounds % 2 ? b : a).download();
+  }
+
+  std::vector<int> repeated(int n, int goal, int times) override;
 
   Scan scan(const std::vector<int>& count) override {
     Buffer<int, Device> in(device_, count), start(device_, count.size() + 1);
@@ -114,5 +216,31 @@ class PrimitivesOn : public Primitives {
   Device device_;
   Scratch<Device> scratch_;
 };
+
+template <class Device>
+void count_up(Device& device, int n, int goal, int* count, int* done) {
+  for_each(
+      device, "count", n, HYST_KERNEL(int i) {
+        if (!*done) count[i] += 1;
+      });
+  for_each(
+      device, "decide", 1, HYST_KERNEL(int) { *done = count[n - 1] % goal == 0; });
+}
+
+template <class Device>
+std::vector<int> PrimitivesOn<Device>::repeated(int n, int goal, int times) {
+  Buffer<int, Device> counts(device_, n), flag(device_, 1);
+  int *count = counts.data(), *done = flag.data();
+  WhileLoop<Device> loop;
+  const auto order = [&] { count_up(device_, n, goal, count, done); };
+  for (int k = 0; k < times; ++k) {
+    flag.upload({0});
+    if (loop.run(device_, {count, done}, done, order)) continue;
+    do {
+      order();
+    } while (!flag.download()[0]);
+  }
+  return counts.download();
+}
 
 }  // namespace hysteron::test

@@ -86,6 +86,63 @@ TEST_P(DevicePrimitives, SumsOfFractionsAreNearAndTheSameBitsTwice) {
   }
 }
 
+test::Rows rows_of(const std::vector<int>& counts) {
+  test::Rows rows{{0}, {}};
+  for (const int count : counts) {
+    for (int k = 0; k < count; ++k) rows.item.push_back(static_cast<int>(rows.item.size()));
+    rows.start.push_back(static_cast<int>(rows.item.size()));
+  }
+  return rows;
+}
+
+// None, one, both sides of a warp, and more.
+TEST_P(DevicePrimitives, RowsOfAnyLengthAreSummedWholeByWhoeverTakesThem) {
+  const std::vector<int> lengths = {0, 1, 31, 32, 33, 0, 7, 100, 64, 1};
+  for (const int n : {0, 1, 3, 4, 5, 1000, 70000}) {
+    std::vector<int> counts(n);
+    for (int i = 0; i < n; ++i) counts[i] = lengths[i % lengths.size()];
+    const test::Rows rows = rows_of(counts);
+    const auto whole = whole_numbers(static_cast<int>(rows.item.size()), -1000, 1000);
+    const std::vector<double> values(whole.begin(), whole.end());
+    std::vector<double> expected(n, 0.0);
+    for (int i = 0; i < n; ++i)
+      expected[i] = std::accumulate(values.begin() + rows.start[i], values.begin() + rows.start[i + 1], 0.0);
+    EXPECT_EQ(primitives->row_sums(rows, values), expected) << n;
+    const auto totals = primitives->row_totals(rows, values);
+    EXPECT_EQ(totals.sum, std::accumulate(values.begin(), values.end(), 0.0)) << n;
+    EXPECT_EQ(totals.count, n);
+    EXPECT_EQ(totals.finished, 1);
+  }
+}
+
+TEST_P(DevicePrimitives, RowsOfFractionsHaveTheSameBitsTwice) {
+  const test::Rows rows = rows_of(std::vector<int>(3000, 37));
+  const auto values = fractions(static_cast<int>(rows.item.size()));
+  EXPECT_EQ(primitives->row_sums(rows, values), primitives->row_sums(rows, values));
+  EXPECT_EQ(primitives->row_totals(rows, values).sum, primitives->row_totals(rows, values).sum);
+}
+
+// After r rounds place i has the number of place i + r, r times one more or less.
+TEST_P(DevicePrimitives, ATeamSeesInEveryLoopWhatTheOneBeforeItWrote) {
+  for (const int n : {1, 7, 257, 9001}) {
+    constexpr int kRounds = 31;
+    std::vector<int> expected(2 * n);
+    for (int i = 0; i < n; ++i) {
+      expected[i] = (i + kRounds) % n - kRounds;
+      expected[n + i] = (i + kRounds) % n + kRounds;
+    }
+    EXPECT_EQ(primitives->relayed(n, kRounds), expected) << n;
+  }
+}
+
+TEST_P(DevicePrimitives, ARepeatedLoopEndsWhenItIsDoneAndCanBeRunAgain) {
+  for (const int n : {1, 1000})
+    for (const int goal : {1, 2, 37}) {
+      constexpr int kTimes = 3;
+      EXPECT_EQ(primitives->repeated(n, goal, kTimes), std::vector<int>(n, kTimes * goal)) << goal;
+    }
+}
+
 TEST_P(DevicePrimitives, AScanStartsEveryRowWhereTheOnesBeforeItEnd) {
   for (const int n : kSizes) {
     const auto count = whole_numbers(n, 0, 9);

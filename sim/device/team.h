@@ -1,0 +1,109 @@
+// Several loops, each over what the one before it has written, in one launch: for work too small to fill a
+// GPU.
+#pragma once
+
+#include "sim/device/rows.h"
+#ifdef __CUDACC__
+#include <cooperative_groups.h>
+#endif
+
+namespace hysteron {
+
+// The CPU's threads.
+class CpuTeam {
+ public:
+  CpuTeam(Cpu& cpu, const char* name) : cpu_(cpu), name_(name) {}
+  // All see what body(i), i in [0, n), has written when this returns.
+  template <class Body>
+  void for_each(int n, const Body& body) const {
+    hysteron::for_each(cpu_, name_, n, body);
+  }
+  template <class Body>
+  void for_each_row(int rows, const Body& body) const {
+    hysteron::for_each_row(cpu_, name_, rows, body);
+  }
+
+ private:
+  Cpu& cpu_;
+  const char* name_;
+};
+
+// Runs body(t, team) for t in [0, teams); no team sees what another one writes.  `stop` as in for_each_row().
+template <class Body>
+void for_each_team(Cpu& cpu, const char* name, int teams, const Body& body, const int* /*stop*/ = nullptr) {
+  for (int t = 0; t < teams; ++t) body(t, CpuTeam(cpu, name));
+}
+
+#ifdef __CUDACC__
+// Blocks that wait for one another: a cluster of Hopper's, on older GPUs a single block.
+class CudaTeam {
+ public:
+  template <class Body>
+  HYST_HD void for_each(int n, const Body& body) const {
+    for (int i = threadIdx.x * blocks() + block(); i < n; i += blockDim.x * blocks()) body(i);
+    wait();
+  }
+  template <class Body>
+  HYST_HD void for_each_row(int rows, const Body& body) const {
+    const int warp = threadIdx.x / Warp::kCount, warps = blockDim.x / Warp::kCount;
+    for (int i = warp * blocks() + block(); i < rows; i += warps * blocks()) body(i, Warp{});
+    wait();
+  }
+  static HYST_HD int blocks() {
+#if __CUDA_ARCH__ >= 900
+    return cooperative_groups::this_cluster().num_blocks();
+#else
+    return 1;
+#endif
+  }
+
+ private:
+  static HYST_HD int block() {
+#if __CUDA_ARCH__ >= 900
+    return cooperative_groups::this_cluster().block_rank();
+#else
+    return 0;
+#endif
+  }
+  static HYST_HD void wait() {
+#if __CUDA_ARCH__ >= 900
+    cooperative_groups::this_cluster().sync();
+#elif defined(__CUDA_ARCH__)
+    __syncthreads();
+#endif
+  }
+};
+
+inline constexpr int kTeamBlocks = 8;  // the largest cluster that every GPU with clusters has
+inline constexpr int kTeamThreads = 1024;
+
+template <class Body>
+__global__ void __launch_bounds__(kTeamThreads)
+    for_each_team_kernel(const __grid_constant__ Body body, const int* stop) {
+  if (stop && *stop) return;
+  const CudaTeam team;
+  body(blockIdx.x / team.blocks(), team);
+}
+
+template <class Body>
+void for_each_team(Cuda& cuda, const char* name, int teams, const Body& body, const int* stop = nullptr) {
+  ++device_counts.loops;
+  if (teams == 0) return;
+  cudaFuncAttributes compiled{};
+  check_cuda(cudaFuncGetAttributes(&compiled, for_each_team_kernel<Body>), name);
+  constexpr int kHopper = 90;
+  const unsigned blocks = compiled.ptxVersion >= kHopper ? kTeamBlocks : 1;
+  cudaLaunchAttribute cluster{};
+  cluster.id = cudaLaunchAttributeClusterDimension;
+  cluster.val.clusterDim = {blocks, 1, 1};
+  cudaLaunchConfig_t launch{};
+  launch.gridDim = teams * blocks;
+  launch.blockDim = kTeamThreads;
+  launch.stream = cuda.stream;
+  launch.attrs = &cluster;
+  launch.numAttrs = blocks > 1 ? 1 : 0;
+  check_cuda(cudaLaunchKernelEx(&launch, for_each_team_kernel<Body>, body, stop), name);
+}
+#endif
+
+}  // namespace hysteron

@@ -1,0 +1,137 @@
+// Rows of block matrices times vectors, by the lanes that a device gives a row (sim/device/rows.h).
+//
+// Of each block a warp's lane takes one number, so that its loads lie side by side:
+//
+//   lane = 9 b + 3 c + r      row r and column c of every third block, from the b-th on; five lanes idle
+//
+// and what it adds up belongs to component r of the product, r = lane % 3.
+#pragma once
+
+#include "sim/device/rows.h"
+#include "sim/linear/coarse_level.h"
+#include "sim/linear/gathered_forces.h"
+
+namespace hysteron {
+
+template <class Lanes, class Real>
+class LaneSum {
+ public:
+  HYST_HD explicit LaneSum(const Lanes& lanes)
+      : lanes_(lanes), entry_(lanes.index() % 9), active_(lanes.index() < 27) {}
+
+  // Block times vector.
+  HYST_HD void add(const Mat3<Real>& block, const Vec3<Real>& v) {
+    if (lanes_.index() < 9) part_ += block.data()[entry_] * v.data()[column()];
+  }
+  // block[j] times v[col[j]] for j in [first, last).
+  HYST_HD void add(const Mat3<Real>* block, const int* col, int first, int last, const Vec3<Real>* v) {
+    if (!active_) return;
+    for (int j = first + lanes_.index() / 9; j < last; j += 3)
+      part_ += block[j].data()[entry_] * v[col[j]].data()[column()];
+  }
+  // block[j] times v[j] for j in [0, count).
+  template <class Other>
+  HYST_HD void add(const Mat3<Real>* block, int count, const Vec3<Other>* v) {
+    if (!active_) return;
+    for (int j = lanes_.index() / 9; j < count; j += 3)
+      part_ += block[j].data()[entry_] * static_cast<Real>(v[j].data()[column()]);
+  }
+  // factor[j] times v[index[j]] for j in [first, last).
+  HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vec3<Real>* v) {
+    if (!active_) return;
+    for (int j = first + lanes_.index() / 3; j < last; j += 9)
+      part_ += factor[j] * v[index[j]].data()[lanes_.index() % 3];
+  }
+  // sign times the forces on a vertex.
+  HYST_HD void add(Real sign, const GatheredForces<Real>& forces, int vertex) {
+    if (!active_ || !forces.start) return;
+    for (int j = forces.start[vertex] + lanes_.index() / 3; j < forces.start[vertex + 1]; j += 9)
+      part_ += sign * forces.force[forces.item[j]].data()[lanes_.index() % 3];
+  }
+
+  // The sum over the lanes, in each of them.
+  HYST_HD Vec3<Real> total() const {
+    Real sum = part_ + lanes_.further(part_, 9) + lanes_.further(part_, 18);
+    sum = sum + lanes_.further(sum, 3) + lanes_.further(sum, 6);
+    return {lanes_.value_of(sum, 0), lanes_.value_of(sum, 1), lanes_.value_of(sum, 2)};
+  }
+
+ private:
+  HYST_HD int column() const { return entry_ / 3; }
+  Lanes lanes_;
+  int entry_;
+  bool active_;
+  Real part_ = 0;
+};
+
+template <class Lanes, class Real>
+HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matrix, int i,
+                             const Vec3<Real>* v) {
+  if constexpr (Lanes::kCount == 1) {
+    return matrix.times(i, v);
+  } else {
+    LaneSum<Lanes, Real> sum(lanes);
+    sum.add(matrix.diagonal[i], v[i]);
+    sum.add(matrix.off_diagonal, matrix.col, matrix.row_ptr[i], matrix.row_ptr[i + 1], v);
+    return sum.total();
+  }
+}
+
+// What a system's matrix, softening and elements make of v.
+template <class Real>
+struct SystemProduct {
+  BlockRowsView<Real> matrix;
+  ScalarRowsView<Real> softening;          // null: none
+  GatheredForces<Real> bending, pressing;  // -K v and K v; null: none
+
+  template <class Lanes>
+  HYST_HD Vec3<Real> at(const Lanes& lanes, int i, const Vec3<Real>* v) const {
+    if constexpr (Lanes::kCount == 1) {
+      Vec3<Real> sum = softening.off_diagonal ? matrix.times(i, v, softening) : matrix.times(i, v);
+      if (bending.start) sum -= bending.at(i);
+      if (pressing.start) sum += pressing.at(i);
+      return sum;
+    } else {
+      LaneSum<Lanes, Real> sum(lanes);
+      const int first = matrix.row_ptr[i], last = matrix.row_ptr[i + 1];
+      sum.add(matrix.diagonal[i], v[i]);
+      sum.add(matrix.off_diagonal, matrix.col, first, last, v);
+      if (softening.off_diagonal) sum.add(softening.off_diagonal, matrix.col, first, last, v);
+      sum.add(Real(-1), bending, i);
+      sum.add(Real(1), pressing, i);
+      const Vec3<Real> total = sum.total();
+      if (!softening.off_diagonal) return total;
+      return total + softening.diagonal[i] * v[i];
+    }
+  }
+};
+
+// The finer vector seen from coarse node i.
+template <class Lanes, class Real>
+HYST_HD Vec3<Real> restricted(const Lanes& lanes, const CoarseLevelView<Real>& level, int i,
+                              const Vec3<Real>* finer) {
+  if constexpr (Lanes::kCount == 1) {
+    return level.restricted(i, finer);
+  } else {
+    LaneSum<Lanes, Real> sum(lanes);
+    sum.add(level.weight, level.item, level.start[i], level.start[i + 1], finer);
+    return sum.total();
+  }
+}
+
+// Row i of a symmetric dense matrix of n rows times v.
+template <class Lanes, class Real>
+HYST_HD Eigen::Vector3d dense_row_times(const Lanes& lanes, const Eigen::Matrix3d* matrix, int n, int i,
+                                        const Vec3<Real>* v) {
+  if constexpr (Lanes::kCount == 1) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int j = 0; j < n; ++j) sum += matrix[j * n + i].transpose() * v[j].template cast<double>();
+    return sum;
+  } else {
+    LaneSum<Lanes, double> sum(lanes);
+    sum.add(matrix + i * n, n, v);
+    return sum.total();
+  }
+}
+
+}  // namespace hysteron

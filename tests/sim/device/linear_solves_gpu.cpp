@@ -1,0 +1,8 @@
+// Compiled by nvcc only.
+#include "tests/sim/device/linear_solves_on.h"
+
+namespace hysteron::test {
+
+std::unique_ptr<LinearSolves> gpu_linear_solves() { return std::make_unique<LinearSolvesOn<Cuda>>(0); }
+
+}  // namespace hysteron::test

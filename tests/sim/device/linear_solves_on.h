@@ -1,0 +1,86 @@
+// The systems of linear_solves.h on one device: compiled for the CPU, and by nvcc for the GPU.
+#pragma once
+
+#include <cmath>
+
+#include "sim/linear/linear_solver.h"
+#include "sim/linear/multigrid_solver.h"
+#include "tests/sim/device/linear_solves.h"
+
+namespace hysteron::test {
+
+template <class Device>
+class LinearSolvesOn : public LinearSolves {
+ public:
+  template <class... Arguments>
+  explicit LinearSolvesOn(Arguments... arguments) : device_(arguments...) {}
+
+  LinearSolve solve(const ClothMesh& mesh, bool multigrid, double tolerance, bool by_batches,
+                    int times) override {
+    const int n = mesh.vertices();
+    BlockRows<double, Device> rows(device_, mesh);
+    fill(mesh, rows);
+    std::vector<char> held(n, 0);
+    held[0] = 1;
+    const Buffer<char, Device> is_held(device_, held);
+    const Buffer<Eigen::Vector3d, Device> rhs(device_, load(n));
+    Buffer<Eigen::Vector3d, Device> x(device_, n);
+    std::unique_ptr<LinearSolver<double, Device>> solver =
+        std::make_unique<BlockJacobiSolver<double, Device>>(device_, n);
+    if (multigrid)
+      solver = std::make_unique<MultigridSolver<double, Device>>(device_, mesh,
+                                                                 make_rest_hierarchy(mesh, held), 0.0);
+    LinearSystem<double, Device> system{rows.view()};
+    if (by_batches)  // whose loops may change
+      system.self_contact = [](const Vec3<double>*) { return GatheredForces<double>{}; };
+    PcgOutcome outcome;
+    const long before = device_counts.loops;
+    for (int k = 0; k < times; ++k)
+      outcome = solver->solve(system, is_held.data(), rhs.data(), x.data(), tolerance);
+    const long loops = device_counts.loops - before;
+    const auto solution = x.download();
+    return {solution, residual(rows, solution), outcome.iterations, outcome.converged, loops};
+  }
+
+ private:
+  static constexpr double kMass = 0.01;  // beside springs of 1
+
+  static std::vector<Eigen::Vector3d> load(int n) {
+    std::vector<Eigen::Vector3d> f;
+    for (int i = 0; i < n; ++i) f.push_back({std::sin(0.1 * i), 1, std::cos(0.7 * i)});
+    return f;
+  }
+
+  void fill(const ClothMesh& mesh, BlockRows<double, Device>& rows) {
+    std::vector<Eigen::Matrix3d> off_diagonal(rows.col().size()), diagonal;
+    for (int i = 0; i < mesh.vertices(); ++i) {
+      diagonal.push_back(kMass * Eigen::Matrix3d::Identity());
+      for (int j = rows.row_ptr()[i]; j < rows.row_ptr()[i + 1]; ++j) {
+        const Eigen::Vector3d along = (mesh.rest[rows.col()[j]] - mesh.rest[i]).normalized();
+        const Eigen::Matrix3d spring = along * along.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+        off_diagonal[j] = -spring;
+        diagonal[i] += spring;
+      }
+    }
+    device_upload(device_, rows.view().off_diagonal, off_diagonal.data(),
+                  off_diagonal.size() * sizeof(Eigen::Matrix3d));
+    device_upload(device_, rows.view().diagonal, diagonal.data(), diagonal.size() * sizeof(Eigen::Matrix3d));
+  }
+
+  static double residual(const BlockRows<double, Device>& rows, const std::vector<Eigen::Vector3d>& x) {
+    auto off_diagonal = rows.off_diagonal(), diagonal = rows.diagonal();
+    const auto f = load(static_cast<int>(x.size()));
+    const BlockRowsView<double> matrix{static_cast<int>(x.size()), rows.row_ptr().data(), rows.col().data(),
+                                       off_diagonal.data(), diagonal.data()};
+    double error2 = 0, size2 = 0;
+    for (int i = 1; i < matrix.rows; ++i) {
+      error2 += (f[i] - matrix.times(i, x.data())).squaredNorm();
+      size2 += f[i].squaredNorm();
+    }
+    return std::sqrt(error2 / size2);
+  }
+
+  Device device_;
+};
+
+}  // namespace hysteron::test

@@ -1,0 +1,102 @@
+// Conjugate gradients on either device: exact where they say so, alike, and the same bits whoever repeats
+// them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/time/back_end.h"
+#include "tests/sim/device/linear_solves.h"
+
+namespace hysteron {
+namespace {
+
+using test::LinearSolve;
+
+constexpr double kTolerance = 1e-11;
+// The residual in the preconditioner's norm is below the tolerance; in the plain norm, which is compared, it
+// is larger by the root of the preconditioner's condition at most, some hundreds for these springs.
+constexpr double kPlain = 1e-8;
+
+// Hierarchies without a level, with small levels only, and with levels of more than a thousand nodes.
+constexpr int kTriangles[] = {2, 3000, 40000};
+
+ClothMesh mesh_of(int triangles) { return make_rectangle(0.5, 0.5, triangles, MeshFamily::random, 1); }
+
+double farthest(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) farthest = std::max(farthest, (a[i] - b[i]).norm());
+  return farthest;
+}
+
+bool same_bits(const LinearSolve& a, const LinearSolve& b) {
+  return std::memcmp(a.x.data(), b.x.data(), a.x.size() * sizeof(Eigen::Vector3d)) == 0;
+}
+
+class LinearSolvesOnEachDevice : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    std::string reason;
+    if (on_gpu() && gpu_count(reason) == 0) GTEST_SKIP() << "no GPU: " << reason;
+    solves = on_gpu() ? test::gpu_linear_solves() : test::cpu_linear_solves();
+    ASSERT_TRUE(solves);
+  }
+  static bool on_gpu() { return GetParam() == std::string("gpu"); }
+  std::unique_ptr<test::LinearSolves> solves;
+};
+INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu", "gpu"),
+                         [](const auto& device) { return std::string(device.param); });
+
+TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
+  for (const int triangles : kTriangles)
+    for (const bool multigrid : {false, true}) {
+      const LinearSolve solve = solves->solve(mesh_of(triangles), multigrid, kTolerance);
+      EXPECT_TRUE(solve.converged) << triangles;
+      EXPECT_LT(solve.residual, kPlain) << triangles;
+      EXPECT_EQ(solve.x[0], Eigen::Vector3d::Zero().eval());
+    }
+}
+
+TEST_P(LinearSolvesOnEachDevice, HaveTheBitsOfBatchesTwiceTheSame) {
+  for (const int triangles : kTriangles)
+    for (const bool multigrid : {false, true}) {
+      const ClothMesh mesh = mesh_of(triangles);
+      constexpr double kLoose = 1e-4;
+      const LinearSolve once = solves->solve(mesh, multigrid, kLoose),
+                        again = solves->solve(mesh, multigrid, kLoose, false, 3),
+                        batches = solves->solve(mesh, multigrid, kLoose, true, 3);
+      EXPECT_GT(once.x.back().norm(), 0);
+      EXPECT_TRUE(same_bits(once, again)) << triangles;
+      EXPECT_TRUE(same_bits(once, batches)) << triangles;
+      EXPECT_EQ(once.iterations, batches.iterations) << triangles;
+    }
+}
+
+// Two devices stop at iterates that differ within the tolerance.
+TEST_P(LinearSolvesOnEachDevice, AgreeWithTheCpu) {
+  if (!on_gpu()) GTEST_SKIP() << "this is the CPU";
+  for (const int triangles : kTriangles)
+    for (const bool multigrid : {false, true}) {
+      const ClothMesh mesh = mesh_of(triangles);
+      const LinearSolve here = solves->solve(mesh, multigrid, kTolerance),
+                        there = test::cpu_linear_solves()->solve(mesh, multigrid, kTolerance);
+      double size = 0;
+      for (const Eigen::Vector3d& x : there.x) size = std::max(size, x.norm());
+      EXPECT_LT(farthest(here.x, there.x), kPlain * size) << triangles;
+      EXPECT_NEAR(here.iterations, there.iterations, 1 + 0.02 * there.iterations) << triangles;
+    }
+}
+
+TEST_P(LinearSolvesOnEachDevice, OrderNoLoopForAnIterationThatTheGpuRepeatsItself) {
+  if (!on_gpu()) GTEST_SKIP() << "the CPU orders each";
+  constexpr int kTimes = 4;
+  const ClothMesh mesh = mesh_of(3000);
+  const LinearSolve tight = solves->solve(mesh, false, kTolerance, false, kTimes),
+                    loose = solves->solve(mesh, false, 1e-2, false, kTimes);
+  EXPECT_GT(tight.iterations, 2 * loose.iterations);
+  EXPECT_EQ(tight.loops, loose.loops);
+}
+
+}  // namespace
+}  // namespace hysteron
