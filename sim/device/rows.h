@@ -72,15 +72,15 @@ using LanesOn = typename LanesOf<Device>::Type;
 // Runs body(i, lanes) for i in [0, rows).  On a GPU nothing runs once *stop, in its memory, is not 0; null:
 // whatever happens.
 template <class Body>
-void for_each_row(Cpu& cpu, const char* name, int rows, const Body& body, const int* /*stop*/ = nullptr) {
-  for_each(cpu, name, rows, [&](int i) { body(i, SingleLane{}); });
+void for_each_row(Cpu& cpu, const Kernel& kernel, int rows, const Body& body, const int* /*stop*/ = nullptr) {
+  for_each(cpu, kernel, rows, [&](int i) { body(i, SingleLane{}); });
 }
 
 // As for_each_sum(), with body(i, lanes, sums); only the lane that leads adds to the sums.
 template <int K, class Body, class Finish>
-void for_each_row_sum(Cpu& cpu, const char* name, int rows, const Body& body, const Finish& finish) {
+void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
   for_each_sum<K>(
-      cpu, name, rows, [&](int i, Sums<K>& sums) { body(i, SingleLane{}, sums); }, finish);
+      cpu, kernel, rows, [&](int i, Sums<K>& sums) { body(i, SingleLane{}, sums); }, finish);
 }
 
 #ifdef __CUDACC__
@@ -94,12 +94,13 @@ __global__ void for_each_row_kernel(int rows, const Body body, const int* stop) 
 }
 
 template <class Body>
-void for_each_row(Cuda& cuda, const char* name, int rows, const Body& body, const int* stop = nullptr) {
-  ++device_counts.loops;
+void for_each_row(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const int* stop = nullptr) {
   if (rows == 0) return;
+  ++device_counts.loops;
+  const Profiled<Cuda> profiled(cuda, kernel);
   const int blocks = (rows + kRowsPerBlock - 1) / kRowsPerBlock;
   for_each_row_kernel<<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(rows, body, stop);
-  check_cuda(cudaGetLastError(), name);
+  check_cuda(cudaGetLastError(), kernel.name);
 }
 
 // Warps take rows in turn, which makes for_each_sum()'s elements of them.
@@ -116,18 +117,19 @@ struct LaneOfRow {
 inline constexpr int kRowSumBlocks = 3 * kSumBlocks;
 
 template <int K, class Body, class Finish>
-void for_each_row_sum(Cuda& cuda, const char* name, int rows, const Body& body, const Finish& finish) {
+void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
   ++device_counts.loops;
   if (cuda.partial_size < kRowSumBlocks * K) {
     ++device_counts.allocations;
-    if (cuda.partial) check_cuda(cudaFree(cuda.partial), name);
-    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * kRowSumBlocks * K), name);
+    if (cuda.partial) check_cuda(cudaFree(cuda.partial), kernel.name);
+    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * kRowSumBlocks * K), kernel.name);
     cuda.partial_size = kRowSumBlocks * K;
   }
+  const Profiled<Cuda> profiled(cuda, kernel);
   const int blocks = std::clamp((rows + kRowsPerBlock - 1) / kRowsPerBlock, 1, kRowSumBlocks);
   for_each_sum_kernel<K><<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(
       rows * Warp::kCount, LaneOfRow<Body>{body}, finish, cuda.partial, cuda.arrived);
-  check_cuda(cudaGetLastError(), name);
+  check_cuda(cudaGetLastError(), kernel.name);
 }
 #endif
 

@@ -12,26 +12,27 @@ namespace hysteron {
 // The CPU's threads.
 class CpuTeam {
  public:
-  CpuTeam(Cpu& cpu, const char* name) : cpu_(cpu), name_(name) {}
+  CpuTeam(Cpu& cpu, const Kernel& kernel) : cpu_(cpu), kernel_(kernel) {}
   // All see what body(i), i in [0, n), has written when this returns.
   template <class Body>
   void for_each(int n, const Body& body) const {
-    hysteron::for_each(cpu_, name_, n, body);
+    hysteron::for_each(cpu_, kernel_, n, body);
   }
   template <class Body>
   void for_each_row(int rows, const Body& body) const {
-    hysteron::for_each_row(cpu_, name_, rows, body);
+    hysteron::for_each_row(cpu_, kernel_, rows, body);
   }
 
  private:
   Cpu& cpu_;
-  const char* name_;
+  const Kernel& kernel_;
 };
 
 // Runs body(t, team) for t in [0, teams); no team sees what another one writes.  `stop` as in for_each_row().
 template <class Body>
-void for_each_team(Cpu& cpu, const char* name, int teams, const Body& body, const int* /*stop*/ = nullptr) {
-  for (int t = 0; t < teams; ++t) body(t, CpuTeam(cpu, name));
+void for_each_team(Cpu& cpu, const Kernel& kernel, int teams, const Body& body,
+                   const int* /*stop*/ = nullptr) {
+  for (int t = 0; t < teams; ++t) body(t, CpuTeam(cpu, kernel));
 }
 
 #ifdef __CUDACC__
@@ -86,11 +87,12 @@ __global__ void __launch_bounds__(kTeamThreads)
 }
 
 template <class Body>
-void for_each_team(Cuda& cuda, const char* name, int teams, const Body& body, const int* stop = nullptr) {
-  ++device_counts.loops;
+void for_each_team(Cuda& cuda, const Kernel& kernel, int teams, const Body& body, const int* stop = nullptr) {
   if (teams == 0) return;
+  ++device_counts.loops;
+  const Profiled<Cuda> profiled(cuda, kernel);
   cudaFuncAttributes compiled{};
-  check_cuda(cudaFuncGetAttributes(&compiled, for_each_team_kernel<Body>), name);
+  check_cuda(cudaFuncGetAttributes(&compiled, for_each_team_kernel<Body>), kernel.name);
   constexpr int kHopper = 90;
   const unsigned blocks = compiled.ptxVersion >= kHopper ? kTeamBlocks : 1;
   cudaLaunchAttribute cluster{};
@@ -102,7 +104,7 @@ void for_each_team(Cuda& cuda, const char* name, int teams, const Body& body, co
   launch.stream = cuda.stream;
   launch.attrs = &cluster;
   launch.numAttrs = blocks > 1 ? 1 : 0;
-  check_cuda(cudaLaunchKernelEx(&launch, for_each_team_kernel<Body>, body, stop), name);
+  check_cuda(cudaLaunchKernelEx(&launch, for_each_team_kernel<Body>, body, stop), kernel.name);
 }
 #endif
 

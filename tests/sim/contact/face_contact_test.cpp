@@ -15,10 +15,10 @@ namespace {
 using Eigen::Vector3d;
 using test::Trial;
 
-constexpr double kSide = 0.1;           // of the cloth [m]
-constexpr double kClosed = 1e-9;        // of the energy balance
+constexpr double kSide = 0.1;     // of the cloth [m]
+constexpr double kClosed = 1e-9;  // of the energy balance
 constexpr double kGravity = 9.81;
-constexpr int kDivisions = 20;          // of a triangle's edges: 231 points
+constexpr int kDivisions = 20;  // of a triangle's edges: 231 points
 
 using Triangle = Vector3d[3];
 
@@ -40,8 +40,7 @@ double least_distance(const Obstacle3<double>& obstacle, const Vector3d (&x)[3])
 
 // Of all triangles of a simulation from all its obstacles [m].
 double least_distance(const Trial& trial, Simulation& simulation) {
-  const auto set =
-      obstacles_during<double>(trial.scene.obstacle, 0.3, simulation.time(), simulation.time());
+  const auto set = obstacles_during<double>(trial.scene.obstacle, 0.3, simulation.time(), simulation.time());
   const auto position = simulation.positions();
   double least = 1e30;
   for (const auto& face : trial.cloth.mesh.face) {
@@ -84,8 +83,8 @@ std::vector<Obstacle> convex_obstacles() {
   cylinder.height = 0.02;
   Obstacle ball = rod(0.004, {0, 0, 0});
   ball.kind = ObstacleKind::sphere;
-  return {box({0.01, 0.02, 0.01}, {0, 0, 0}), box({0.01, 0.02, 0.01}, {0, 0, 0}, 2e-3),
-          rod(1e-3, {0, 0, 0}), cylinder, ball};
+  return {box({0.01, 0.02, 0.01}, {0, 0, 0}), box({0.01, 0.02, 0.01}, {0, 0, 0}, 2e-3), rod(1e-3, {0, 0, 0}),
+          cylinder, ball};
 }
 
 void random_triangle(std::mt19937& generator, double size, Vector3d (&x)[3]) {
@@ -228,7 +227,8 @@ TEST(FaceContact, SheetLetDownOnEdgesCornersAndRodsIsNeverInThem) {
     EXPECT_EQ(simulation->deep_steps(), 0) << of.name;
     EXPECT_EQ(simulation->unbalanced_steps(), 0) << of.name;
     EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << of.name;
-    std::printf("%s: least distance %.3f mm, newton %ld\n", of.name, 1e3 * least_distance(trial, *simulation), (long)simulation->newton_iterations());
+    std::printf("%s: least distance %.3f mm, newton %ld\n", of.name, 1e3 * least_distance(trial, *simulation),
+                (long)simulation->newton_iterations());
   }
 }
 
