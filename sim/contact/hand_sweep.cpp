@@ -20,9 +20,10 @@ bool HandSweep<Real, Device>::is_free(const Vec3<Real>* x, const Vec3<Real>* way
         Vec3<Real> from[4], along[4];
         pair.gather(x, from);
         pair.gather(way, along);
+        const Approach<Real> start = approach(from, along, pair.is_edges());
         const Real hardest = static_cast<Real>(kHardest) * pair.shell,
-                   nearer = static_cast<Real>(kNearer) * distance_of(from, pair.is_edges());
-        share[p] = feasible_step(from, along, pair.is_edges(), nearer < hardest ? nearer : hardest);
+                   nearer = static_cast<Real>(kNearer) * start.distance;
+        share[p] = feasible_step(start, from, along, pair.is_edges(), nearer < hardest ? nearer : hardest);
       });
   return !(smallest(device_, pairs_.scratch(), share, pairs_.count(), Real(1)) < 1);
 }
