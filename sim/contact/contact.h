@@ -43,8 +43,8 @@ class Contact {
            const BlockRowsView<Real>* matrix);
   // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
-  // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part (sliding_share:
-  // sliding_stop.h).
+  // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part
+  // (sliding_share: sliding_stop.h).
   void lag(const Vec3<Real>* position);
   void evaluate(const Vec3<Real>* position, const Vec3<Real>* before, Vec3<Real>* gradient);
   const double* energies() const { return energy_.data(); }  // [J]
@@ -53,10 +53,10 @@ class Contact {
                      Real sliding_share);
   bool has_faces() const { return faces_.has_value(); }
 
-  // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that has
-  // another side, nor it through them (contact_sweep.cpp, face_sweep.cpp).  keep_out() ends each path of a step from `start` to `end` where it meets an
-  // obstacle that bars it, reaches() says whether none is barred, and feasible_step() how long a step along
-  // `direction` from x may be, up to `max_step`.
+  // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
+  // has another side, nor it through them (contact_sweep.cpp, face_sweep.cpp).  keep_out() ends each path of
+  // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
+  // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
   void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
   bool reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
@@ -92,7 +92,7 @@ class Contact {
   Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
   Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
   std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
-  GrowingBuffer<Real, Device> share_;            // of their ways that vertices may go; empty where all may
+  GrowingBuffer<Real, Device> share_;               // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;
 };
 

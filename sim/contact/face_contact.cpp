@@ -29,7 +29,8 @@ HYST_HD Vec3<Real> face_slip(const FaceFriction<Real>& friction, const Eigen::Ve
 
 double sharp_radius(const Scene& scene, const ClothMesh& mesh) {
   double longest = 0;  // squared edge
-  for (const Edge& e : mesh.edge) longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).squaredNorm());
+  for (const Edge& e : mesh.edge)
+    longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).squaredNorm());
   return longest / (6 * (1 - kCompressed) * scene.fabric.thickness);
 }
 
@@ -156,8 +157,7 @@ void FaceContact<Real, Device>::evaluate(const ObstacleSet<Real>& in, const Vec3
       });
   const GatheredForces<Real> forces{vertex_start_.data(), vertex_item_.data(), force};
   for_each(
-      device_, "face contact: forces", vertices_,
-      HYST_KERNEL(int i) { target[i] += factor * forces.at(i); });
+      device_, "face contact: forces", vertices_, HYST_KERNEL(int i) { target[i] += factor * forces.at(i); });
 }
 
 // One obstacle after the other, so that a face has one point at a time.

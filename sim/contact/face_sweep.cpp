@@ -94,8 +94,8 @@ Real FaceContact<Real, Device>::end_before(const Obstacle3<Real>& in, const Vec3
         if (any_held(corner[f], held)) return;
         const FacePath<Real> path = path_beside(obstacle, corner[f], start, end);
         if (!(free_share(path, obstacle) < 1)) return;
-        share[f] = stay ? Real(0)
-                        : share_before<Real>(path, obstacle, path.distance_at(obstacle, Real(0)), -rest);
+        share[f] =
+            stay ? Real(0) : share_before<Real>(path, obstacle, path.distance_at(obstacle, Real(0)), -rest);
       });
   const Real least = smallest(device_, scratch_, share, faces_, Real(1));
   if (!(least < 1)) return 1;
@@ -103,7 +103,8 @@ Real FaceContact<Real, Device>::end_before(const Obstacle3<Real>& in, const Vec3
   for_each(
       device_, "face contact: shortened", vertices_, HYST_KERNEL(int i) {
         Real own = 1;
-        for (int j = first[i]; j < first[i + 1]; ++j) own = share[item[j] / 3] < own ? share[item[j] / 3] : own;
+        for (int j = first[i]; j < first[i + 1]; ++j)
+          own = share[item[j] / 3] < own ? share[item[j] / 3] : own;
         if (!(own < 1)) return;
         const Vec3<Real> from = carried(obstacle, start[i]);
         end[i] = from + own * (end[i] - from);

@@ -21,11 +21,11 @@ inline constexpr double kCentring = 0.1;       // c of face_point.h, over the th
 
 template <class Real>
 struct FaceTouch {
-  double energy = 0;                 // [J]
-  Real force = 0, stiffness = 0;     // at the point, by its distance [N], [N/m]
-  Vec3<Real> weight, direction;      // of the point; gradient of its distance
-  Vec3<Real> pull[3];                // on the corners, towards the obstacle [N]
-  Real limit = 0;                    // net force, times the coefficient of friction [N]
+  double energy = 0;              // [J]
+  Real force = 0, stiffness = 0;  // at the point, by its distance [N], [N/m]
+  Vec3<Real> weight, direction;   // of the point; gradient of its distance
+  Vec3<Real> pull[3];             // on the corners, towards the obstacle [N]
+  Real limit = 0;                 // net force, times the coefficient of friction [N]
   bool inside = false;
 
   HYST_HD bool bears() const { return force > 0; }
@@ -51,8 +51,7 @@ HYST_HD HYST_NOINLINE FaceTouch<Real> face_touch(const Obstacle3<Real>& obstacle
   for (int k = 0; k < 3; ++k)
     if (corner[first].normal.dot(p[k] - p[first]) < 0) corner_is_nearest = false;
   if (corner_is_nearest) return touch;
-  const FacePoint<Real> point =
-      face_point<Real>(obstacle.shape, p, static_cast<Real>(kCentring) * thickness);
+  const FacePoint<Real> point = face_point<Real>(obstacle.shape, p, static_cast<Real>(kCentring) * thickness);
   if (!(point.distance < thickness)) return touch;
   const Barrier<Real> b = model.shell.at(point.distance);
   Real left = 1, sum = 0, curved = 0, slope[3], of_b[3];

@@ -50,9 +50,8 @@ HYST_HD Real share_above(Real length, Real distance, Real depth, Real thinnest,
 template <class Real>
 HYST_HD Real share_above(const Obstacle3<Real>& obstacle, const Vec3<Real>& from, const Vec3<Real>& way,
                          Real distance, Real depth) {
-  return share_above<Real>(way.norm(), distance, depth, obstacle.thinnest, [&](Real share) {
-    return distance_to<Real>(obstacle, from + share * way).value;
-  });
+  return share_above<Real>(way.norm(), distance, depth, obstacle.thinnest,
+                           [&](Real share) { return distance_to<Real>(obstacle, from + share * way).value; });
 }
 
 // Share of `way` from `from` on which a point does not go through the obstacle.  One that is past the middle
