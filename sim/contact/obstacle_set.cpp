@@ -15,13 +15,12 @@ double radius_at_rest(const Obstacle& o) {
   switch (o.kind) {
     case ObstacleKind::box:
       return o.rim;
-    case ObstacleKind::cylinder:
-      return std::min(o.radius, o.rim);
     case ObstacleKind::sphere:
     case ObstacleKind::capsule:
       return o.radius;
     case ObstacleKind::ground:
     case ObstacleKind::hollow:
+    case ObstacleKind::cylinder:  // discs on whose rims recorded drapes hang
     case ObstacleKind::torus:
       break;
   }

@@ -22,7 +22,7 @@ struct Obstacle3 {
   Real friction;
   int index;      // in the scene
   Real thinnest;  // half of its thinnest part [m]; infinite: there is no other side
-  Real sharpest;  // least radius of curvature, when it is smallest [m]; infinite: flat, hollow or a ring
+  Real sharpest;  // least radius of curvature, when it is smallest [m]; infinite: sharpest_radius()
 
   HYST_HD bool is_thin() const { return thinnest < static_cast<Real>(1e30); }
 };
@@ -44,7 +44,8 @@ HYST_HD inline Distance<Real> distance_to(const Obstacle3<Real>& obstacle, const
   return signed_distance<Real>(obstacle.shape, obstacle.rotation.transpose() * (x - obstacle.center));
 }
 
-// Least radius of curvature of a convex solid while its motion scales it; infinite for others [m].
+// Least radius of curvature of a box, sphere or capsule while its motion scales it [m].  Infinite for what is
+// flat or not convex, and for cylinders, which act on vertices alone (docs/contact.md#sharp-obstacles).
 double sharpest_radius(const Obstacle& obstacle);
 
 // Those that are there during the step from `start` to `end` [s].
