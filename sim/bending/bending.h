@@ -12,6 +12,16 @@
 
 namespace hysteron {
 
+// The stiffness J^T C^T T C J in its factors, on the device.
+template <class Real>
+struct BendingFactors {
+  int elements, dimension;         // D
+  const int *start, *hinge;        // rows of C: elements
+  const Real* coefficient;         // D for each item
+  const Eigen::Vector4i* corner;   // p0, p1, p2, p3 of each hinge
+  const Real *gradient, *tangent;  // J: 8 Reals a hinge (angle.h); T = A dM/dK: D (D + 1)/2 an element
+};
+
 template <class Real, class Device>
 class Bending {
  public:
@@ -36,6 +46,10 @@ class Bending {
   // Adds the diagonal blocks of K, less what several hinges of one element have in common.
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void accept();
+  BendingFactors<Real> factors() const {  // of K where linearise() was called last
+    return {elements_,           dimension_,     row_start_.data(), row_hinge_.data(),
+            coefficient_.data(), corner_.data(), gradient_.data(),  tangent_.data()};
+  }
 
   // What outlives a step.  Not forces and trials: every step begins with evaluate() or commit().
   void visit(Archive& archive);

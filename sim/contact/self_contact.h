@@ -12,6 +12,8 @@
 // Stiffness is Gauss-Newton's: positive semidefinite, without the second derivatives of distances.
 #pragma once
 
+#include <span>
+
 #include "sim/contact/self_pairs.h"
 #include "sim/device/stage_clock.h"
 #include "sim/linear/gathered_forces.h"
@@ -76,6 +78,10 @@ class SelfContact {
   void linearise(const Vec3<Real>* x, const Vec3<Real>* before, Real sliding_share);
   GatheredForces<Real> apply_stiffness(const Vec3<Real>* p);  // to be gathered
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
+  // What linearise() has found, on the device.
+  std::span<const PairStiffness<Real>> pressing() const {
+    return {stiffness_.data(), static_cast<std::size_t>(pressing_count_)};
+  }
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
   // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,

@@ -20,9 +20,12 @@ constexpr std::array<const char*, 6> names(Integrator) {
 enum class ImplicitEvery { substep, step };
 constexpr std::array<const char*, 2> names(ImplicitEvery) { return {"substep", "step"}; }
 
-// Preconditioners of conjugate gradients.
-enum class Preconditioning { multigrid, block_jacobi };
-constexpr std::array<const char*, 2> names(Preconditioning) { return {"multigrid", "block-jacobi"}; }
+// Preconditioners of conjugate gradients.  automatic: by the size and shape of the cloth
+// (time/method_choice.h); cholesky: a factorisation of the whole matrix, on the CPU.
+enum class Preconditioning { automatic, multigrid, cholesky, block_jacobi };
+constexpr std::array<const char*, 4> names(Preconditioning) {
+  return {"auto", "multigrid", "cholesky", "block-jacobi"};
+}
 
 enum class DeviceChoice { automatic, cpu, cuda };
 constexpr std::array<const char*, 3> names(DeviceChoice) { return {"auto", "cpu", "cuda"}; }

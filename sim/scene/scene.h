@@ -156,7 +156,7 @@ struct Scene {
   double newton_velocity = 1e-9;
   int newton_iterations = 0;
   double tolerance = 0;
-  Preconditioning linear_solver = Preconditioning::multigrid;
+  Preconditioning linear_solver = Preconditioning::automatic;
   SolverTuning tuning = {};  // no key
   double ramp = 0;
   double unload = 0;

@@ -25,11 +25,9 @@ VertexState<Real> vertices_of(Body<Real, Device>& body) {
 template <class Real, class Device>
 ImplicitIntegrator<Real, Device>::ImplicitIntegrator(Body<Real, Device>& body)
     : body_(body),
-      solver_(
-          *body.device, body.scene, body.mass, body.matrix, body.membrane, body.bending,
-          body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
-          make_linear_solver<Real>(*body.device, body.scene, body.cloth,
-                                   body.scene.is_implicit() ? body.bending.law().largest_stiffness() : 0.0)),
+      solver_(*body.device, body.scene, body.mass, body.matrix, body.membrane, body.bending,
+              body.contact ? &*body.contact : nullptr, body.self_contact ? &*body.self_contact : nullptr,
+              make_linear_solver(body)),
       tolerance_(body.scene.tolerance) {}
 
 template <class Real, class Device>

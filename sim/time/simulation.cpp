@@ -94,13 +94,14 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   return limits;
 }
 
-bool wants_gpu(const Scene& scene) {
-  if (scene.device == DeviceChoice::cpu) return false;
+// GPUs that the scene may run on.
+int usable_gpus(const Scene& scene) {
+  if (scene.device == DeviceChoice::cpu) return 0;
   std::string reason;
-  if (gpu_count(reason) > 0) return true;
-  if (scene.device == DeviceChoice::cuda)
+  const int count = gpu_count(reason);
+  if (count == 0 && scene.device == DeviceChoice::cuda)
     throw Error::machine("device = cuda: " + reason + "; use --device cpu");
-  return false;
+  return count;
 }
 
 void refuse_more_than(std::size_t count, int most, const std::string& what) {
@@ -141,8 +142,13 @@ Plan plan(const Scene& scene, const Cloth& cloth) {
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth) {
   check(scene, cloth);
   const Plan planned = plan(scene, cloth);
-  return wants_gpu(scene) ? make_gpu_simulation(scene, cloth, planned.op, planned.limits)
-                          : make_cpu_simulation(scene, cloth, planned.op, planned.limits);
+  const MethodChoice method = choose_method(scene, cloth, planned.op, usable_gpus(scene));
+  Scene chosen = scene;
+  if (method.linear_solver != Preconditioning::automatic) chosen.linear_solver = method.linear_solver;
+  auto simulation = method.gpu ? make_gpu_simulation(chosen, cloth, planned.op, planned.limits)
+                               : make_cpu_simulation(chosen, cloth, planned.op, planned.limits);
+  simulation->method = method;
+  return simulation;
 }
 
 std::vector<std::string> device_list() {

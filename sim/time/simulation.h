@@ -13,6 +13,7 @@
 #include "sim/scene/cloth.h"
 #include "sim/scene/scene.h"
 #include "sim/time/ledger.h"
+#include "sim/time/method_choice.h"
 
 namespace hysteron {
 
@@ -112,6 +113,8 @@ class Simulation {
   virtual long slack_hand_steps() const = 0;
   virtual long barred_hand_steps() const = 0;
   virtual double hand_lag() const = 0;
+
+  MethodChoice method = {};  // as make_simulation() chose
 };
 
 // Chooses device and precision as the scene asks.  Error::request for what cannot be simulated, a start that

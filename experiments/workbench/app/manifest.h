@@ -160,6 +160,7 @@ struct Manifest {
   std::vector<std::pair<std::string, double>> energy;  // closing balance [J]; empty: none is kept
   std::optional<std::string> state_hash;
   std::optional<int> substeps;
+  std::optional<std::string> linear_solver;                              // of Newton's method
   std::vector<std::pair<std::string, std::shared_ptr<const Json>>> own;  // what only its experiment notes
   std::vector<Statements> statements;
   std::optional<std::vector<std::string>> series;  // own columns of metrics.csv

@@ -75,6 +75,10 @@ const Setup& checked(const Setup& setup) {
 void explain(const Cloth& cloth, const Simulation& simulation) {
   std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
+  const MethodChoice& method = simulation.method;
+  if (!method.reason.empty()) std::cout << method.reason << "\n";
+  if (method.linear_solver != Preconditioning::automatic)
+    std::cout << "linear solver " << name_of(method.linear_solver) << "\n";
   const StepLimits limits = simulation.limits();
   std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s";
   if (limits.bending_step > 0)
@@ -110,6 +114,10 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   manifest.triangles = cloth_.mesh.faces();
   manifest.hinges = cloth_.mesh.interior_edges;
   manifest.substeps = simulation_->limits().substeps;
+  const MethodChoice& method = simulation_->method;
+  if (method.linear_solver != Preconditioning::automatic)
+    manifest.linear_solver = name_of(method.linear_solver);
+  if (!method.reason.empty()) run_->progress(method.reason);
 }
 
 // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.

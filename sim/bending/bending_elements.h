@@ -1,0 +1,29 @@
+// Bending's Gauss-Newton stiffness J^T C^T (A dM/dK) C J, element by element, on the CPU.
+#pragma once
+
+#include "sim/bending/bending.h"
+#include "sim/linear/element_stiffness.h"
+
+namespace hysteron {
+
+// An element couples all vertices of the hinges whose angles its curvature depends on.
+template <class Real>
+class BendingElements : public ElementStiffness {
+ public:
+  // `bending` must outlive it.
+  explicit BendingElements(const Bending<Real, Cpu>& bending);
+
+  int elements() const override { return static_cast<int>(vertex_.start.size()) - 1; }
+  std::span<const int> vertices(int element) const override {
+    const int first = vertex_.start[element];
+    return {vertex_.item.data() + first, static_cast<std::size_t>(vertex_.start[element + 1] - first)};
+  }
+  void linearised(int element, Rates& rates, Eigen::Matrix3d& stiffness) const override;
+
+ private:
+  const Bending<Real, Cpu>& bending_;
+  Adjacency vertex_;                        // rows: elements
+  std::vector<std::array<int, 4>> corner_;  // of each item of the operator: where its hinge's vertices stand
+};
+
+}  // namespace hysteron

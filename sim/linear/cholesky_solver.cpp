@@ -1,0 +1,161 @@
+#include "sim/linear/cholesky_solver.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hysteron {
+
+namespace {
+
+constexpr int kMostIterations = 20000;
+constexpr int kWithNew = 2;  // iterations that a new factorisation takes, too
+// What a number of the factor costs in an iteration's two triangular solves, in multiplications of a
+// factorisation, which work on what is in the cache.
+constexpr double kMultiplicationsOfEntry = 12;
+constexpr double kAssembly = 1.5;  // factorisation with assembly over without, at least
+constexpr int kLeastWorth = 6;
+
+}  // namespace
+
+template <class Real>
+CholeskySolver<Real>::CholeskySolver(Cpu& device, const BlockRows<Real, Cpu>& pattern,
+                                     std::unique_ptr<ElementStiffness> bending,
+                                     std::unique_ptr<ElementStiffness> self_contact)
+    : pcg_(device, static_cast<int>(pattern.row_ptr().size()) - 1),
+      bending_(std::move(bending)),
+      self_contact_(std::move(self_contact)),
+      row_ptr_(pattern.row_ptr()),
+      col_(pattern.col()),
+      values_(3 * (row_ptr_.size() - 1)) {
+  const int rows = static_cast<int>(row_ptr_.size()) - 1;
+  CouplingList list(rows);
+  for (int i = 0; i < rows; ++i)
+    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j) list.add(std::array{i, col_[j]});
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) list.add(bending_->vertices(e));
+  always_ = list.take();
+  take_couplings(always_);
+}
+
+template <class Real>
+void CholeskySolver<Real>::take_couplings(Couplings couplings) {
+  matrix_ = SymmetricBlocks(std::move(couplings));
+  factor_.emplace(matrix_.couplings());
+  row_slot_.clear();
+  bending_slot_.clear();
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j)
+      row_slot_.push_back(col_[j] < i ? matrix_.slot(i, col_[j]) : -1);
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) matrix_.find_slots(bending_->vertices(e), bending_slot_);
+}
+
+template <class Real>
+bool CholeskySolver<Real>::contact_is_coupled() const {
+  for (int pair = 0; pair < self_contact_->elements(); ++pair)
+    if (!matrix_.couples(self_contact_->vertices(pair))) return false;
+  return true;
+}
+
+// Pairs that no longer press stay until others come.
+template <class Real>
+void CholeskySolver<Real>::couple_contact() {
+  CouplingList list(always_);
+  for (int pair = 0; pair < self_contact_->elements(); ++pair) list.add(self_contact_->vertices(pair));
+  take_couplings(list.take());
+}
+
+template <class Real>
+void CholeskySolver<Real>::assemble(const BlockRowsView<Real>& rows, const char* held) {
+  matrix_.set_zero();
+  for (int i = 0; i < rows.rows; ++i) {
+    matrix_.diagonal[i] = rows.diagonal[i].template cast<double>();
+    for (int j = row_ptr_[i]; j < row_ptr_[i + 1]; ++j)
+      if (row_slot_[j] >= 0) matrix_.below[row_slot_[j]] = rows.off_diagonal[j].template cast<double>();
+  }
+  const int* slots = bending_slot_.data();
+  if (bending_)
+    for (int e = 0; e < bending_->elements(); ++e) slots = matrix_.add(*bending_, e, slots);
+  std::vector<int> pair_slots;
+  for (int pair = 0; self_contact_ && pair < self_contact_->elements(); ++pair) {
+    pair_slots.clear();
+    matrix_.find_slots(self_contact_->vertices(pair), pair_slots);
+    matrix_.add(*self_contact_, pair, pair_slots.data());
+  }
+  matrix_.hold(held);
+}
+
+template <class Real>
+void CholeskySolver<Real>::renew(const System& system, const char* held) {
+  if (self_contact_ && !contact_is_coupled()) couple_contact();
+  assemble(system.matrix, held);
+  factor_->factorise(matrix_);
+  held_.assign(held, held + matrix_.nodes());
+  spent_ = 0;
+  ++factorisations_;
+}
+
+// Iterations that cost as much as a new factorisation.
+template <class Real>
+int CholeskySolver<Real>::worth() const {
+  const Elimination& plan = factor_->plan();
+  return std::max(kLeastWorth,
+                  static_cast<int>(kAssembly * plan.multiplications /
+                                   (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
+}
+
+template <class Real>
+PcgOutcome CholeskySolver<Real>::solve(const System& system, const char* held, const Vec3<Real>* rhs,
+                                       Vec3<Real>* x, double tolerance) {
+  System preconditioned = system;
+  preconditioned.preconditioner = this;
+  const auto attempt = [&](int most) {
+    return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, most);
+  };
+  int before = 0;
+  if (!held_.empty() && std::equal(held_.begin(), held_.end(), held) && spent_ < worth()) {
+    const PcgOutcome outcome = attempt(worth());
+    spent_ += std::max(0, outcome.iterations - kWithNew);
+    if (outcome.converged || outcome.iterations < worth()) return outcome;
+    before = outcome.iterations;
+  }
+  renew(system, held);
+  const PcgOutcome outcome = attempt(kMostIterations);
+  return {before + outcome.iterations, outcome.converged};
+}
+
+template <class Real>
+void CholeskySolver<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z) {
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int k = 0; k < 3; ++k) values_[3 * i + k] = static_cast<double>(r[i][k]);
+  factor_->solve(values_.data());
+  for (int i = 0; i < matrix_.nodes(); ++i)
+    for (int k = 0; k < 3; ++k) z[i][k] = held_[i] ? Real(0) : static_cast<Real>(values_[3 * i + k]);
+}
+
+template <class Real>
+void CholeskySolver<Real>::visit(Archive& archive) {
+  pcg_.visit(archive);
+  archive(spent_);
+  archive(held_);
+  if (held_.empty()) return;
+  Couplings couplings = matrix_.couplings();
+  archive(couplings.start);
+  archive(couplings.item);
+  if (archive.loads()) take_couplings(couplings);
+  for (auto* blocks : {&matrix_.diagonal, &matrix_.below})
+    archive.bytes(blocks->data(), blocks->size() * sizeof(Eigen::Matrix3d));
+  if (archive.loads()) factor_->factorise(matrix_);
+}
+
+template <class Real>
+std::size_t CholeskySolver<Real>::bytes() const {
+  const std::size_t blocks = matrix_.diagonal.size() + matrix_.below.size();
+  return pcg_.bytes() + factor_->bytes() + blocks * sizeof(Eigen::Matrix3d) +
+         (row_slot_.size() + bending_slot_.size()) * sizeof(int) + values_.size() * sizeof(double);
+}
+
+template class CholeskySolver<double>;
+template class CholeskySolver<float>;
+
+}  // namespace hysteron

@@ -1,0 +1,222 @@
+#include "sim/linear/elimination.h"
+
+#include <amd.h>
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+
+namespace {
+
+// Both directions of the couplings, with where each stands below the diagonal.
+struct Graph {
+  std::vector<int> start, neighbour, slot;
+
+  explicit Graph(const Couplings& below) : start(below.start.size(), 0) {
+    const int nodes = size();
+    for (int i = 0; i < nodes; ++i)
+      for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
+        ++start[i + 1];
+        ++start[below.item[j] + 1];
+      }
+    for (int i = 0; i < nodes; ++i) start[i + 1] += start[i];
+    neighbour.resize(start[nodes]);
+    slot.resize(start[nodes]);
+    std::vector<int> next(start.begin(), start.end() - 1);
+    for (int i = 0; i < nodes; ++i)
+      for (int j = below.start[i]; j < below.start[i + 1]; ++j) {
+        const int ends[2] = {i, below.item[j]};
+        for (int k = 0; k < 2; ++k) {
+          slot[next[ends[k]]] = j;
+          neighbour[next[ends[k]]++] = ends[1 - k];
+        }
+      }
+  }
+  int size() const { return static_cast<int>(start.size()) - 1; }
+};
+
+std::vector<int> ranks(const std::vector<int>& order) {
+  std::vector<int> rank(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<int>(k);
+  return rank;
+}
+
+std::vector<int> minimum_degree_order(const Graph& graph) {
+  std::vector<int> order(graph.size());
+  if (amd_order(graph.size(), graph.start.data(), graph.neighbour.data(), order.data(), nullptr, nullptr) < 0)
+    throw Error::machine("the linear system is too large to be factorised: linear-solver = multigrid");
+  return order;
+}
+
+// For each column of the factor the row of its first entry below the diagonal, -1 without any (Liu 1990, 4).
+std::vector<int> elimination_tree(const Graph& graph, const std::vector<int>& order) {
+  const std::vector<int> rank = ranks(order);
+  std::vector<int> parent(order.size(), -1), ancestor(order.size(), -1);
+  for (int k = 0; k < graph.size(); ++k)
+    for (int j = graph.start[order[k]]; j < graph.start[order[k] + 1]; ++j)
+      for (int i = rank[graph.neighbour[j]]; i >= 0 && i < k;) {
+        const int next = ancestor[i];
+        ancestor[i] = k;
+        if (next < 0) parent[i] = k;
+        i = next;
+      }
+  return parent;
+}
+
+// The same elimination with every subtree's nodes in sequence.
+std::vector<int> in_postorder(const std::vector<int>& order, const std::vector<int>& parent) {
+  const int n = static_cast<int>(order.size());
+  std::vector<int> size(n, 1), next(n);  // of subtrees; where the next child's subtree goes
+  for (int k = 0; k < n; ++k)
+    if (parent[k] >= 0) size[parent[k]] += size[k];
+  std::vector<int> start(n), result(n);
+  int roots = 0;
+  for (int k = n - 1; k >= 0; --k) {  // parents first
+    int& free = parent[k] < 0 ? roots : next[parent[k]];
+    next[k] = start[k] = free;
+    free += size[k];
+    result[start[k] + size[k] - 1] = order[k];
+  }
+  return result;
+}
+
+// Rows of each column of the factor below its diagonal.
+std::vector<std::vector<int>> factor_columns(const Graph& graph, const std::vector<int>& order) {
+  const std::vector<int> rank = ranks(order), parent = elimination_tree(graph, order);
+  std::vector<std::vector<int>> column(order.size());
+  for (int k = 0; k < graph.size(); ++k) {
+    std::vector<int>& rows = column[k];  // those of children are there already
+    for (int j = graph.start[order[k]]; j < graph.start[order[k] + 1]; ++j)
+      rows.push_back(rank[graph.neighbour[j]]);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    rows.erase(rows.begin(), std::upper_bound(rows.begin(), rows.end(), k));
+    if (parent[k] >= 0) column[parent[k]].insert(column[parent[k]].end(), rows.begin(), rows.end());
+  }
+  return column;
+}
+
+struct ColumnRange {
+  int first, count;
+  double zeros;  // explicit ones, in blocks
+};
+
+// Whether fronts of so many columns may hold such a part of zeros: small ones are not worth their overhead.
+bool is_worthwhile(int columns, double zeros) {
+  return zeros == 0 || zeros < (columns <= 4 ? 0.6 : columns <= 12 ? 0.3 : 0.08);
+}
+
+// Joins a column with the ranges right before it whose parent it is.
+std::vector<ColumnRange> join_columns(const std::vector<std::vector<int>>& column) {
+  std::vector<ColumnRange> range;
+  for (int k = 0; k < static_cast<int>(column.size()); ++k) {
+    ColumnRange joined{k, 1, 0};
+    const double beyond = static_cast<double>(column[k].size());
+    while (!range.empty()) {
+      const ColumnRange& last = range.back();
+      const std::vector<int>& rows = column[last.first + last.count - 1];
+      if (rows.empty() || rows[0] != joined.first) break;
+      const int count = last.count + joined.count;
+      const double added = last.count * (joined.count + beyond - static_cast<double>(rows.size())),
+                   zeros = last.zeros + joined.zeros + added;
+      if (!is_worthwhile(count, zeros / (count * (count + beyond)))) break;
+      joined = {last.first, count, zeros};
+      range.pop_back();
+    }
+    range.push_back(joined);
+  }
+  return range;
+}
+
+void add_front(const ColumnRange& range, const std::vector<int>& beyond, Elimination& plan) {
+  Front front{};
+  front.first = range.first;
+  front.pivots = range.count;
+  front.rows = range.count + static_cast<int>(beyond.size());
+  front.row_start = static_cast<int>(plan.row.size());
+  front.panel = plan.entries;
+  for (int k = 0; k < range.count; ++k) plan.row.push_back(range.first + k);
+  plan.row.insert(plan.row.end(), beyond.begin(), beyond.end());
+  plan.entries += 9 * static_cast<std::size_t>(front.rows) * front.pivots;
+  for (int k = 0; k < 3 * front.pivots; ++k) {
+    const double rows = 3 * front.rows - k;
+    plan.multiplications += rows * (rows + 1) / 2;
+  }
+  plan.front.push_back(front);
+}
+
+// Which rows of their parents the fronts update.
+void link_fronts(Elimination& plan) {
+  std::vector<int> owner(plan.order.size()), at(plan.order.size());
+  for (std::size_t f = 0; f < plan.front.size(); ++f)
+    for (int k = 0; k < plan.front[f].pivots; ++k) owner[plan.front[f].first + k] = static_cast<int>(f);
+  for (Front& front : plan.front) {
+    front.place_start = static_cast<int>(plan.place.size());
+    if (front.updated() == 0) continue;
+    Front& parent = plan.front[owner[plan.row[front.row_start + front.pivots]]];
+    ++parent.children;
+    for (int r = 0; r < parent.rows; ++r) at[plan.row[parent.row_start + r]] = r;
+    for (int r = front.pivots; r < front.rows; ++r) plan.place.push_back(at[plan.row[front.row_start + r]]);
+  }
+}
+
+void place_blocks(const Graph& graph, const Couplings& below, Elimination& plan) {
+  const std::vector<int> rank = ranks(plan.order);
+  std::vector<int> at(plan.order.size());
+  for (Front& front : plan.front) {
+    front.block_start = static_cast<int>(plan.block.size());
+    for (int r = 0; r < front.rows; ++r) at[plan.row[front.row_start + r]] = r;
+    for (int k = 0; k < front.pivots; ++k) {
+      const int node = plan.order[front.first + k];
+      plan.block.push_back({-1, k, k, false});
+      for (int j = graph.start[node]; j < graph.start[node + 1]; ++j) {
+        const int other = rank[graph.neighbour[j]], slot = graph.slot[j];
+        if (other > front.first + k) plan.block.push_back({slot, at[other], k, below.item[slot] != node});
+      }
+    }
+    front.block_end = static_cast<int>(plan.block.size());
+  }
+}
+
+// Numbers that an update takes.
+std::size_t update_size(const Front& front) {
+  const std::size_t rows = 3 * static_cast<std::size_t>(front.updated());
+  return rows * rows;
+}
+
+// An update is made above those of the children and then takes their place.
+std::size_t highest_stack(const std::vector<Front>& fronts) {
+  std::vector<std::size_t> waiting;
+  std::size_t height = 0, highest = 0;
+  for (const Front& front : fronts) {
+    highest = std::max(highest, height + update_size(front));
+    for (int k = 0; k < front.children; ++k) {
+      height -= waiting.back();
+      waiting.pop_back();
+    }
+    if (front.updated() == 0) continue;
+    waiting.push_back(update_size(front));
+    height += waiting.back();
+  }
+  return highest;
+}
+
+}  // namespace
+
+Elimination plan_elimination(const Couplings& couplings) {
+  const Graph graph(couplings);
+  Elimination plan;
+  plan.order = minimum_degree_order(graph);
+  plan.order = in_postorder(plan.order, elimination_tree(graph, plan.order));
+  const std::vector<std::vector<int>> column = factor_columns(graph, plan.order);
+  for (const ColumnRange& range : join_columns(column))
+    add_front(range, column[range.first + range.count - 1], plan);
+  link_fronts(plan);
+  place_blocks(graph, couplings, plan);
+  plan.stack = highest_stack(plan.front);
+  return plan;
+}
+
+}  // namespace hysteron

@@ -1,0 +1,63 @@
+#include "sim/time/method_choice.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/linear/elimination.h"
+
+namespace hysteron {
+
+namespace {
+
+// Measured (docs/performance.md, "Strips and small meshes"): up to so many multiplications a factorisation
+// solves faster than multigrid on the CPU, and than multigrid on a GPU.
+constexpr double kCholeskyWork = 1e9, kCpuWork = 5e7;
+// Of larger cloths not even strips come below; ordering them would take seconds.
+constexpr int kMostVertices = 20000;
+
+bool solves_with_newton(const Scene& scene) {
+  return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
+}
+
+}  // namespace
+
+double factorisation_work(const ClothMesh& mesh, const CurvatureOperator& op) {
+  CouplingList list(mesh.vertices());
+  for (const auto& f : mesh.face) list.add({f.data(), 3});
+  for (int e = 0; e < op.elements(); ++e) {
+    std::vector<int> vertices;
+    for (int j = op.hinge.start[e]; j < op.hinge.start[e + 1]; ++j) {
+      const Edge& edge = mesh.edge[op.hinge.item[j]];
+      vertices.insert(vertices.end(), {edge.p0, edge.p1, edge.p2, edge.p3});
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    list.add(vertices);
+  }
+  return plan_elimination(list.take()).multiplications;
+}
+
+MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus) {
+  MethodChoice choice;
+  choice.gpu = scene.device != DeviceChoice::cpu && gpus > 0;
+  if (!solves_with_newton(scene)) return choice;
+  choice.linear_solver = scene.linear_solver;
+  if (scene.linear_solver == Preconditioning::cholesky) {
+    if (scene.device == DeviceChoice::cuda)
+      throw Error::request("linear-solver = cholesky runs on the CPU: device = cuda must be auto or cpu");
+    if (choice.gpu) choice.reason = "linear-solver = cholesky runs on the CPU";
+    choice.gpu = false;
+  }
+  if (scene.linear_solver != Preconditioning::automatic) return choice;
+  choice.linear_solver = Preconditioning::multigrid;
+  if (scene.device == DeviceChoice::cuda || cloth.mesh.vertices() > kMostVertices) return choice;
+  const double work = factorisation_work(cloth.mesh, op);
+  if (work > (choice.gpu ? kCpuWork : kCholeskyWork)) return choice;
+  choice.linear_solver = Preconditioning::cholesky;
+  if (choice.gpu)
+    choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";
+  choice.gpu = false;
+  return choice;
+}
+
+}  // namespace hysteron

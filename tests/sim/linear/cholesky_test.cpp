@@ -1,0 +1,236 @@
+// The sparse factorisation and the solver it preconditions, against a dense solve of the same small system.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <array>
+#include <cstring>
+#include <random>
+
+#include "sim/linear/cholesky_solver.h"
+#include "sim/mesh/builders.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kRounding = 1e-10;  // relative; of systems whose condition is below 1e5
+
+// Springs w^T w between four vertices, as of pairs that touch.
+struct Springs : ElementStiffness {
+  std::vector<std::array<int, 4>> vertex;
+  double stiffness = 50;
+
+  int elements() const override { return static_cast<int>(vertex.size()); }
+  std::span<const int> vertices(int e) const override { return vertex[e]; }
+  static double weight(int corner) { return std::array{1.0, -0.5, -0.3, -0.2}[corner]; }
+  void linearised(int, Rates& rates, Matrix3d& block) const override {
+    for (int k = 0; k < 4; ++k) rates.middleCols<3>(3 * k) = weight(k) * Matrix3d::Identity();
+    block = stiffness * Vector3d(1, 2, 2).normalized() * Vector3d(1, 2, 2).normalized().transpose();
+  }
+  void add_to(MatrixXd& dense) const {
+    Rates rates(3, 12);
+    Matrix3d block;
+    for (int e = 0; e < elements(); ++e) {
+      linearised(e, rates, block);
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b < 4; ++b)
+          dense.block<3, 3>(3 * vertex[e][a], 3 * vertex[e][b]) += weight(a) * weight(b) * block;
+    }
+  }
+};
+
+// A random positive matrix on a mesh's edges, with springs between far vertices.
+struct System {
+  Cpu cpu{1};
+  ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
+  BlockRows<double, Cpu> rows{cpu, mesh};
+  Springs* springs = nullptr;  // of the solver
+  std::vector<char> held;
+  std::vector<double> softening, softening_diagonal;
+  std::vector<Vec3<double>> slot, rhs, x;
+  std::vector<int> start, item;
+  std::unique_ptr<CholeskySolver<double>> solver;
+
+  System() : held(mesh.vertices(), 0), rhs(mesh.vertices()), x(mesh.vertices()) {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const BlockRowsView<double> view = rows.view();
+    for (int i = 0; i < view.rows; ++i) {
+      view.diagonal[i] = 12 * Matrix3d::Identity();
+      rhs[i] = {uniform(generator), uniform(generator), uniform(generator)};
+      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j) {
+        if (view.col[j] > i) continue;
+        Matrix3d block;
+        for (double& b : block.reshaped()) b = uniform(generator);
+        view.off_diagonal[j] = block;
+        view.off_diagonal[rows.slot(view.col[j], i)] = block.transpose();
+      }
+    }
+    softening.assign(view.row_ptr[view.rows], 0);
+    softening_diagonal.assign(view.rows, 0);
+    auto made = std::make_unique<Springs>();
+    springs = made.get();
+    solver = std::make_unique<CholeskySolver<double>>(cpu, rows, nullptr, std::move(made));
+  }
+
+  int n() const { return mesh.vertices(); }
+
+  LinearSystem<double, Cpu> linear() {
+    LinearSystem<double, Cpu> system{rows.view()};
+    system.softening = {softening.data(), softening_diagonal.data()};
+    system.self_contact = [this](const Vec3<double>* p) { return spring_forces(p); };
+    return system;
+  }
+  GatheredForces<double> spring_forces(const Vec3<double>* p) {
+    MatrixXd stiffness = MatrixXd::Zero(3 * n(), 3 * n());
+    springs->add_to(stiffness);
+    VectorXd moved(3 * n());
+    for (int i = 0; i < n(); ++i) moved.segment<3>(3 * i) = p[i];
+    const VectorXd force = stiffness * moved;
+    slot.resize(n());
+    start.resize(n() + 1);
+    item.resize(n());
+    for (int i = 0; i < n(); ++i) {
+      slot[i] = force.segment<3>(3 * i);
+      item[i] = i;
+      start[i + 1] = i + 1;
+    }
+    return {start.data(), item.data(), slot.data()};
+  }
+
+  MatrixXd dense() {
+    MatrixXd a = MatrixXd::Zero(3 * n(), 3 * n());
+    const BlockRowsView<double> view = rows.view();
+    for (int i = 0; i < n(); ++i) {
+      a.block<3, 3>(3 * i, 3 * i) = view.diagonal[i] + softening_diagonal[i] * Matrix3d::Identity();
+      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j)
+        a.block<3, 3>(3 * i, 3 * view.col[j]) = view.off_diagonal[j] + softening[j] * Matrix3d::Identity();
+    }
+    springs->add_to(a);
+    return a;
+  }
+  // The solution with held rows at zero.
+  VectorXd dense_solution() {
+    MatrixXd a = dense();
+    VectorXd b(3 * n());
+    for (int i = 0; i < n(); ++i) {
+      b.segment<3>(3 * i) = held[i] ? Vector3d(0, 0, 0) : rhs[i];
+      if (!held[i]) continue;
+      a.middleRows<3>(3 * i).setZero();
+      a.block<3, 3>(3 * i, 3 * i).setIdentity();
+    }
+    return a.partialPivLu().solve(b);
+  }
+  double error() {
+    const VectorXd exact = dense_solution();
+    double sum = 0;
+    for (int i = 0; i < n(); ++i) sum += (x[i] - exact.segment<3>(3 * i)).squaredNorm();
+    return std::sqrt(sum) / exact.norm();
+  }
+  PcgOutcome solve(double tolerance = 1e-12) {
+    return solver->solve(linear(), held.data(), rhs.data(), x.data(), tolerance);
+  }
+};
+
+TEST(Cholesky, SolvesInAnIterationOrTwoWhatADenseSolveDoes) {
+  System system;
+  system.held[3] = system.held[17] = 1;
+  const PcgOutcome outcome = system.solve();
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LE(outcome.iterations, 2);
+  EXPECT_LT(system.error(), kRounding);
+  EXPECT_EQ(system.x[3], Vector3d(0, 0, 0));
+}
+
+TEST(Cholesky, FollowsPairsThatComeAndGoAndHandsThatTakeHold) {
+  System system;
+  const int last = system.n() - 1;
+  system.springs->vertex = {{0, last, last - 1, last - 2}, {5, 30, 31, 33}};
+  EXPECT_LE(system.solve().iterations, 2);
+  EXPECT_LT(system.error(), kRounding);
+  system.springs->vertex = {{5, 30, 31, 33}};
+  EXPECT_TRUE(system.solve().converged);
+  EXPECT_LT(system.error(), kRounding);
+  system.springs->vertex = {{7, last, last - 4, 40}};
+  system.held[7] = 1;  // not as when the factorisation was made: a new one
+  EXPECT_LE(system.solve().iterations, 2);
+  EXPECT_LT(system.error(), kRounding);
+  EXPECT_EQ(system.solver->factorisations(), 2);
+}
+
+TEST(Cholesky, IsKeptForSystemsThatDifferLittleAndRenewedForOthers) {
+  System system;
+  system.solve();
+  for (int i = 0; i < system.n(); ++i) system.rows.view().diagonal[i] *= 1.01;
+  EXPECT_TRUE(system.solve().converged);
+  EXPECT_LT(system.error(), kRounding);
+  EXPECT_EQ(system.solver->factorisations(), 1);
+  for (int i = 0; i < system.n(); ++i)
+    system.rows.view().diagonal[i] = (10 + 1e4 * (i % 7) * (i % 5)) * Matrix3d::Identity();
+  EXPECT_TRUE(system.solve().converged);
+  EXPECT_LT(system.error(), kRounding);
+  EXPECT_EQ(system.solver->factorisations(), 2);
+}
+
+// The factorisation is of the matrix without softening, which makes it indefinite.
+TEST(Cholesky, LetsConjugateGradientsEndOnNegativeCurvature) {
+  System system;
+  for (double& s : system.softening_diagonal) s = -9;
+  const MatrixXd a = system.dense();
+  ASSERT_LT(Eigen::SelfAdjointEigenSolver<MatrixXd>(a).eigenvalues()[0], 0);
+  EXPECT_FALSE(system.solve().converged);
+  double descent = 0;
+  for (int i = 0; i < system.n(); ++i) descent += system.rhs[i].dot(system.x[i]);
+  EXPECT_GT(descent, 0);
+}
+
+TEST(Cholesky, GoesOnFromAnArchiveWithTheSameBits) {
+  System one, two;
+  one.solve();
+  Archive saved;
+  one.solver->visit(saved);
+  const std::string bytes = saved.take();
+  Archive loaded(bytes);
+  two.solver->visit(loaded);
+  ASSERT_TRUE(loaded.at_end());
+  for (System* system : {&one, &two}) {
+    for (int i = 0; i < system->n(); ++i) system->rows.view().diagonal[i] *= 1.02;
+    system->solve(1e-6);
+  }
+  EXPECT_EQ(std::memcmp(one.x.data(), two.x.data(), one.x.size() * sizeof(Vector3d)), 0);
+  EXPECT_EQ(two.solver->factorisations(), 0);
+}
+
+// Of a chain the factor has no more blocks than the matrix.
+TEST(Elimination, OfAChainFillsNothingThatIsNotWorthwhile) {
+  constexpr int kNodes = 500;
+  CouplingList list(kNodes);
+  for (int i = 1; i < kNodes; ++i) list.add(std::array{i - 1, i});
+  const Elimination plan = plan_elimination(list.take());
+  EXPECT_EQ(plan.order.size(), static_cast<std::size_t>(kNodes));
+  EXPECT_LT(plan.multiplications,
+            12 * 3 * 3 * 3 * kNodes);  // fronts of at most four nodes and their neighbours
+}
+
+// A pivot without a digit takes the matrix's own diagonal.
+TEST(SparseCholesky, ReplacesPivotsOfSingularMatrices) {
+  CouplingList list(2);
+  list.add(std::array{0, 1});
+  SymmetricBlocks matrix(list.take());
+  matrix.diagonal[0] = matrix.diagonal[1] = Matrix3d::Identity();
+  matrix.below[0] = -Matrix3d::Identity();  // a spring between free nodes
+  SparseCholesky factor(matrix.couplings());
+  EXPECT_EQ(factor.factorise(matrix), 3);
+  std::array<double, 6> x{1, 2, 3, 4, 5, 6};
+  factor.solve(x.data());
+  EXPECT_GT(x[0] * 1 + x[1] * 2 + x[2] * 3 + x[3] * 4 + x[4] * 5 + x[5] * 6, 0);
+}
+
+}  // namespace
+}  // namespace hysteron
