@@ -45,6 +45,7 @@ class Bending {
   // Measurements of the last accepted state; they change nothing.
   double stored_energy();                    // [J]
   double dissipated_energy();                // by the law, since the start [J]
+  double relaxed_energy();                   // what of it relaxing branches have lost [J]
   double viscous_loss();                     // since the start [J]
   double taken_by_commands();                // recoverable energy, since the start [J]
   std::vector<double> curvature();           // D per element [1/m]
@@ -68,6 +69,7 @@ class Bending {
   void make_trials();
   OperatorView<Real> view() const;
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
+  double sum_over_elements(const double* on_device);                        // in their order; 0 of null
 
   Device& device_;
   int dimension_, elements_, hinges_;

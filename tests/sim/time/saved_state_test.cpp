@@ -21,6 +21,7 @@ struct Saved {
   bool chapter = false;  // implicit-every = step
   LawParameters param = {};
   double strength = 0;  // of the second hand [N]
+  bool parts = false;   // stops along warp and weft, branches and set
 };
 
 const LawParameters kFatigue = {{"fatigue.dc", "0.01"}};
@@ -47,6 +48,12 @@ const Saved kCases[] = {
     {"tr_bdf2_fp32", "tr-bdf2", "kim", "shape", Precision::fp32},
     {"tr_bdf2_weak_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, false, false, {}, 1e-3},
     {"quasi_static", "quasi-static"},
+    {.name = "semi_implicit_parts", .integrator = "semi-implicit", .law = "chapman", .parts = true},
+    {.name = "tr_bdf2_parts_fp32",
+     .integrator = "tr-bdf2",
+     .law = "chapman",
+     .precision = Precision::fp32,
+     .parts = true},
 };
 
 // Between hands that move, one of which comes later, over a ball with friction that comes up; a command and
@@ -87,6 +94,7 @@ Trial trial_of(const Saved& of) {
   scene.precision = of.precision;
   scene.tolerance = of.tolerance;
   if (of.layers) scene.gravity = {4, 1, -9};
+  if (of.parts) scene.fabric.bending = test::all_parts();
   if (of.strength > 0) scene.pin[1].strength = of.strength;
   if (of.chapter) scene.implicit_every = ImplicitEvery::step;
   if (of.integrator == std::string("quasi-static")) scene.ramp = 0.05;
