@@ -34,6 +34,19 @@ std::string exactly(double value) {
   return text;
 }
 
+// Flags for the stiffnesses of the parts that a fabric has.
+void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
+  const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
+    std::string list;
+    for (double p : stiffnesses) list += (list.empty() ? "" : " ") + exactly(p);
+    if (!list.empty()) flags.push_back({std::string("fabric.bending.") + table + ".stiffnesses", list});
+  };
+  add("stops", parts.stops.stiffnesses);
+  add("stops.weft", parts.weft_stops.stiffnesses);
+  add("branches", parts.branches.stiffnesses);
+  if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", exactly(parts.set.hardening)});
+}
+
 // The fabric of a column before any matching, and its law.
 struct ColumnFabric {
   Fabric fabric;
@@ -66,7 +79,10 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
   const CommandLine line = with(inner, variant);
   const auto [fabric, law] = fabric_of(line);
   scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
-  return {{"fabric.b1", exactly(scale * fabric.b1)}, {"fabric.b2", exactly(scale * fabric.b2)}};
+  std::vector<Flag> flags = {{"fabric.b1", exactly(scale * fabric.b1)},
+                             {"fabric.b2", exactly(scale * fabric.b2)}};
+  add_parts(stiffened(fabric.bending, scale), flags);
+  return flags;
 }
 
 // Colours mean the same in all columns, though fabrics have different transition curvatures.

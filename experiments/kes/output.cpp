@@ -108,6 +108,7 @@ void write_metrics(Run& run, const std::vector<KesFabric>& fabrics) {
       const std::string p = prefix(result);
       run.metric(p + "B_N_m", r.rigidity);
       run.metric(p + "2HB_N", r.loop_width);
+      run.metric(p + "HB_over_B_per_m", r.loop_width / 2 / r.rigidity);
       run.metric(p + "residual_curvature_per_m", r.residual);
       run.metric(p + "residual_by_formula_per_m", r.residual_by_formula);
       run.metric(p + "loop_area_J_per_m2", r.loop_area);

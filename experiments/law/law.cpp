@@ -8,6 +8,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/recovery.h"
+#include "sim/reference/kes.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -87,6 +88,17 @@ std::vector<LawRow> rows_of(const Table& table) {
   return rows;
 }
 
+// What a bending tester would read of the fabric's stops.
+std::string stops_summary(const LawRequest& request) {
+  if (request.curve.parts.stops.empty()) return "";
+  const KesProtocol p;
+  const KesPair pair = kes_pair(request.curve, p);
+  return fmt::format("stops: B = {} between {:g} and {}, 2HB = {} at {}, HB/B = {}\n",
+                     with_unit(pair.rigidity, "N m"), p.slope_from, with_unit(p.slope_to, "1/m"),
+                     with_unit(pair.loop_width, "N"), with_unit(p.width_at, "1/m"),
+                     with_unit(pair.loop_width / 2 / pair.rigidity, "1/m"));
+}
+
 std::string recovery_summary(const LawRequest& request, const std::vector<LawRow>& rows, const LawRun& run) {
   const RecoveryCounts counts = count_recoveries(request.curve, rows, run);
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
@@ -110,14 +122,15 @@ int run_law_command(const LawOptions& options) {
   check_edit(table);
   const std::vector<LawRow> rows = rows_of(table);
   const LawRun run = run_law(request, rows);
-  const Table results{{{kCurvature, table.find(kCurvature)->values},
-                       {"moment [N]", run.moment},
-                       {"tangent [N m]", run.tangent},
-                       {"stored [J/m2]", run.stored},
-                       {"dissipated [J/m2]", run.dissipated}},
-                      {}};
+  Table results{{{kCurvature, table.find(kCurvature)->values},
+                 {"moment [N]", run.moment},
+                 {"tangent [N m]", run.tangent},
+                 {"stored [J/m2]", run.stored},
+                 {"dissipated [J/m2]", run.dissipated}},
+                {}};
+  if (!run.relaxed.empty()) results.columns.push_back({"relaxed [J/m2]", run.relaxed});
   check_results(results, table);
-  std::cout << recovery_summary(request, rows, run);
+  std::cout << recovery_summary(request, rows, run) << stops_summary(request);
   write_csv(options.out, results);
   return 0;
 }

@@ -43,16 +43,6 @@ std::string bending_source(const Fabric& fabric) {
   return short_citation(fabric.provenance.at("b2").source);
 }
 
-// B [N m] and 2HB [N] as KES-FB2 reads them: of three numbers b2 and the whole friction moment, of stops what
-// they are within the tester's amplitude.
-std::pair<double, double> tester_pair(const Fabric& fabric) {
-  const Spectrum& stops = fabric.bending.stops;
-  if (stops.empty()) return {fabric.b2, 2 * fabric.virgin_curve().friction_moment()};
-  const KesProtocol p;
-  const double rise = stops.friction_at(p.slope_to) - stops.friction_at(p.slope_from);
-  return {fabric.b2 + rise / (p.slope_to - p.slope_from), stops.loop_width(p.amplitude, p.width_at)};
-}
-
 std::string listed(const std::vector<double>& numbers) {
   std::vector<std::string> words;
   for (double x : numbers) words.push_back(short_number(x));
@@ -87,7 +77,7 @@ void list_fabrics_table() {
             widths);
   for (const FabricFile& file : list_fabrics()) {
     const Fabric& f = file.fabric;
-    const auto [b, width] = tester_pair(f);
+    const auto [b, width] = kes_pair(f.virgin_curve());
     const bool friction = width > 0;
     print_row({f.name, short_number(b), friction ? short_number(width) : "-",
                friction ? short_number(width / 2 / b, 3) : "-", friction ? short_number(f.k0) : "-",

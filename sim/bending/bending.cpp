@@ -209,11 +209,21 @@ double Bending<Real, Device>::stored_energy() {
 }
 
 template <class Real, class Device>
-double Bending<Real, Device>::dissipated_energy() {
-  if (!law_->dissipated()) return 0;
+double Bending<Real, Device>::sum_over_elements(const double* on_device) {
+  if (!on_device) return 0;
   std::vector<double> energy(elements_);
-  device_download(device_, energy.data(), law_->dissipated(), energy.size() * sizeof(double));
+  device_download(device_, energy.data(), on_device, energy.size() * sizeof(double));
   return std::accumulate(energy.begin(), energy.end(), 0.0);
+}
+
+template <class Real, class Device>
+double Bending<Real, Device>::dissipated_energy() {
+  return sum_over_elements(law_->dissipated());
+}
+
+template <class Real, class Device>
+double Bending<Real, Device>::relaxed_energy() {
+  return sum_over_elements(law_->relaxed());
 }
 
 template <class Real, class Device>

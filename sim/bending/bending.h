@@ -60,6 +60,7 @@ class Bending {
   // Measurements of the last accepted state; they change nothing.
   double stored_energy();                    // [J]
   double dissipated_energy();                // by the law, since the start [J]
+  double relaxed_energy();                   // what of it relaxing branches have lost [J]
   double viscous_loss();                     // since the start [J]
   double taken_by_commands();                // recoverable energy, since the start [J]
   std::vector<double> curvature();           // D per element [1/m]
@@ -96,6 +97,7 @@ class Bending {
   std::size_t element_bytes() const { return bytes_of(area_, row_start_, row_hinge_, coefficient_); }
   std::size_t column_bytes() const { return bytes_of(column_start_, column_element_, transposed_); }
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
+  double sum_over_elements(const double* on_device);                        // in their order; 0 of null
 
   Device& device_;
   int dimension_, elements_, hinges_;

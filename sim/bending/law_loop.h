@@ -78,6 +78,7 @@ class LawLoop {
   virtual std::size_t history_bytes() const = 0;
   virtual void visit(Archive& archive, Device& device) = 0;  // history and losses
   virtual const double* dissipated() const = 0;  // per element [J]; null where the law loses nothing
+  virtual const double* relaxed() const = 0;     // what of it branches have lost; null where there are none
 };
 
 // The law for D = 1 (hinge) or D = 3 (shape; laws of scalar form run along four material directions).

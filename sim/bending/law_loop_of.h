@@ -33,7 +33,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
       : law_(law),
         curve_(curve),
         history_(device, static_cast<std::size_t>(elements) * Law::kHistory),
-        dissipated_(device, Law::kHistory > 0 ? elements : 0) {}
+        dissipated_(device, Law::kHistory > 0 ? elements : 0),
+        relaxed_(device, RelaxingLaw<Law> ? elements : 0) {}
 
   using typename LawLoop<Real, Device>::Viscous;
 
@@ -42,7 +43,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     Law law = law_;
     set_step_time(law, dt);
     Real* history = history_.data();
-    double* lost = dissipated_.data();
+    double *lost = dissipated_.data(), *relaxed = relaxed_.data();
     for_each(
         device,
         {"bending law", op.bytes + step_bytes(op.elements) + bytes_of(history_, dissipated_, dissipated_)},
@@ -58,6 +59,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
           for (int d = 0; d < D; ++d) moment_area[i * D + d] = op.area[i] * moment[d];
           store_history<Law>(history, i, op.elements, step.history);
           if (Law::kHistory > 0) lost[i] += static_cast<double>(op.area[i] * step.dissipated);
+          if (RelaxingLaw<Law>) relaxed[i] += static_cast<double>(op.area[i] * step.relaxed);
         });
   }
 
@@ -159,8 +161,10 @@ class LawLoopOf : public LawLoop<Real, Device> {
   void visit(Archive& archive, Device& device) override {
     hysteron::visit(archive, device, history_);
     hysteron::visit(archive, device, dissipated_);
+    if (RelaxingLaw<Law>) hysteron::visit(archive, device, relaxed_);
   }
   const double* dissipated() const override { return dissipated_.data(); }
+  const double* relaxed() const override { return relaxed_.data(); }
 
  private:
   // History read and moments written; viscosity's own left out.
@@ -169,7 +173,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
   Law law_;
   VirginCurve curve_;
   Buffer<Real, Device> history_;
-  Buffer<double, Device> dissipated_;
+  Buffer<double, Device> dissipated_, relaxed_;
 };
 
 template <class Real, class Device, class Law>

@@ -121,6 +121,13 @@ void check_protocol(const KesProtocol& p) {
   }
 }
 
+KesPair kes_pair(const VirginCurve& curve, const KesProtocol& p) {
+  const Spectrum& stops = curve.parts.stops;
+  if (stops.empty()) return {curve.b2, 2 * curve.friction_moment()};
+  const double rise = stops.friction_at(p.slope_to) - stops.friction_at(p.slope_from);
+  return {curve.b2 + rise / (p.slope_to - p.slope_from), stops.loop_width(p.amplitude, p.width_at)};
+}
+
 KesWalk walk_to(const std::vector<double>& turns, const KesProtocol& p) {
   const double step = p.amplitude / p.steps;
   KesWalk walk{{LawRow{0, 0, false}}, {0}};

@@ -46,6 +46,13 @@ struct KesReading {
 // `moment` has one value per row of the walk: to the amplitude and then `cycles` cycles.
 KesReading read_loop(const KesProtocol& protocol, const KesWalk& walk, const std::vector<double>& moment);
 
+// B [N m] and 2HB [N] of a fabric by closed form: of three numbers b2 and twice the friction moment; of stops
+// what they are between these curvatures on the virgin curve, and in the closed loop of this amplitude.
+struct KesPair {
+  double rigidity, loop_width;
+};
+KesPair kes_pair(const VirginCurve& curve, const KesProtocol& protocol = {});
+
 // A smaller cycle, closed if the law closes it.
 struct MinorLoop {
   enum class Family { amplitude = 1, partial_reversal = 2 } family;

@@ -177,7 +177,8 @@ Ledger Body<Real, Device>::balance() {
     sum.handle_work += of.handle_work;
   }
   sum.handle_work += hands.work();
-  sum.bending_friction = bending.dissipated_energy();
+  sum.bending_relaxation = bending.relaxed_energy();
+  sum.bending_friction = bending.dissipated_energy() - sum.bending_relaxation;
   const double viscous_bending = bending.viscous_loss(), viscous_membrane = membrane.viscous_loss();
   sum.viscous = viscous_bending + viscous_membrane;
   if (contact) {
@@ -187,8 +188,8 @@ Ledger Body<Real, Device>::balance() {
   }
   if (self_contact) sum.contact_friction += self_contact->friction_loss();
   sum.commands = bending.taken_by_commands();
-  sum.bending_gap =
-      initial_.bending - sum.bending - sum.bending_friction - sum.commands - viscous_bending - bending_work;
+  sum.bending_gap = initial_.bending - sum.bending - sum.bending_friction - sum.bending_relaxation -
+                    sum.commands - viscous_bending - bending_work;
   sum.gravity_gap = -sum.gravitational - gravity_work;
   sum.implicit_gap = initial_.membrane - sum.membrane + initial_.contact - sum.contact - viscous_membrane -
                      sum.contact_friction + sum.obstacle_work - implicit_work;

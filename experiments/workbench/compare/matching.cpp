@@ -15,10 +15,19 @@ constexpr int kMostIterations = 60;
 double measure(LawRequest law, double scale, Match match, double curvature) {
   law.curve.b1 *= scale;
   law.curve.b2 *= scale;
+  law.curve.parts = stiffened(law.curve.parts, scale);
   return match == Match::energy ? bending_work(law, curvature) : initial_stiffness(law);
 }
 
 }  // namespace
+
+BendingParts stiffened(BendingParts parts, double scale) {
+  for (auto* stiffnesses :
+       {&parts.stops.stiffnesses, &parts.weft_stops.stiffnesses, &parts.branches.stiffnesses})
+    for (double& p : *stiffnesses) p *= scale;
+  parts.set.hardening *= scale;
+  return parts;
+}
 
 Match match_named(const std::string& name) {
   if (name == "fabric") return Match::fabric;
@@ -54,7 +63,7 @@ double matching_scale(const LawRequest& law, const LawRequest& reference, Match 
     if (!(scale > 0) || !std::isfinite(scale)) break;
   }
   throw Error::request("law " + law.name + " cannot be made as stiff as " + reference.name +
-                       " by scaling b1 and b2")
+                       " by scaling its stiffnesses")
       .of("law", law.name);
 }
 

@@ -32,6 +32,7 @@ struct LawStep {
   Vec<Real, D> moment;         // M at the new curvature [N]
   Real stored = 0;             // recoverable energy after the step [J/m^2]
   Real dissipated = 0;         // energy lost in this step [J/m^2]; never negative for a passive law
+  Real relaxed = 0;            // what of it relaxing branches have lost
   History<Real, N> history{};  // memory after the step
 };
 
@@ -96,12 +97,21 @@ concept LawWithUse = requires(const Law& law, const CurvatureOf<Law>& k, const H
   { law.used(k, h) } -> std::convertible_to<typename Law::Scalar>;
 };
 
-// Friction that weakens: its share that is left, and the set that it has become [1/m].
+// A rest curvature that sets permanently [1/m].
 template <class Law>
-concept WeakeningLaw = requires(const Law& law, const HistoryOf<Law>& h) {
-  { law.m0* law.strength(h) } -> std::convertible_to<typename Law::Scalar>;
+concept SettingLaw = requires(const HistoryOf<Law>& h) {
   { Law::set_of(h) } -> std::convertible_to<CurvatureOf<Law>>;
 };
+
+// Friction that weakens: its share that is left; the rest of it has set.
+template <class Law>
+concept WeakeningLaw = SettingLaw<Law> && requires(const Law& law, const HistoryOf<Law>& h) {
+  { law.m0* law.strength(h) } -> std::convertible_to<typename Law::Scalar>;
+};
+
+// Branches that relax: LawStep::relaxed is theirs.
+template <class Law>
+concept RelaxingLaw = Law::kRelaxes;
 
 // The three numbers that define a fabric's bending (model: M = b1 K + c1 K^2 up to K0, then M0 + b2 K), and
 // what it has beyond them, which the laws that know of it take in their place.

@@ -21,6 +21,12 @@
 //     // In place of make(), where parameters decide on the type of law: calls visit(law).
 //     template <class Real, int D, class Memory, class Visit>
 //     static void visit(const LawChoice&, const Visit& visit);
+//     // Of a law of the group `parts`: whether what the fabric has beyond three numbers makes it another
+//     type
+//     // of law, and that type.
+//     static bool takes_parts(const LawChoice&);
+//     template <class Real, int D, class Visit>
+//     static void visit_parts(const LawChoice&, const Visit& visit);
 #pragma once
 
 #include <cmath>
@@ -61,6 +67,7 @@ LawParameter max_set();
 LawParameter weakening();
 LawParameter height();
 LawParameter tau();
+LawParameter stops();
 std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own);
 }  // namespace law_parameter
 

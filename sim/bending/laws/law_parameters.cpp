@@ -101,6 +101,9 @@ LawParameter height() {
 LawParameter tau() {
   return {"tau", [](const ParameterText& t, LawChoice& c) { c.tau = t.positive("s"); }};
 }
+LawParameter stops() {
+  return {"stops", [](const ParameterText& t, LawChoice& c) { c.stops = t.one_of({4, 8, 16, 32}); }};
+}
 
 std::vector<LawParameter> with_fatigue(std::vector<LawParameter> own) {
   own.push_back(

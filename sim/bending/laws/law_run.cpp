@@ -27,7 +27,7 @@ template <class L>
 struct Drive final : LawWalk::State {
   L law;
   History<double, L::kHistory> history{};
-  double dissipated = 0;
+  double dissipated = 0, relaxed = 0;
 
   explicit Drive(const L& chosen) : law(chosen) {}
   std::unique_ptr<State> copy() const override { return std::make_unique<Drive>(*this); }
@@ -35,6 +35,7 @@ struct Drive final : LawWalk::State {
   void visit(Archive& archive) override {
     archive.bytes(&history, sizeof history);
     archive(dissipated);
+    archive(relaxed);
   }
 
   double tangent(const LawRow& row) {
@@ -48,6 +49,7 @@ struct Drive final : LawWalk::State {
     auto step = law.step(curvature, history);
     history = step.history;
     dissipated += step.dissipated;
+    relaxed += step.relaxed;
     if constexpr (EditableLaw<L>) {
       if (row.edit) {
         const double stored = step.stored;
@@ -56,7 +58,7 @@ struct Drive final : LawWalk::State {
         dissipated += stored - step.stored;
       }
     }
-    return {step.moment[0], step.stored, dissipated};
+    return {step.moment[0], step.stored, dissipated, relaxed};
   }
 
   double residual() const override {
@@ -73,7 +75,7 @@ struct Drive final : LawWalk::State {
   }
 
   double permanent_set() const override {
-    if constexpr (WeakeningLaw<L>)
+    if constexpr (SettingLaw<L>)
       return L::set_of(history)[0];
     else
       return 0;
@@ -98,6 +100,7 @@ LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows) {
       run.moment.push_back(point.moment);
       run.stored.push_back(point.stored);
       run.dissipated.push_back(point.dissipated);
+      if constexpr (RelaxingLaw<Law>) run.relaxed.push_back(point.relaxed);
     }
   });
   return run;

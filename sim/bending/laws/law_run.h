@@ -30,6 +30,7 @@ struct LawRun {
   std::vector<double> tangent;     // dM/dK of the step [N m]
   std::vector<double> stored;      // recoverable energy [J/m^2]
   std::vector<double> dissipated;  // lost since rest [J/m^2]; `wong`: work of friction since rest
+  std::vector<double> relaxed;     // what of it relaxing branches have lost [J/m^2]; empty: there are none
 };
 
 // Drives the law through `rows` in double precision, D = 1; parameters as in choose_law() for a law alone.
@@ -41,6 +42,7 @@ struct LawPoint {
   double moment = 0;      // [N]
   double stored = 0;      // recoverable energy [J/m^2]
   double dissipated = 0;  // lost since rest [J/m^2]; `wong`: work of friction since rest
+  double relaxed = 0;     // what of it relaxing branches have lost [J/m^2]
 };
 
 // A law with its memory on the way, a step at a time, for histories too long to be kept.  A copy goes on from
@@ -55,7 +57,7 @@ class LawWalk {
   LawPoint to(const LawRow& row);
   double residual() const;         // curvature at which the moment is zero now [1/m]
   double friction_moment() const;  // M0 that fatigue has left [N]; NaN for a law without fatigue
-  double permanent_set() const;    // K_p of fatigue [1/m]; 0 for a law without fatigue
+  double permanent_set() const;    // K_p of fatigue or of a fabric's set [1/m]; 0 of other laws
 
   void visit(Archive& archive);  // its memory, for one that goes on from there
 

@@ -65,11 +65,36 @@ void visit_fatigued(const LawChoice& c, const Visit& visit) {
   });
 }
 
-// The law named by c, if it is in the list and does not weaken.
+// Whether the law is another type for what its fabric has beyond b1, b2 and k0.
+template <LawDescription Law>
+bool takes_parts(const LawChoice& c) {
+  if constexpr (requires { Law::takes_parts(c); })
+    return Law::takes_parts(c);
+  else
+    return false;
+}
+
+// The law named by c, if it is in the list, does not weaken and takes three numbers alone.
+template <LawDescription Law, class Real, int D, class Memory, class Visit>
+bool visit_plain(const LawChoice& c, const Visit& visit) {
+  if (c.name != Law::kName || takes_parts<Law>(c)) return false;
+  visit_in_dimension<Law, Real, D, Memory>(c, visit);
+  return true;
+}
 template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  if (c.fatigue.on()) return false;
-  return ((c.name == Laws::kName && (visit_in_dimension<Laws, Real, D, Memory>(c, visit), true)) || ...);
+  return !c.fatigue.on() && (visit_plain<Laws, Real, D, Memory>(c, visit) || ...);
+}
+// The others, which take parts.
+template <LawDescription Law, class Real, int D, class Visit>
+bool visit_with_parts(const LawChoice& c, const Visit& visit) {
+  if (c.name != Law::kName || !takes_parts<Law>(c)) return false;
+  Law::template visit_parts<Real, D>(c, visit);
+  return true;
+}
+template <class Real, int D, class Visit, class... Laws>
+bool visit_laws_with_parts(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
+  return (visit_with_parts<Laws, Real, D>(c, visit) || ...);
 }
 template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
@@ -77,11 +102,13 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// A group of laws.txt; the laws of the group `fatigue` weaken.
+// A group of laws.txt; the laws of the group `fatigue` weaken, those of `parts` take a fabric's parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
     return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
+  else if constexpr (std::is_same_v<Group, PartsLaws>)
+    return visit_laws_with_parts<Real, D>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }

@@ -1,10 +1,11 @@
 // The Prandtl-Ishlinskii law in its two forms: stops (prandtl_stops.h) or a stack of reversals
-// (prandtl_stack.h).
+// (prandtl_stack.h); and that of a fabric with stops of its own, or a set (measured_law.h).
 //
 // Every size of its memory is a type of its own and takes its time to compile.
 #pragma once
 
 #include "sim/bending/laws/law_description.h"
+#include "sim/bending/laws/measured_law.h"
 #include "sim/bending/laws/prandtl_stack.h"
 #include "sim/bending/laws/prandtl_stops.h"
 
@@ -17,19 +18,27 @@ struct PrandtlLaw {
   static std::vector<LawParameter> parameters() {
     return law_parameter::with_fatigue(
         {{"memory", [](const ParameterText& t, LawChoice& c) { c.stack = t.is_second("stops", "stack"); }},
-         {"stops",
-          [](const ParameterText& t, LawChoice& c) {
-            c.stops = t.one_of({4, 8, 16, 32});
-          }},
+         law_parameter::stops(),
          {"stack", [](const ParameterText& t, LawChoice& c) {
             c.depth = t.use == LawUse::alone ? t.one_of({4, 6, 8, 16, 32, 64}) : t.one_of({4, 6, 8, 16});
           }}});
   }
   static void check(const LawChoice& c, LawUse use) {
+    if (c.fatigue.on() && takes_parts(c))
+      c.refuse("fatigue.dc", "fatigue.dc goes with b1, b2 and k0, not with the stops or the set of a fabric");
     if (!c.fatigue.on() || use != LawUse::cloth) return;
     if (c.stack && c.depth != 8) c.refuse("stack", "stack = " + shown(c.depth) + " must be 8 with fatigue");
     if (!c.stack && c.stops != 8 && c.stops != 16)
       c.refuse("stops", "stops = " + shown(c.stops) + " must be 8 or 16 with fatigue");
+  }
+
+  // The fabric's own stops are the law's memory, whatever `memory` says.
+  static bool takes_parts(const LawChoice& c) {
+    return !c.curve.parts.stops.empty() || c.curve.parts.set.on();
+  }
+  template <class Real, int D, class Visit>
+  static void visit_parts(const LawChoice& c, const Visit& visit) {
+    visit_measured<Real, D>(c, {}, visit);
   }
 
   template <class Real, int D, class Memory, class Visit>

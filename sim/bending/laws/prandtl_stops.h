@@ -12,21 +12,19 @@
 // law. Dissipated in a step: sum p r_j (|U_j| - r_j)+, never negative.  K0 = 0 or b1 = b2 leave M = b2 K.
 #pragma once
 
-#include "sim/bending/laws/law.h"
+#include "sim/bending/laws/stop_memory.h"
 #include "sim/bending/laws/zero_moment.h"
 
 namespace hysteron {
 
 template <class Real, int D, int N>
-struct PrandtlStops {
-  static constexpr int kDimension = D;
-  static constexpr int kHistory =
-      N * D;  // slip S_j [1/m], laid out [component][stop] so that stops vectorise
-  using Scalar = Real;
+struct PrandtlStops : StopMemory<Real, D, N> {
+  using Memory = StopMemory<Real, D, N>;
+  using Memory::kHistory;
+  using Memory::limit;
 
-  Real b2 = 0;         // rigidity of the straight branch [N m]
-  Real p = 0;          // rigidity of one stop [N m]
-  Real limit[N] = {};  // r_j: curvature at which stop j slips [1/m]
+  Real b2 = 0;  // rigidity of the straight branch [N m]
+  Real p = 0;   // rigidity of one stop [N m]
 
   static PrandtlStops make(const VirginCurve& curve) {
     PrandtlStops law;
@@ -55,8 +53,7 @@ struct PrandtlStops {
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature,
                                    const History<Real, kHistory>& before) const {
     const Stretch now = stretch(curvature, before);
-    const PerStop squared = now.length * now.length;
-    const PerStop slipping = (now.scale < Real(1)).select(now.scale / squared, PerStop::Zero());
+    const PerStop slipping = turning(now);
     Tangent<Real, D> result = (b2 + p * sum(now.scale)) * Tangent<Real, D>::Identity();
     for (int a = 0; a < D; ++a)
       for (int b = 0; b < D; ++b) result(a, b) -= p * sum(PerStop(slipping * now.offset[a] * now.offset[b]));
@@ -71,45 +68,13 @@ struct PrandtlStops {
   HYST_HD Real largest_stiffness() const { return b2 + N * p; }
 
  private:
-  using PerStop = Eigen::Array<Real, N, 1>;  // compiles to vector registers on the CPU
-  struct Stretch {
-    PerStop offset[D];  // U_j by component [1/m]
-    PerStop length;     // |U_j| [1/m]
-    PerStop scale;      // min(1, r_j/|U_j|)
-  };
-
-  HYST_HD Eigen::Map<const PerStop> limits() const { return Eigen::Map<const PerStop>(limit); }
-  HYST_HD static Eigen::Map<PerStop> slip(History<Real, kHistory>& h, int component) {
-    return Eigen::Map<PerStop>(h.slot + component * N);
-  }
-  HYST_HD static Eigen::Map<const PerStop> slip(const History<Real, kHistory>& h, int component) {
-    return Eigen::Map<const PerStop>(h.slot + component * N);
-  }
-
-  HYST_HD Stretch stretch(const Vec<Real, D>& curvature, const History<Real, kHistory>& before) const {
-    Stretch now;
-    for (int c = 0; c < D; ++c) now.offset[c] = curvature[c] - slip(before, c);
-    now.length = now.offset[0].abs();
-    if constexpr (D > 1) {
-      PerStop squared = now.offset[0] * now.offset[0];
-      for (int c = 1; c < D; ++c) squared += now.offset[c] * now.offset[c];
-      now.length = squared.sqrt();
-    }
-    now.scale = limits() / now.length.max(limits());
-    return now;
-  }
-
-  // By halves, so that the order of the sum does not depend on the width of a vector register.
-  template <int n>
-  HYST_HD static Real sum(const Eigen::Array<Real, n, 1>& term) {
-    if constexpr (n == 1) {
-      return term[0];
-    } else {
-      static_assert(n % 2 == 0, "the number of stops is a power of two");
-      return sum<n / 2>(
-          Eigen::Array<Real, n / 2, 1>(term.template head<n / 2>() + term.template tail<n / 2>()));
-    }
-  }
+  using Memory::limits;
+  using Memory::slip;
+  using Memory::stretch;
+  using Memory::sum;
+  using Memory::turning;
+  using typename Memory::PerStop;
+  using typename Memory::Stretch;
 };
 
 }  // namespace hysteron

@@ -25,7 +25,8 @@ bool has_residual_formula(const LawChoice& law) {
   const bool elastic =
       law.name == "linear" || law.name == "bridson" || law.name == "spring" || law.name == "pabst";
   const bool friction = law.name == "bilinear" || law.name == "wong" || law.name == "prandtl";
-  return elastic || (friction && !law.fatigue.on());
+  const bool parts = law.name == "prandtl" && (!law.curve.parts.stops.empty() || law.curve.parts.set.on());
+  return elastic || (friction && !law.fatigue.on() && !parts);
 }
 
 double residual_by_formula(const LawChoice& law, double curvature, double moment) {

@@ -13,7 +13,8 @@ enum class RecoveryCase { elastic = 1, partial = 2, full_slip = 3 };
 // `moment` at the reversal [N], either sign.
 RecoveryCase recovery_case(const VirginCurve& curve, double moment);
 
-// Does residual_by_formula() know the law?  bilinear, wong, prandtl without fatigue; the elastic laws are 0.
+// Does residual_by_formula() know the law?  bilinear, wong, prandtl without fatigue, stops of the fabric's
+// own or a set; the elastic laws are 0.
 bool has_residual_formula(const LawChoice& law);
 
 // Curvature [1/m] at which the moment is zero on the branch that begins at a reversal at (curvature [1/m],

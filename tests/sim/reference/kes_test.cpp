@@ -179,5 +179,26 @@ TEST(KesProtocol, ThatCannotBeReadIsRefusedWithItsNumbers) {
   }
 }
 
+// Of a fabric's own stops the tester reads what they are within its window and its amplitude.
+TEST(Kes, ReadsTheStopsOfAFabricByTheirClosedForms) {
+  const double b2 = 1e-5;
+  const Spectrum stops{{3, 12, 40, 95, 300}, {9e-6, 7e-6, 3e-6, 1e-6, 4e-7}};
+  const VirginCurve fabric{3e-5, b2, 50, {stops, {}, {}, {}}};
+  const auto virgin = [&](double k) { return b2 * k + stops.friction_at(k); };
+  const KesProtocol p;
+  const KesReading read = test_in_kes({"prandtl", fabric, {}}).reading;
+  constexpr double kRows = 1e-3;  // of the tester's 20,000 steps, between which moments are interpolated
+  EXPECT_NEAR(read.loop_area, stops.loop_area(p.amplitude), kRows * read.loop_area);
+  // The first loop begins on the virgin curve, on which the widest stop has slipped less than in a closed
+  // one.
+  const double up = virgin(100), down = virgin(250) - 2 * virgin(75);
+  const double back = -virgin(250) + 2 * virgin(75), lower = virgin(250) - 2 * virgin(175);
+  EXPECT_NEAR(read.loop_width, (up - down + back - lower) / 2, kRows * read.loop_width);
+  const double loading = (virgin(150) - virgin(50)) / 100, unloading = 2 * (virgin(200) - virgin(150)) / 100;
+  EXPECT_NEAR(read.rigidity, (loading + unloading) / 2, kRows * b2);
+  EXPECT_EQ(kes_pair(fabric).rigidity, b2 + (stops.friction_at(150) - stops.friction_at(50)) / 100);
+  EXPECT_EQ(kes_pair(fabric).loop_width, stops.loop_width(250, 100));
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -134,6 +134,63 @@ TEST(FabricFiles, MayLeaveOutTheMembraneWhichThenSaysThatItIsADefault) {
   EXPECT_EQ(fabric.provenance.at("warp").source, "the program's default");
 }
 
+constexpr const char* kParts = R"([bending.stops]
+thresholds = [5, 20, 60]
+stiffnesses = [8e-6, 4e-6, 1e-6]
+source = "lab"
+confidence = "fitted"
+[bending.stops.weft]
+thresholds = [4, 10, 30]
+stiffnesses = [2e-6, 4e-6, 2e-6]
+[bending.branches]
+times = [10]
+stiffnesses = [3e-6]
+[bending.set]
+yield = 400
+hardening = 5e-6
+)";
+
+TEST(FabricFiles, MayStateStopsBranchesAndSet) {
+  const TextFile file(std::string(kMinimal) + kThickness + kParts);
+  const FabricFile read = read_fabric(file.path(), "test");
+  const BendingParts& parts = read.fabric.bending;
+  EXPECT_EQ(parts.stops.thresholds, (std::vector<double>{5, 20, 60}));
+  EXPECT_EQ(parts.stops.stiffnesses, (std::vector<double>{8e-6, 4e-6, 1e-6}));
+  EXPECT_EQ(parts.weft_stops.thresholds, (std::vector<double>{4, 10, 30}));
+  EXPECT_EQ(parts.branches.times, std::vector<double>{10});
+  EXPECT_EQ(parts.set.yield, 400);
+  EXPECT_EQ(read.fabric.provenance.at("bending.stops.thresholds").source, "lab");
+  EXPECT_EQ(read.fabric.provenance.at("bending.stops.thresholds").confidence, "fitted");
+  EXPECT_EQ(read.fabric.provenance.at("bending.set.yield").confidence, "given");
+  EXPECT_EQ(read.place.at("bending.stops.stiffnesses"), file.line(11));
+  EXPECT_EQ(read.fabric.b1, 2e-5) << "which the file states";
+}
+
+TEST(FabricFiles, WithStopsLeaveTheThreeNumbersOfOtherLawsToThem) {
+  std::string text = std::string(kMinimal) + kThickness + kParts;
+  for (const char* name : {"b1 = ", "k0 = "}) {
+    const std::size_t line = text.find(name);
+    text.erase(line, text.find('\n', line) + 1 - line);
+  }
+  const TextFile file(text);
+  const Fabric fabric = read_fabric(file.path(), "test").fabric;
+  const double hb = 5 * 8e-6 + 20 * 4e-6 + 60 * 1e-6;
+  EXPECT_NEAR(fabric.b1, 1e-5 + 13e-6, kRounding * 1e-5);
+  EXPECT_NEAR(fabric.virgin_curve().friction_moment(), hb, 10 * kRounding * hb);
+  EXPECT_EQ(fabric.provenance.at("b1").confidence, "derived");
+}
+
+// The metric has multiplied the curvature of a bend along weft by its root before the law sees it.
+TEST(FabricFiles, WithStopsAlongWeftRubAsTheySayBehindTheMetric) {
+  const TextFile file(std::string(kMinimal) + kThickness + kParts);
+  Fabric fabric = read_fabric(file.path(), "test").fabric;
+  fabric.weft_bending = 4;
+  const Spectrum& stops = fabric.bending.weft_stops;
+  const Spectrum seen = fabric.virgin_curve().parts.weft_stops;
+  for (double k : {3.0, 20.0, 100.0})
+    EXPECT_NEAR(2 * seen.friction_at(2 * k), stops.friction_at(k), kRounding * stops.friction_moment());
+}
+
 struct BadFabric {
   const char* name;
   const char* tail;  // after kMinimal, from line 8
@@ -166,6 +223,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"OutOfRange",
                   "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "fabric.thickness = 0 m must be > 0"},
+        BadFabric{"FewerStiffnesses", "[bending.stops]\nthresholds = [5, 20]\nstiffnesses = [1e-6]\n", 9,
+                  "fabric.bending.stops.thresholds has 2 numbers and must have as many as "
+                  "fabric.bending.stops.stiffnesses, 1"},
+        BadFabric{"StopsInDisorder", "[bending.stops]\nthresholds = [20, 5]\nstiffnesses = [1e-6, 1e-6]\n", 9,
+                  "fabric.bending.stops.thresholds must be ascending: 5 follows 20"},
+        BadFabric{"NegativeStop", "[bending.stops]\nthresholds = [-1]\nstiffnesses = [1e-6]\n", 9,
+                  "fabric.bending.stops.thresholds = [-1] 1/m must be > 0"},
+        BadFabric{"StopsThatAreNoList", "[bending.stops]\nthresholds = 5\nstiffnesses = [1e-6]\n", 9,
+                  "must be numbers > 0 [1/m]"},
+        BadFabric{"OtherNumberOfStopsAlongWeft",
+                  "[bending.stops]\nthresholds = [5, 6]\nstiffnesses = [1e-6, 1e-6]\n"
+                  "[bending.stops.weft]\nthresholds = [5]\nstiffnesses = [1e-6]\n",
+                  12, "fabric.bending.stops.weft.thresholds has 1 numbers and must have as many as"},
+        BadFabric{"TooManyBranches",
+                  "[bending.branches]\ntimes = [1, 2, 3, 4, 5]\nstiffnesses = [1, 1, 1, 1, 1]\n", 9,
+                  "fabric.bending.branches.times has 5 numbers and must have at most 4"},
+        BadFabric{"SetWithoutHardening", "[bending.set]\nyield = 100\n", 9, "must both be > 0"},
+        BadFabric{"UnknownPart", "[bending.stop]\nthresholds = [1]\n", 9,
+                  "unknown key fabric.bending.stop.thresholds"},
         BadFabric{"UnknownParameter",
                   "b3 = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "unknown key fabric.b3"}),

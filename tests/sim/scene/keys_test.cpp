@@ -26,8 +26,12 @@ TEST(ResolvedScene, HoldsEveryKey) {
 
 TEST(ResolvedScene, ReadBackAsFlagsGivesTheSameScene) {
   Scene original = default_scene("wool-tropical");
-  apply_flags(original,
-              {{"gravity", "0.1 0 -9.81"}, {"step", "3.3e-4"}, {"seed", "4294967295"}, {"fabric.k0", "0.1"}});
+  apply_flags(original, {{"gravity", "0.1 0 -9.81"},
+                         {"step", "3.3e-4"},
+                         {"seed", "4294967295"},
+                         {"fabric.k0", "0.1"},
+                         {"fabric.bending.stops.thresholds", "3, 1e2"},
+                         {"fabric.bending.stops.stiffnesses", "1.1e-6 2e-7"}});
   const Json tree = to_json(original);
   Scene copy = default_scene();
   for (const KeyDescription& key : scene_keys()) {

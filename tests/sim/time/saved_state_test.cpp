@@ -22,6 +22,7 @@ struct Saved {
   LawParameters param = {};
   double strength = 0;  // of the second hand [N]
   bool barred = false;  // two layers: a rigid hand leads the upper one through the lower
+  bool parts = false;   // stops along warp and weft, branches and set
 };
 
 const LawParameters kFatigue = {{"fatigue.dc", "0.01"}};
@@ -49,6 +50,12 @@ const Saved kCases[] = {
     {"tr_bdf2_weak_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, false, false, {}, 1e-3},
     {"tr_bdf2_barred_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, true, false, {}, 0, true},
     {"quasi_static", "quasi-static"},
+    {.name = "semi_implicit_parts", .integrator = "semi-implicit", .law = "chapman", .parts = true},
+    {.name = "tr_bdf2_parts_fp32",
+     .integrator = "tr-bdf2",
+     .law = "chapman",
+     .precision = Precision::fp32,
+     .parts = true},
 };
 
 // Between hands that move, one of which comes later, over a ball with friction that comes up; a command and
@@ -94,6 +101,7 @@ Trial trial_of(const Saved& of) {
     hand.motion.keys = {{0}, {4 * scene.step, {0, 0, -2e-3}, 0}};
     test::hold_upper(trial, hand, test::kUpperSide / 2);
   }
+  if (of.parts) scene.fabric.bending = test::all_parts();
   if (of.strength > 0) scene.pin[1].strength = of.strength;
   if (of.chapter) scene.implicit_every = ImplicitEvery::step;
   if (of.integrator == std::string("quasi-static")) scene.ramp = 0.05;

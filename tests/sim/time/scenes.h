@@ -48,6 +48,14 @@ inline Pin pin_at(double x, double y) {
   return pin;
 }
 
+// All that a fabric's bending may have beyond three numbers, on the scale of cotton broad; it sets early.
+inline BendingParts all_parts() {
+  return {{{2, 10, 40, 90}, {8e-6, 6e-6, 3e-6, 1e-6}},
+          {{4, 12, 30, 70}, {5e-6, 4e-6, 2e-6, 1e-6}},
+          {{1e-3, 0.1}, {6e-6, 3e-6}},
+          {15, 6e-6}};
+}
+
 // A square of 0.2 m without pins or obstacles, linear bending, solver as exact as its arithmetic.
 inline Scene free_square(int triangles = 200) {
   Scene scene;

@@ -33,7 +33,7 @@ TEST(LawRun, KnowsTheFourteenNames) {
   }
   EXPECT_EQ(names, (std::vector<std::string>{"linear", "bridson", "spring", "pabst", "bilinear", "wong",
                                              "prandtl", "grinspun-edit", "terzopoulos", "obrien", "kim",
-                                             "narain", "dahl", "gong"}));
+                                             "narain", "dahl", "gong", "chapman"}));
 }
 
 TEST(LawRun, RefusesWhatIsUnknownOrOutOfRangeInOneLine) {

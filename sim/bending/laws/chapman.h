@@ -1,0 +1,25 @@
+// Elasticity, friction and relaxing branches side by side: the theory of wrinkle recovery in which a fold's
+// moment relaxes while it is held and its angle comes back in time after release, as far as friction lets it
+// (relaxing.h).  Friction is the fabric's stops, or those that b1, b2 and k0 make; the branches are the
+// fabric's: one without them has elasticity and friction alone.
+#pragma once
+
+#include "sim/bending/laws/law_description.h"
+#include "sim/bending/laws/measured_law.h"
+
+namespace hysteron {
+
+struct ChapmanLaw {
+  static constexpr const char* kName = "chapman";
+  static constexpr const char* kMeaning =
+      "elastic, friction and relaxing branches: wrinkles recover in time (after Chapman 1975)";
+  static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
+
+  static bool takes_parts(const LawChoice&) { return true; }
+  template <class Real, int D, class Visit>
+  static void visit_parts(const LawChoice& c, const Visit& visit) {
+    visit_measured<Real, D>(c, c.curve.parts.branches, visit);
+  }
+};
+
+}  // namespace hysteron

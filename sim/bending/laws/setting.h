@@ -1,0 +1,138 @@
+// A law whose rest curvature K_p sets permanently where its moment passes a limit that hardens.
+//
+//   M = law(K - K_p),   |M - h K_p| <= b2 K_y,   K_p moves along M - h K_p while it is at the limit
+//
+// h > 0 is the hardening: without it a fold gathers in one row of elements, sharper on every finer mesh. Over
+// a step K_p moves by d to where
+//   W_law(K - K_p - d) + h |K_p + d|^2/2 + b2 K_y |d|
+// is least (closest point; convex in K and d together, hence in K).  Its slope by K is the law's moment, its
+// tangent that of the law in series with the flow: T - T (T + H)^-1 T, H = h 1 + b2 K_y/|d| (1 - n n^T),
+// n = d/|d|.  Lost by the flow: b2 K_y |d|.  For one component that is d = (|M - h K_p| - b2 K_y)/(T + h) on
+// straight branches; a tensor flows along the direction that the minimum has, which for a cylinder is its
+// own. Chosen here, not in a source: the form, linear hardening, and that the whole moment drives the flow.
+#pragma once
+
+#include "sim/bending/laws/law_potential.h"
+#include "sim/bending/laws/plastic_return.h"
+#include "sim/bending/laws/zero_moment.h"
+
+namespace hysteron {
+
+template <class Law>
+struct Setting {
+  using Scalar = typename Law::Scalar;
+  using Real = Scalar;
+  static constexpr int kDimension = Law::kDimension;
+  static constexpr int D = kDimension;
+  static constexpr bool kRelaxes = RelaxingLaw<Law>;
+  static constexpr int kHistory = Law::kHistory + D;  // the law's, K_p [1/m]
+  using Memory = History<Real, kHistory>;
+
+  Law law;
+  Real limit = 0;      // b2 K_y [N]
+  Real hardening = 1;  // h [N m]
+
+  static Setting make(const Law& law, double b2, const PermanentSet& set) {
+    return {law, Real(b2 * set.yield), Real(set.hardening)};
+  }
+
+  HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const Vec<Real, D> moved = flow(curvature, before), set = set_of(before) + moved;
+    const auto inner = law.step(Vec<Real, D>(curvature - set), part(before));
+    LawStep<Real, D, kHistory> result;
+    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
+    store_set<Real, D>(set, result.history, Law::kHistory);
+    result.moment = inner.moment;
+    result.stored = inner.stored + hardening * set.squaredNorm() / 2;
+    result.dissipated = inner.dissipated + limit * moved.norm();
+    result.relaxed = inner.relaxed;
+    return result;
+  }
+
+  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
+    const Vec<Real, D> moved = flow(curvature, before);
+    const Tangent<Real, D> stiff =
+        law.tangent(Vec<Real, D>(curvature - set_of(before) - moved), part(before));
+    if (!(moved.norm() > 0)) return stiff;
+    const Tangent<Real, D> sum = stiff + flow_stiffness(moved);
+    Tangent<Real, D> soft;
+    for (int c = 0; c < D; ++c) soft.col(c) = solve_definite<Real, D>(sum, Vec<Real, D>(stiff.col(c)));
+    const Tangent<Real, D> product = stiff * soft;
+    return stiff - (product + product.transpose()) / 2;
+  }
+  HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
+    return potential_of(flow(curvature, before), curvature, before);
+  }
+  HYST_HD Vec<Real, D> residual(const Memory& history) const {
+    Setting at_once = *this;
+    if constexpr (TimedLaw<Law>) at_once.law.dt = 0;
+    return zero_moment(at_once, history, set_of(history));
+  }
+  HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const requires LawWithUse<Law> {
+    return law.used(Vec<Real, D>(curvature - set_of(history)), part(history));
+  }
+  HYST_HD Real largest_stiffness() const { return law.largest_stiffness(); }
+
+  HYST_HD static Vec<Real, D> set_of(const Memory& m) {  // K_p [1/m]
+    return load_set<Real, D>(m, Law::kHistory);
+  }
+
+ private:
+  static constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-13 : 2e-6);  // of the moments in balance
+
+  HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
+    History<Real, Law::kHistory> result;
+    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
+    return result;
+  }
+
+  HYST_HD Tangent<Real, D> flow_stiffness(const Vec<Real, D>& moved) const {
+    const Real size = moved.norm();
+    const Tangent<Real, D> one = Tangent<Real, D>::Identity();
+    return hardening * one + limit / size * (one - moved * moved.transpose() / (size * size));
+  }
+  HYST_HD Real potential_of(const Vec<Real, D>& moved, const Vec<Real, D>& curvature,
+                            const Memory& before) const {
+    const Vec<Real, D> set = set_of(before) + moved;
+    return step_potential(law, Vec<Real, D>(curvature - set), part(before)) +
+           hardening * set.squaredNorm() / 2 + limit * moved.norm();
+  }
+
+  // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
+  // would leave, which is no more than the step's, so that d is never zero on the way.
+  HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
+    constexpr int kMostSteps = 40, kMostHalvings = 20;
+    constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
+    const Vec<Real, D> old = set_of(before);
+    const auto past = part(before);
+    const auto driving = [&](const Vec<Real, D>& moved) {
+      const Vec<Real, D> set = old + moved;
+      return Vec<Real, D>(law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set);
+    };
+    const Vec<Real, D> first = driving(Vec<Real, D>::Zero());
+    const Real size = first.norm(), precise = kPrecision * (size + 2 * hardening * old.norm() + limit);
+    if (!(size > limit + precise)) return Vec<Real, D>::Zero();
+    Vec<Real, D> moved = (size - limit) / ((law.largest_stiffness() + hardening) * size) * first;
+    Vec<Real, D> slope = limit / moved.norm() * moved - driving(moved);
+    for (int i = 0; i < kMostSteps && slope.norm() > precise; ++i) {
+      const Tangent<Real, D> stiff =
+          law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
+      const Vec<Real, D> newton = -solve_definite<Real, D>(stiff, slope);
+      const Real energy = potential_of(moved, curvature, before),
+                 descent = kEnoughDescent * slope.dot(newton);
+      const Real half_slope = slope.norm() / 2;  // decides where the energy differs by rounding only
+      Real fraction = 1;
+      Vec<Real, D> next = moved;
+      for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
+        next = moved + fraction * newton;
+        slope = limit / next.norm() * next - driving(next);
+        if (slope.norm() <= half_slope) break;
+        if (potential_of(next, curvature, before) <= energy + fraction * descent) break;
+      }
+      moved = next;
+    }
+    return moved;
+  }
+};
+
+}  // namespace hysteron

@@ -1,0 +1,141 @@
+// Friction elements with thresholds and stiffnesses of their own beside an elastic plate: what `prandtl` and
+// `chapman` make of a fabric's stops.
+//
+//   M = b2 S + sum_j p_j E_j,   E_j as stop_memory.h returns it,   accepted: S_j = S - E_j
+//
+// The virgin curve is b2 K + sum_j p_j min(K, r_j); a branch after a reversal is that curve doubled (Masing
+// 1926, for any spectrum).  N is the capacity; elements that the fabric does not have carry nothing.
+//
+// Two spectra, along warp and along weft, have no radial return.  Stop j then has stiffnesses
+// A_j = diag(p_j, p'_j, sqrt(p_j p'_j)) and slips on an ellipsoid (stop_ellipsoid.h) of half axes r_j, r'_j
+// and sqrt(r_j r'_j), so that bends along warp and along weft follow their own spectrum exactly.  Chosen
+// here: the geometric means for twist, which are those of the metric (curvature_operator.h) where the weft
+// spectrum is what the metric makes of the other.  A law of one component bends along warp.
+#pragma once
+
+#include "sim/bending/laws/law_parameters.h"
+#include "sim/bending/laws/stop_ellipsoid.h"
+#include "sim/bending/laws/stop_memory.h"
+#include "sim/bending/laws/zero_moment.h"
+
+namespace hysteron {
+
+template <class Real, int D, int N>
+struct SpectrumStops : StopMemory<Real, D, N> {
+  using Memory = StopMemory<Real, D, N>;
+  using Memory::kHistory;
+  using Memory::limit;
+  using Step = LawStep<Real, D, kHistory>;
+  using Past = History<Real, kHistory>;
+
+  Real b2 = 0;               // rigidity of the straight branch [N m]
+  Real hb = 0;               // friction moment sum p_j r_j [N]
+  Real p[N] = {};            // stiffness of stop j [N m]
+  bool two_spectra = false;  // on the tensor:
+  Real weft_limit[N] = {}, weft_p[N] = {};
+
+  // At most N stops, as many along weft as along warp, or none.
+  static SpectrumStops make(double b2, const Spectrum& warp, const Spectrum& weft) {
+    constexpr double kSomeLimit = 1;  // any positive number: without stiffness a stop carries nothing
+    SpectrumStops law;
+    law.b2 = Real(b2);
+    law.hb = Real(warp.friction_moment());
+    law.two_spectra = D > 1 && !weft.empty();
+    for (std::size_t j = 0; j < N; ++j) {
+      const bool real = j < warp.size(), across = j < weft.size();
+      law.limit[j] = Real(real ? warp.thresholds[j] : kSomeLimit);
+      law.p[j] = Real(real ? warp.stiffnesses[j] : 0);
+      law.weft_limit[j] = Real(across ? weft.thresholds[j] : kSomeLimit);
+      law.weft_p[j] = Real(across ? weft.stiffnesses[j] : 0);
+    }
+    return law;
+  }
+
+  HYST_HD Step step(const Vec<Real, D>& curvature, const Past& before) const {
+    if constexpr (D == 3)
+      if (two_spectra) return step_on_ellipsoids(curvature, before);
+    Step result;
+    const Stretch now = stretch(curvature, before);
+    const PerStop held = now.scale * now.length;
+    for (int c = 0; c < D; ++c) {
+      const PerStop elastic = now.offset[c] * now.scale;
+      slip(result.history, c) = curvature[c] - elastic;
+      result.moment[c] = b2 * curvature[c] + sum(PerStop(stiffness() * elastic));
+    }
+    result.stored = (b2 * curvature.squaredNorm() + sum(PerStop(stiffness() * held * held))) / 2;
+    result.dissipated = sum(PerStop(stiffness() * limits() * (now.length - held)));
+    return result;
+  }
+
+  HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Past& before) const {
+    if constexpr (D == 3)
+      if (two_spectra) return tangent_on_ellipsoids(curvature, before);
+    const Stretch now = stretch(curvature, before);
+    const PerStop slipping = stiffness() * turning(now);
+    Tangent<Real, D> result = (b2 + sum(PerStop(stiffness() * now.scale))) * Tangent<Real, D>::Identity();
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) result(a, b) -= sum(PerStop(slipping * now.offset[a] * now.offset[b]));
+    return result;
+  }
+
+  HYST_HD Vec<Real, D> residual(const Past& history) const {
+    Vec<Real, D> mean_slip;
+    for (int c = 0; c < D; ++c) mean_slip[c] = sum(PerStop(slip(history, c))) / N;
+    return zero_moment(*this, history, mean_slip);
+  }
+  HYST_HD Real used(const Vec<Real, D>& curvature, const Past& history) const {  // |F|/HB along warp
+    return hb > 0 ? (step(curvature, history).moment - b2 * curvature).norm() / hb : Real(0);
+  }
+  HYST_HD Real largest_stiffness() const {
+    Real warp = 0, weft = 0;
+    for (int j = 0; j < N; ++j) warp += p[j], weft += weft_p[j];
+    return b2 + (warp > weft ? warp : weft);
+  }
+
+ private:
+  using Memory::limits;
+  using Memory::slip;
+  using Memory::stretch;
+  using Memory::sum;
+  using Memory::turning;
+  using typename Memory::PerStop;
+  using typename Memory::Stretch;
+
+  HYST_HD Eigen::Map<const PerStop> stiffness() const { return Eigen::Map<const PerStop>(p); }
+
+  HYST_HD StopEllipsoid<Real> ellipsoid(int j) const {
+    using std::sqrt;
+    const Real twist = sqrt(limit[j] * weft_limit[j]);
+    return {{p[j], weft_p[j], sqrt(p[j] * weft_p[j])},
+            {1 / (limit[j] * limit[j]), 1 / (weft_limit[j] * weft_limit[j]), 1 / (twist * twist)}};
+  }
+  HYST_HD static Vec<Real, 3> offset(const Vec<Real, 3>& curvature, const Past& before, int j) {
+    return {curvature[0] - before[j], curvature[1] - before[N + j], curvature[2] - before[2 * N + j]};
+  }
+
+  HYST_HD Step step_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
+    Step result;
+    result.moment = b2 * curvature;
+    result.stored = b2 * curvature.squaredNorm() / 2;
+    for (int j = 0; j < N; ++j) {
+      const StopEllipsoid<Real> stop = ellipsoid(j);
+      const StopReturn<Real> now = stop.returned(offset(curvature, before, j));
+      const Vec<Real, 3> moment = stop.stiffness.cwiseProduct(now.elastic);
+      result.moment += moment;
+      result.stored += moment.dot(now.elastic) / 2;
+      result.dissipated += now.multiplier;
+      for (int c = 0; c < 3; ++c) result.history[c * N + j] = curvature[c] - now.elastic[c];
+    }
+    return result;
+  }
+  HYST_HD Tangent<Real, 3> tangent_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
+    Tangent<Real, 3> result = b2 * Tangent<Real, 3>::Identity();
+    for (int j = 0; j < N; ++j) {
+      const StopEllipsoid<Real> stop = ellipsoid(j);
+      result += stop.tangent(stop.returned(offset(curvature, before, j)));
+    }
+    return result;
+  }
+};
+
+}  // namespace hysteron

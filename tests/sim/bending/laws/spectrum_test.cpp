@@ -1,0 +1,125 @@
+// Friction as a spectrum of stops: loops by closed form, on the tensor, with a spectrum for each direction.
+#include <gtest/gtest.h>
+
+#include "sim/bending/laws/prandtl_stops.h"
+#include "sim/bending/laws/spectrum_stops.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
+
+namespace hysteron::testing {
+namespace {
+
+constexpr double kB2 = 1e-5;         // [N m]
+constexpr double kRounding = 1e-13;  // relative
+
+// Beyond the tester's amplitude of 250/m as well.
+Spectrum warp() { return {{3, 12, 40, 95, 300}, {9e-6, 7e-6, 3e-6, 1e-6, 4e-7}}; }
+Spectrum weft() { return {{5, 10, 55, 60, 200}, {4e-6, 9e-6, 1e-6, 2e-6, 1e-7}}; }
+
+using Strip = SpectrumStops<double, 1, 8>;
+using Sheet = SpectrumStops<double, 3, 8>;
+
+double virgin(double k) { return kB2 * k + warp().friction_at(k); }
+
+TEST(Spectrum, BeginsWithTheSumOfItsStiffnessesAndEndsWithItsFrictionMoment) {
+  Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
+  const double k = 2;  // below all thresholds
+  EXPECT_NEAR(cloth.moment(k), (kB2 + 9e-6 + 7e-6 + 3e-6 + 1e-6 + 4e-7) * k, kRounding * kB2 * k);
+  const double hb = 3 * 9e-6 + 12 * 7e-6 + 40 * 3e-6 + 95 * 1e-6 + 300 * 4e-7;
+  EXPECT_NEAR(cloth.moment(1000), kB2 * 1000 + hb, kRounding * kB2 * 1000);
+  EXPECT_NEAR(cloth.law.used(Vec<double, 1>(1000), cloth.history), 1, kRounding);
+}
+
+// (Masing 1926): M = Mr + 2 f((K - Kr)/2), whatever the spectrum and the reversal.
+TEST(Spectrum, ReturnsOnItsVirginCurveDoubled) {
+  for (double turn : {7.0, 30.0, 80.0, 250.0, 900.0}) {
+    Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
+    EXPECT_NEAR(cloth.moment(turn), virgin(turn), kRounding * virgin(turn));
+    for (int i = 1; i <= 40; ++i) {
+      const double k = turn - 2 * turn * i / 40;
+      EXPECT_NEAR(cloth.moment(k), virgin(turn) - 2 * virgin((turn - k) / 2), kRounding * virgin(turn));
+    }
+  }
+}
+
+TEST(Spectrum, LosesTheAreaOfItsClosedFormInEachCycle) {
+  for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
+    Driven<Strip> cloth(Strip::make(kB2, warp(), {}));
+    cloth.moment(amplitude);
+    const double first = cloth.dissipated;
+    for (double turn : {-amplitude, amplitude}) cloth.moment(turn);
+    double area = 0;
+    for (std::size_t j = 0; j < warp().size(); ++j) {
+      const double r = warp().thresholds[j];
+      if (r < amplitude) area += 4 * warp().stiffnesses[j] * r * (amplitude - r);
+    }
+    EXPECT_NEAR(cloth.dissipated - first, area, kRounding * area);
+    EXPECT_NEAR(warp().loop_area(amplitude), area, kRounding * area);
+  }
+}
+
+TEST(Spectrum, HasTheWidthOfItsClosedFormAtEveryCurvature) {
+  const double amplitude = 250;
+  Driven<Strip> down(Strip::make(kB2, warp(), {}));
+  for (double turn : {amplitude, -amplitude, amplitude}) down.moment(turn);
+  Driven<Strip> up = down;
+  up.moment(-amplitude);
+  for (double k : {200.0, 100.0, 0.0, -60.0}) {
+    Driven<Strip> rising = up;
+    const double width = rising.moment(k) - down.moment(k);
+    EXPECT_NEAR(width, warp().loop_width(amplitude, k), kRounding * kB2 * amplitude);
+  }
+}
+
+TEST(Spectrum, OfEvenThresholdsIsTheDefaultLaw) {
+  const VirginCurve c = cotton_broad();
+  Spectrum even;
+  for (int j = 0; j < 8; ++j) {
+    even.thresholds.push_back((j + 0.5) * c.k0 / 8);
+    even.stiffnesses.push_back((c.b1 - c.b2) / 8);
+  }
+  Driven<PrandtlStops<double, 3, 8>> usual(PrandtlStops<double, 3, 8>::make(c));
+  Driven<Sheet> cloth(Sheet::make(c.b2, even, {}));
+  for (const auto& k : random_tensors(200, 2 * c.k0, 11)) {
+    usual.to(k), cloth.to(k);
+    ASSERT_LE((usual.last.moment - cloth.last.moment).norm(), kRounding * c.b1 * c.k0);
+    ASSERT_NEAR(usual.last.dissipated, cloth.last.dissipated, kRounding * c.b1 * c.k0 * c.k0);
+  }
+}
+
+// Along warp and along weft each spectrum is exact.
+TEST(TwoSpectra, FollowTheirOwnLoopsAlongWarpAndAlongWeft) {
+  const Sheet law = Sheet::make(kB2, warp(), weft());
+  for (int axis : {0, 1}) {
+    Driven<Sheet> sheet(law);
+    Driven<Strip> strip(Strip::make(kB2, axis == 0 ? warp() : weft(), {}));
+    for (double k : random_turns(200, 400, 5)) {
+      const Vec<double, 3> bend = k * Vec<double, 3>::Unit(axis);
+      const double m = strip.moment(k);
+      ASSERT_LE((sheet.to(bend).moment - m * Vec<double, 3>::Unit(axis)).norm(), kRounding * kB2 * 400);
+      ASSERT_NEAR(sheet.last.stored, strip.last.stored, kRounding * kB2 * 400 * 400);
+      ASSERT_NEAR(sheet.last.dissipated, strip.last.dissipated, kRounding * kB2 * 400 * 400);
+    }
+  }
+}
+
+TEST(TwoSpectra, ThatAreEqualAreOne) {
+  Driven<Sheet> two(Sheet::make(kB2, warp(), warp())), one(Sheet::make(kB2, warp(), {}));
+  for (const auto& k : random_tensors(300, 200, 6)) {
+    two.to(k), one.to(k);
+    ASSERT_LE((two.last.moment - one.last.moment).norm(), kRounding * kB2 * 200);
+    ASSERT_NEAR(two.last.dissipated, one.last.dissipated, kRounding * kB2 * 200 * 200);
+  }
+}
+
+// A bend at 45 degrees slips at a moment between those of warp and weft.
+TEST(TwoSpectra, RubBetweenWarpAndWeftOnTheBias) {
+  Driven<Sheet> sheet(Sheet::make(kB2, warp(), weft()));
+  const Vec<double, 3> bias(0.5, 0.5, std::sqrt(0.5));
+  const double friction = (sheet.to(Vec<double, 3>(5000 * bias)).moment - kB2 * 5000 * bias).dot(bias);
+  const double of_warp = warp().friction_moment(), of_weft = weft().friction_moment();
+  EXPECT_GT(friction, std::min(of_warp, of_weft));
+  EXPECT_LT(friction, std::max(of_warp, of_weft));
+}
+
+}  // namespace
+}  // namespace hysteron::testing
