@@ -21,7 +21,8 @@ template <class Real>
 CholeskySolver<Real>::CholeskySolver(Cpu& device, const BlockRows<Real, Cpu>& pattern,
                                      std::unique_ptr<ElementStiffness> bending,
                                      std::unique_ptr<ElementStiffness> self_contact)
-    : pcg_(device, static_cast<int>(pattern.row_ptr().size()) - 1),
+    : device_(device),
+      pcg_(device, static_cast<int>(pattern.row_ptr().size()) - 1),
       bending_(std::move(bending)),
       self_contact_(std::move(self_contact)),
       row_ptr_(pattern.row_ptr()),
@@ -125,12 +126,18 @@ PcgOutcome CholeskySolver<Real>::solve(const System& system, const char* held, c
 }
 
 template <class Real>
-void CholeskySolver<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z) {
+void CholeskySolver<Real>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
+  if (scalars && scalars->done) return;
   for (int i = 0; i < matrix_.nodes(); ++i)
     for (int k = 0; k < 3; ++k) values_[3 * i + k] = static_cast<double>(r[i][k]);
   factor_->solve(values_.data());
   for (int i = 0; i < matrix_.nodes(); ++i)
     for (int k = 0; k < 3; ++k) z[i][k] = held_[i] ? Real(0) : static_cast<Real>(values_[3 * i + k]);
+  if (!scalars) return;
+  for_each_sum<1>(
+      device_, "solve: weigh", matrix_.nodes(),
+      [r, z](int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(r[i].dot(z[i])); },
+      [scalars](const Sums<1>& total) { scalars->advance(total.term[0]); });
 }
 
 template <class Real>

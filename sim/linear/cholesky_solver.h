@@ -34,7 +34,7 @@ class CholeskySolver : public LinearSolver<Real, Cpu>, private Preconditioner<Re
   long factorisations() const { return factorisations_; }  // since the start
 
  private:
-  void apply(const Vec3<Real>* r, Vec3<Real>* z) override;
+  void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) override;
   void renew(const System& system, const char* held);
   bool contact_is_coupled() const;
   void couple_contact();
@@ -42,6 +42,7 @@ class CholeskySolver : public LinearSolver<Real, Cpu>, private Preconditioner<Re
   void assemble(const BlockRowsView<Real>& rows, const char* held);
   int worth() const;
 
+  Cpu& device_;
   Pcg<Real, Cpu> pcg_;
   std::unique_ptr<ElementStiffness> bending_, self_contact_;
   std::vector<int> row_ptr_, col_;  // of the systems' matrices
