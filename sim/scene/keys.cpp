@@ -90,7 +90,7 @@ const KeyRow<Pin> kPinRows[] = {
     {"from", at<&Pin::from>, "s", at_least(0), "", "held from this time on, at their positions then"},
     {"until", at<&Pin::until>, "s", at_least(0), "", "released at this time; 1e30: never"},
     {"home", at<&Pin::home>, "s", at_least(0), "", "time in which they return to where they were at the start; 0: they do not"},
-    {"strength", at<&Pin::strength>, "N", at_least(0), "", "largest force on all that it holds, which then lags behind; 0: none, they go all the way"},
+    {"strength", at<&Pin::strength>, "N", at_least(0), "", "largest force on all that it holds, which then lags behind; 0: none, they go all the way that the cloth leaves free"},
     {"axis", at<&Pin::motion, &Motion::axis>, "", any(), "", "of the motion's rotation"},
     {"center", at<&Pin::motion, &Motion::center>, "m", any(), "", "of the motion's rotation"},
 };

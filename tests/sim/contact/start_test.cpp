@@ -80,6 +80,32 @@ TEST(Start, WithLayersNearerThanAnyStepMayBringThemIsRefusedWithTheirDistance) {
   EXPECT_EQ(failure_of([&] { test::two_sheets((1 + kJust) * least, 60).after(2); }).exit_code, 0);
 }
 
+// Layers that just touch press on nothing: without weight they stay where they are.
+TEST(Start, OfKissingLayersIsAtRest) {
+  Trial trial = test::two_sheets(Fabric{}.thickness, 60);
+  trial.scene.gravity.setZero();
+  const auto simulation = trial.after(10);
+  constexpr double kRounding = 1e-12;  // [m]
+  EXPECT_LT(test::farthest(simulation->positions(), trial.cloth.start), kRounding);
+  EXPECT_EQ(simulation->ledger().contact, 0);
+}
+
+// Pressed layers push each other off, with no more than what their barrier had stored.
+TEST(Start, OfPressedLayersPushesThemApartWithTheEnergyOfTheBarrier) {
+  Trial trial = test::two_sheets(0.7 * Fabric{}.thickness, 60);
+  trial.scene.gravity.setZero();
+  const auto simulation = trial.simulation();
+  const double stored = simulation->ledger().contact;
+  EXPECT_GT(stored, 0);
+  for (int k = 0; k < 10; ++k) {
+    simulation->advance(1);
+    EXPECT_LE(simulation->ledger().kinetic, stored) << k;
+  }
+  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty());
+  const auto x = simulation->positions();
+  for (int i : test::upper_vertices(trial)) EXPECT_GT(x[i].z(), Fabric{}.thickness);
+}
+
 // Cloth that is thicker than its edges are long feels its neighbours from half their distance at rest on, so
 // that the flat cloth is at rest, and layers touch at their thickness or less.
 TEST(Start, OfAThicknessBeyondTheMeshIsAtRestOnTheFlatCloth) {
@@ -150,6 +176,15 @@ TEST(Start, InsideAnObstacleIsRefusedWithObstacleVertexPlaceAndDepth) {
                             depth, std::string("inside obstacle[1] (") + name_of(solid.kind) + ")",
                             "of " + std::to_string(found.count) + " such vertices"});
   }
+}
+
+TEST(Start, BetweenObstaclesThatOverlapAroundItIsRefused) {
+  Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.04}, 0});
+  trial.scene.obstacle[0] = trial.scene.obstacle[1];
+  trial.scene.obstacle[0].center.z() = 0.03;
+  const Failure failure = start_of(trial);
+  EXPECT_EQ(failure.exit_code, 2);
+  expect_naming(failure, {"obstacle: at the start vertex ", "20 mm inside obstacle[0] (box)"});
 }
 
 // A hollow sphere of 5 cm about the middle of the sheet: its corners are 10 sqrt(2) cm away.
