@@ -10,8 +10,8 @@ namespace hysteron {
 //   that are not held throughout as near as no step may bring them (least_distance(), self_touch.h): no way
 //   would be free;
 // - a vertex that no pin holds starts deeper than the cloth's thickness in an obstacle (`hollow`: outside).
-// Only vertices are looked at against obstacles, then and later: one that is small enough to stand between
-// the vertices of a triangle is not felt.
+// Only vertices are looked at against obstacles: one that is small enough to stand between the vertices of a
+// triangle is not refused.
 void check_start(const Scene& scene, const Cloth& cloth);
 
 }  // namespace hysteron
