@@ -91,5 +91,22 @@ TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
   EXPECT_LE(evaluated, 3 * kSteps + tried);  // the first guess is taken up again where it was better
 }
 
+// Without the linear solver's own and the three of each product of bending, Newton's method may launch
+//   6 per evaluation   membrane, angles, law, forces of bending, forces on vertices, sums
+//   7 per iteration    matrix, softening, tangents, masses, stiffness of hinges, diagonal, correction
+//   1 per trial
+//   12 per step        start, references of both rates, three guesses, history, losses, ledger, end, finite
+TEST_P(ProfileOfSteps, LaunchesNoMoreThanItsPartsNeed) {
+  const Profile profile = profile_of(hanging("implicit", GetParam()));
+  const auto calls = [&](const char* name) { return profile.costs.at(name).calls; };
+  long own = -3 * calls("bending stiffness");
+  for (const auto& [name, cost] : profile.costs)
+    if (!name.starts_with("solve: ") && !name.starts_with("multigrid: ")) own += cost.calls;
+  EXPECT_GT(own, 0);
+  EXPECT_LE(own,
+            6 * calls("membrane stress, tried") + 7 * profile.newton + calls("newton: try") + 12 * kSteps);
+  EXPECT_EQ(profile.work.allocations, 0);
+}
+
 }  // namespace
 }  // namespace hysteron
