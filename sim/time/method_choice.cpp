@@ -9,11 +9,14 @@ namespace hysteron {
 
 namespace {
 
-// Measured (docs/performance.md, "Strips and small meshes"): up to so many multiplications a factorisation
-// solves faster than multigrid on the CPU, and than multigrid on a GPU.
-constexpr double kCholeskyWork = 1e9, kCpuWork = 5e7;
-// Of larger cloths not even strips come below; ordering them would take seconds.
-constexpr int kMostVertices = 20000;
+// Multiplications of a factorisation for each vertex, up to which it pays (docs/performance.md, "Strips and
+// small meshes"): they grow with the square of a strip's width in vertices, not with its length, and a
+// multigrid iteration's with neither.
+constexpr double kWorkOfVertex = 3e4;
+// The same in all, up to which one core keeps up with a GPU, which takes some 10 ms for any step.
+constexpr double kCpuWork = 5e7;
+// Ordering larger cloths would take seconds.
+constexpr int kMostVertices = 10000;
 
 bool solves_with_newton(const Scene& scene) {
   return scene.is_implicit() || (scene.self_contact && scene.integrator == Integrator::semi_implicit);
@@ -52,7 +55,7 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   choice.linear_solver = Preconditioning::multigrid;
   if (scene.device == DeviceChoice::cuda || cloth.mesh.vertices() > kMostVertices) return choice;
   const double work = factorisation_work(cloth.mesh, op);
-  if (work > (choice.gpu ? kCpuWork : kCholeskyWork)) return choice;
+  if (work > kWorkOfVertex * cloth.mesh.vertices() || (choice.gpu && work > kCpuWork)) return choice;
   choice.linear_solver = Preconditioning::cholesky;
   if (choice.gpu)
     choice.reason = "device = auto takes the CPU, which is faster than a GPU for so small a cloth";

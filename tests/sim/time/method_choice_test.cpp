@@ -1,0 +1,89 @@
+// What scenes that leave device and linear solver open are given.
+#include "sim/time/method_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+
+namespace hysteron {
+namespace {
+
+Scene sheet(double length, double width, int triangles) {
+  Scene scene;
+  scene.cloth.shape = "strip";
+  scene.cloth.length = length;
+  scene.cloth.width = width;
+  scene.triangles = triangles;
+  scene.integrator = Integrator::implicit;
+  return scene;
+}
+
+MethodChoice choice_for(const Scene& scene, int gpus) {
+  const Cloth cloth = make_cloth(scene);
+  return choose_method(scene, cloth, make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, 0)),
+                       gpus);
+}
+
+TEST(MethodChoice, FactorisesSmallClothsAndStripsOnTheCpu) {
+  EXPECT_EQ(choice_for(sheet(0.2, 0.2, 300), 0).linear_solver, Preconditioning::cholesky);
+  EXPECT_EQ(choice_for(sheet(1, 0.025, 4000), 0).linear_solver, Preconditioning::cholesky);
+  EXPECT_EQ(choice_for(sheet(0.5, 0.5, 30000), 0).linear_solver, Preconditioning::multigrid);
+}
+
+TEST(MethodChoice, TakesTheCpuForAStripAndSaysSoButAGpuForASquareOfAsManyTriangles) {
+  const MethodChoice strip = choice_for(sheet(1, 0.025, 2000), 1),
+                     square = choice_for(sheet(0.5, 0.5, 6000), 1);
+  EXPECT_FALSE(strip.gpu);
+  EXPECT_FALSE(strip.reason.empty());
+  EXPECT_TRUE(square.gpu);
+  EXPECT_TRUE(square.reason.empty());
+  EXPECT_EQ(square.linear_solver, Preconditioning::multigrid);
+}
+
+TEST(MethodChoice, LeavesWhatTheSceneNames) {
+  Scene scene = sheet(1, 0.025, 500);
+  scene.device = DeviceChoice::cuda;
+  EXPECT_TRUE(choice_for(scene, 1).gpu);
+  EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::multigrid);
+  scene.device = DeviceChoice::automatic;
+  scene.linear_solver = Preconditioning::block_jacobi;
+  EXPECT_TRUE(choice_for(scene, 1).gpu);
+  EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::block_jacobi);
+}
+
+TEST(MethodChoice, OfIntegratorsWithoutNewtonsMethodIsTheDeviceAlone) {
+  Scene scene = sheet(1, 0.025, 500);
+  scene.integrator = Integrator::semi_implicit;
+  EXPECT_TRUE(choice_for(scene, 1).gpu);
+  EXPECT_EQ(choice_for(scene, 1).linear_solver, Preconditioning::automatic);
+}
+
+TEST(MethodChoice, RefusesAFactorisationOnAGpuInOneLine) {
+  Scene scene = sheet(0.2, 0.2, 500);
+  scene.device = DeviceChoice::cuda;
+  scene.linear_solver = Preconditioning::cholesky;
+  try {
+    choice_for(scene, 1);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("linear-solver = cholesky"), std::string::npos) << error.what();
+  }
+  scene.device = DeviceChoice::automatic;
+  EXPECT_FALSE(choice_for(scene, 1).gpu);
+}
+
+// A band of half width w nodes: about n w^2/2 blocks' products, 27 multiplications each; a square's
+// separators grow with its side.
+TEST(MethodChoice, CountsWorkThatGrowsWithTheLengthOfAStripButWithTheSquareOfASheet) {
+  const auto work = [](const Scene& scene) {
+    const Cloth cloth = make_cloth(scene);
+    return factorisation_work(cloth.mesh,
+                              make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, 0)));
+  };
+  EXPECT_LT(work(sheet(2, 0.02, 2000)), 2.3 * work(sheet(1, 0.02, 1000)));
+  EXPECT_GT(work(sheet(0.4, 0.4, 4000)), 2.3 * work(sheet(0.4, 0.4, 2000)));
+}
+
+}  // namespace
+}  // namespace hysteron
