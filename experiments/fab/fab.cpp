@@ -98,12 +98,13 @@ int run_test(const CommandLine& line) {
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
   const FabFabric fabric = read_fab_fabric(flags.fabric, "--fabric");
+  const FabStrip strip = fabric.strip(flags.direction);
   const bool measured = !flags.data.empty();
   const FabLoops loops = measured ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab"),
                                                flags.direction, flags.test)
                                   : loops_without_data(flags);
   Run run(line, flags.options, to_json(keys));
-  const ComparedLoops compared(loops, run_fab(loops, fabric.strip(flags.direction)), measured);
+  const ComparedLoops compared(loops, run_fab(loops, strip), measured);
   add_metrics(run, compared);
   write_loops(run, "fab.csv", compared);
   if (!flags.options.no_images) {

@@ -87,11 +87,10 @@ void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) 
   for (const FabPrediction& p : predictions) {
     const FabLoops& loops = p.stops.loops;
     const BranchForces measured = p.stops.measured_forces();
-    const double unit = loops.bends() ? kMicroPerCentimetre : kMicroPerCentimetre;
     for (int cycle = 0; cycle < loops.cycles(); ++cycle) {
-      const double seen = unit * loop_area(loops, measured, cycle);
-      const double area = unit * loop_area(loops, p.stops.run.force, cycle);
-      const double one = unit * loop_area(loops, p.one_stop.run.force, cycle);
+      const double seen = kMicroPerCentimetre * loop_area(loops, measured, cycle);
+      const double area = kMicroPerCentimetre * loop_area(loops, p.stops.run.force, cycle);
+      const double one = kMicroPerCentimetre * loop_area(loops, p.one_stop.run.force, cycle);
       const double range = force_range(p.stops.run.force, cycle), seen_range = force_range(measured, cycle);
       const double one_range = force_range(p.one_stop.run.force, cycle);
       file.row({loops.name() + " cycle " + std::to_string(cycle + 1), p.fitted_on, p.fitted[cycle] ? 1 : 0,
