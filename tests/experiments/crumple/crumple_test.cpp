@@ -31,6 +31,44 @@ TEST(Crumple, LeavesWrinklesInClothThatRubsAndNoneInElasticCloth) {
   EXPECT_NE(text_of(out / "table.csv").find("prandtl,"), std::string::npos);
 }
 
+// The right end of a strip is led over the left one, which is held, and 2 cm beyond it.
+constexpr const char* kLedThroughItself = R"(
+integrator = "implicit"
+step = 0.005
+seconds = 0.3
+triangles = 100
+self-contact = true
+newton-residual = 1e-3
+newton-velocity = 1e-4
+[cloth]
+shape = "strip"
+length = 0.1
+width = 0.03
+[[pin]]
+low = [-1, -1, -1]
+high = [0.02, 1, 1]
+[[pin]]
+low = [0.08, -1, -1]
+high = [1, 1, 1]
+keys = [{time = 0, position = [0, 0, 0]}, {time = 0.1, position = [-0.04, 0, 0.04]},
+        {time = 0.15, position = [-0.08, 0, 0.02]}, {time = 0.25, position = [-0.08, 0, -0.02]}]
+)";
+
+TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarTheyLagged) {
+  const Folder folder;
+  std::ofstream(folder.path() / "led.toml") << kLedThroughItself;
+  const auto out = folder.path() / "run";
+  const Outcome outcome = program("crumple --scene " + (folder.path() / "led.toml").string() +
+                                  " --threads 1 --no-images --out " + out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  EXPECT_GT(metrics["barred_hand_steps_count"], 0);
+  EXPECT_NEAR(metrics["hand_lag_m"].get<double>(), 0.02, 3 * Fabric{}.thickness);
+  EXPECT_EQ(metrics["intersections"], 0);
+  EXPECT_EQ(metrics.value("unbalanced_steps_count", 0), 0);
+  EXPECT_NE(outcome.err.find("cloth barred the way of rigid pins"), std::string::npos) << outcome.err;
+}
+
 // The beginning of each shipped scene, on a small mesh.
 class ShippedScene : public testing::TestWithParam<const char*> {};
 
