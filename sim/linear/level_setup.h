@@ -133,43 +133,61 @@ struct PowerStep {
   }
 };
 
-// A matrix's blocks, row by row, zeros included.
-template <class Real>
-struct DenseBlocks {
-  BlockRowsView<Real> matrix;
-  Eigen::Matrix3d* a;
-  HYST_HD void operator()(int e) const {
-    const int i = e / matrix.rows, column = e % matrix.rows;
+// Block Gauss-Jordan without exchange of rows.  A pivot is inverted by whoever finishes it: for each of the
+// others to do so would take most of the time.
+struct DenseInversion {
+  Eigen::Matrix3d *a, *next;  // blocks row by row, before a pivot and after it
+  Eigen::Matrix3d* pivot;     // the inverse of each
+  int n;
+
+  // A matrix's blocks, zeros included.
+  template <class Real>
+  HYST_HD void fill(const BlockRowsView<Real>& matrix, int e) const {
+    const int i = e / n, column = e % n;
     Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
     if (i == column) block = matrix.diagonal[i].template cast<double>();
     for (int j = matrix.row_ptr[i]; j < matrix.row_ptr[i + 1]; ++j)
       if (matrix.col[j] == column) block = matrix.off_diagonal[j].template cast<double>();
-    a[e] = block;
+    put(a, e, block, 0);
+  }
+  HYST_HD void eliminate(int k, int e) const {
+    const int i = e / n, j = e % n;
+    Eigen::Matrix3d block;
+    if (i == k)
+      block = j == k ? pivot[k] : Eigen::Matrix3d(pivot[k] * a[e]);
+    else if (j == k)
+      block = -a[e] * pivot[k];
+    else
+      block = a[e] - a[i * n + k] * (pivot[k] * a[k * n + j]);
+    put(next, e, block, k + 1);
+  }
+
+ private:
+  HYST_HD void put(Eigen::Matrix3d* to, int e, const Eigen::Matrix3d& block, int next_pivot) const {
+    to[e] = block;
+    if (e == next_pivot * n + next_pivot) pivot[next_pivot] = safe_inverse<double>(block);
   }
 };
 
-// One pivot of block Gauss-Jordan without exchange of rows, from a to next.
+template <class Real>
+struct DenseFill {
+  DenseInversion inversion;
+  BlockRowsView<Real> matrix;
+  HYST_HD void operator()(int e) const { inversion.fill(matrix, e); }
+};
+
 struct DensePivot {
-  const Eigen::Matrix3d* a;
-  Eigen::Matrix3d* next;
-  int n, k;
-  HYST_HD void operator()(int e) const {
-    const int i = e / n, j = e % n;
-    const Eigen::Matrix3d pivot = safe_inverse<double>(a[k * n + k]);
-    if (i == k)
-      next[e] = j == k ? pivot : Eigen::Matrix3d(pivot * a[e]);
-    else if (j == k)
-      next[e] = -a[e] * pivot;
-    else
-      next[e] = a[e] - a[i * n + k] * (pivot * a[k * n + j]);
-  }
+  DenseInversion inversion;
+  int k;
+  HYST_HD void operator()(int e) const { inversion.eliminate(k, e); }
 };
 
 // A team for each small level: power iteration, whose last vector is in y, or the dense inverse.
 template <class Real>
 struct SmallSetup {
   SmallLevels<Real> levels;
-  Eigen::Matrix3d *dense, *next;  // the inverse of n nodes' matrix ends in the former if n is even
+  // The inverse of n nodes' matrix ends in the first if n is even, in the second if it is odd.
+  Eigen::Matrix3d *dense, *next, *pivots;
 
   template <class Team>
   HYST_HD void operator()(int t, const Team& team) const {
@@ -191,9 +209,14 @@ struct SmallSetup {
   template <class Team>
   HYST_HD void invert(const BlockRowsView<Real>& matrix, const Team& team) const {
     const int n = matrix.rows;
-    team.for_each(n * n, DenseBlocks<Real>{matrix, dense});
-    for (int k = 0; k < n; ++k)
-      team.for_each(n * n, DensePivot{k % 2 ? next : dense, k % 2 ? dense : next, n, k});
+    DenseInversion inversion{dense, next, pivots, n};
+    team.for_each(n * n, DenseFill<Real>{inversion, matrix});
+    for (int k = 0; k < n; ++k) {
+      team.for_each(n * n, DensePivot{inversion, k});
+      Eigen::Matrix3d* done = inversion.next;
+      inversion.next = inversion.a;
+      inversion.a = done;
+    }
   }
 };
 static_assert(kPowerSteps % 2 == 0);  // SmallSetup's last vector is in y

@@ -37,7 +37,7 @@ Multigrid<Real, Device>::Multigrid(Device& device, const ClothMesh& mesh, const 
   first_small_ = std::max(levels - SmallLevels<Real>::kMost, 0);
   while (first_small_ < levels && level_[first_small_].nodes > kMostInTeam) ++first_small_;
   if (level_.empty() || level_.back().nodes > kMostDense) return;
-  const std::size_t blocks = static_cast<std::size_t>(level_.back().nodes) * level_.back().nodes;
+  const std::size_t nodes = level_.back().nodes, blocks = nodes * nodes + nodes;  // the matrix, its pivots
   for (auto& matrix : dense_) matrix = Buffer<Eigen::Matrix3d, Device>(device, blocks);
 }
 
@@ -109,8 +109,10 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
                    PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
   }
   const SmallLevels<Real> small = small_levels();
+  const int nodes = dense() ? level_.back().nodes : 0;
+  Eigen::Matrix3d* pivots = dense_[0].data() + nodes * nodes;  // behind the matrix
   for_each_team(device_, "multigrid: small levels", small.count,
-                SmallSetup<Real>{small, dense_[0].data(), dense_[1].data()});
+                SmallSetup<Real>{small, dense_[0].data(), dense_[1].data(), pivots});
   const std::size_t swept = level_.size() - (dense() ? 1 : 0);
   for (std::size_t l = 0; l < swept; ++l) find_eigenvalue(level_[l]);
 }
