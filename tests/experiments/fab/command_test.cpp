@@ -1,6 +1,7 @@
 // `hysteron fab` from flags to its folder.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/experiment.h"
