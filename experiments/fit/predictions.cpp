@@ -11,6 +11,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kMicroPerCentimetre = 1e4;  // µJ/cm of 1 J/m
+constexpr double kBarWidth = 0.27;           // of the distance between groups of three
 
 std::string fitted_on(const FabAnswer& answer, const std::string& direction) {
   std::string cycles;
@@ -122,7 +123,8 @@ void draw_predictions(Run& run, const std::string& fabric, const std::vector<Fab
   render::Plot plot{
       fabric + ": areas of loops; * fitted, all others predicted", loops, {"area per width [µJ/cm]"}};
   plot.width = 1600;
-  plot.series = render::grouped_bars({"measured", "stops", "one stop"}, {measured, stops, one}, 0.8);
+  plot.bar_width = kBarWidth;
+  plot.series = render::grouped_bars({"measured", "stops", "one stop"}, {measured, stops, one}, kBarWidth);
   run.plot("plot_areas", plot);
 }
 

@@ -176,8 +176,8 @@ MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, c
   const auto column = [&](const char* name) {
     const auto found = std::find(table.head.begin(), table.head.end(), name);
     if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
-    throw Error::request(reader + ": " + file.filename().string() + " has no column '" + name +
-                         "', as --units kes says");
+    throw Error::request(file.filename().string() + " has no column '" + name + "', as --units kes says")
+        .in(reader);
   };
   const std::size_t curvature = column(kKesCurvature), moment = column(kKesMoment);
   MomentSeries series;

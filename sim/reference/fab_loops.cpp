@@ -35,8 +35,9 @@ std::size_t column_of(const TextTable& table, const std::string& name, const fs:
                       const std::string& reader) {
   const auto found = std::find(table.head.begin(), table.head.end(), name);
   if (found == table.head.end())
-    throw Error::request(reader + ": " + file.filename().string() + " has no column " + name +
-                         " (--units si: _m and _N, --units fab: _cm and _gf)");
+    throw Error::request(file.filename().string() + " has no column " + name +
+                         " (--units si: _m and _N, --units fab: _cm and _gf)")
+        .in(reader);
   return static_cast<std::size_t>(found - table.head.begin());
 }
 
@@ -59,9 +60,9 @@ FabLoops& loops_of(std::vector<FabLoops>& all, const std::string& direction, con
   return all.back();
 }
 
-void check(const FabLoops& loops, const std::string& where) {
+void check(const FabLoops& loops, const std::string& where, const std::string& reader) {
   const auto refuse = [&](const std::string& what) {
-    throw Error::request(where + ": " + loops.name() + ": " + what);
+    throw Error::request(where + ": " + loops.name() + ": " + what).in(reader);
   };
   if (std::string("UDS").find(loops.test.front()) == std::string::npos) refuse("a test is U.., D.. or S..");
   if (loops.branches.size() % 2 != 0) refuse("every cycle has a branch out and one back");
@@ -105,22 +106,22 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto number = [&](std::size_t column) { return number_of(table, row, column, file, reader); };
     const auto& words = table.rows[row];
-    const std::string where =
-        reader + ": " + file.filename().string() + ":" + std::to_string(table.lines[row]);
+    const std::string where = file.filename().string() + ":" + std::to_string(table.lines[row]);
     if (words[c.direction].empty() || words[c.test].empty())
-      throw Error::request(where + " names no direction or no test");
+      throw Error::request(where + " names no direction or no test").in(reader);
     FabLoops& loops = loops_of(all, words[c.direction], words[c.test]);
     const auto branch = static_cast<std::size_t>(number(c.branch));
     if (branch == loops.branches.size()) loops.branches.emplace_back();
     if (branch + 1 != loops.branches.size())
       throw Error::request(where + ": branch " + words[c.branch] + " does not follow branch " +
-                           std::to_string(loops.branches.size()) + " - 1");
+                           std::to_string(loops.branches.size()) + " - 1")
+          .in(reader);
     loops.gauge = unit.metre * number(c.gauge);
     loops.width = unit.metre * number(c.width);
     loops.branches.back().distance.push_back(unit.metre * number(c.distance));
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }
-  for (const FabLoops& loops : all) check(loops, reader + ": " + file.filename().string());
+  for (const FabLoops& loops : all) check(loops, file.filename().string(), reader);
   return all;
 }
 

@@ -59,19 +59,21 @@ TextTable read_tester_table(const std::filesystem::path& file, const std::string
       continue;
     }
     std::vector<std::string> fields = fields_of(line, separator);
-    const std::string at = reader + ": " + file.filename().string() + ":" + std::to_string(number);
+    const std::string at = file.filename().string() + ":" + std::to_string(number);
     if (fields.size() != table.head.size())
       throw Error::request(at + " has " + std::to_string(fields.size()) + " fields, its head has " +
-                           std::to_string(table.head.size()));
+                           std::to_string(table.head.size()))
+          .in(reader);
     if (separator != ',')
       for (std::string& field : fields) std::replace(field.begin(), field.end(), ',', '.');
     table.rows.push_back(std::move(fields));
     table.lines.push_back(number);
   }
   if (table.head.empty())
-    throw Error::request(reader + ": " + file.filename().string() + " has no line that names a column " +
-                         first_column + ": another table, or other units than said (--units)");
-  if (table.rows.empty()) throw Error::request(reader + ": " + file.filename().string() + " has no rows");
+    throw Error::request(file.filename().string() + " has no line that names a column " + first_column +
+                         ": another table, or other units than said (--units)")
+        .in(reader);
+  if (table.rows.empty()) throw Error::request(file.filename().string() + " has no rows").in(reader);
   return table;
 }
 
@@ -80,8 +82,9 @@ double number_of(const TextTable& table, std::size_t row, std::size_t column,
   const std::string& field = table.rows[row][column];
   const auto number = number_in(field);
   if (!number || !std::isfinite(*number))
-    throw Error::request(reader + ": " + file.filename().string() + ":" + std::to_string(table.lines[row]) +
-                         ": " + table.head[column] + " = \"" + field + "\" must be a finite number");
+    throw Error::request(file.filename().string() + ":" + std::to_string(table.lines[row]) + ": " +
+                         table.head[column] + " = \"" + field + "\" must be a finite number")
+        .in(reader);
   return *number;
 }
 
