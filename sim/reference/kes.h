@@ -47,7 +47,7 @@ struct KesReading {
 KesReading read_loop(const KesProtocol& protocol, const KesWalk& walk, const std::vector<double>& moment);
 
 // B [N m] and 2HB [N] of a fabric by closed form: of three numbers b2 and twice the friction moment; of stops
-// what they are between these curvatures on the virgin curve, and in the closed loop of this amplitude.
+// what the tester reads of its first loop.
 struct KesPair {
   double rigidity, loop_width;
 };

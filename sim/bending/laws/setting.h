@@ -100,7 +100,8 @@ struct Setting {
 
   // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
   // would leave, which is no more than the step's, so that d is never zero on the way.
-  HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
+  // Not inlined, since it holds the whole law several times over.
+  [[gnu::noinline]] HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
     constexpr int kMostSteps = 40, kMostHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
     const Vec<Real, D> old = set_of(before);
@@ -118,16 +119,17 @@ struct Setting {
       const Tangent<Real, D> stiff =
           law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
       const Vec<Real, D> newton = -solve_definite<Real, D>(stiff, slope);
-      const Real energy = potential_of(moved, curvature, before),
-                 descent = kEnoughDescent * slope.dot(newton);
-      const Real half_slope = slope.norm() / 2;  // decides where the energy differs by rounding only
+      const Real descent = kEnoughDescent * slope.dot(newton);
+      const Real half_slope = slope.norm() / 2;  // as it nearly always is; else the potential decides
       Real fraction = 1;
       Vec<Real, D> next = moved;
       for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
         next = moved + fraction * newton;
         slope = limit / next.norm() * next - driving(next);
         if (slope.norm() <= half_slope) break;
-        if (potential_of(next, curvature, before) <= energy + fraction * descent) break;
+        if (potential_of(next, curvature, before) <=
+            potential_of(moved, curvature, before) + fraction * descent)
+          break;
       }
       moved = next;
     }

@@ -113,7 +113,8 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     return {curvature[0] - before[j], curvature[1] - before[N + j], curvature[2] - before[2 * N + j]};
   }
 
-  HYST_HD Step step_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
+  // Not inlined, so that the usual loop over one spectrum stays short.
+  [[gnu::noinline]] HYST_HD Step step_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
     Step result;
     result.moment = b2 * curvature;
     result.stored = b2 * curvature.squaredNorm() / 2;
@@ -128,7 +129,8 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     }
     return result;
   }
-  HYST_HD Tangent<Real, 3> tangent_on_ellipsoids(const Vec<Real, 3>& curvature, const Past& before) const {
+  [[gnu::noinline]] HYST_HD Tangent<Real, 3> tangent_on_ellipsoids(const Vec<Real, 3>& curvature,
+                                                                   const Past& before) const {
     Tangent<Real, 3> result = b2 * Tangent<Real, 3>::Identity();
     for (int j = 0; j < N; ++j) {
       const StopEllipsoid<Real> stop = ellipsoid(j);

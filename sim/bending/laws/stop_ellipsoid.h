@@ -27,7 +27,7 @@ struct StopEllipsoid {
 
   // The multiplier by Newton's method on 1/|B^1/2 E| - 1, which is nearly linear in it and concave, so that
   // from l = 0 every step stays on one side (as for trust regions: More & Sorensen 1983).
-  HYST_HD StopReturn<Real> returned(const Vec<Real, 3>& offset) const {
+  [[gnu::noinline]] HYST_HD StopReturn<Real> returned(const Vec<Real, 3>& offset) const {
     using std::sqrt;
     constexpr int kMostSteps = 40;
     constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-15 : 4e-7);
