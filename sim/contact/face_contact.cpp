@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "sim/contact/face_touch.h"
+#include "sim/contact/sharp_obstacles.h"
 #include "sim/contact/sliding_stop.h"
 #include "sim/contact/touch.h"
 
@@ -26,19 +27,6 @@ HYST_HD Vec3<Real> face_slip(const FaceFriction<Real>& friction, const Eigen::Ve
 }
 
 }  // namespace
-
-double sharp_radius(const Scene& scene, const ClothMesh& mesh) {
-  double longest = 0;  // squared edge
-  for (const Edge& e : mesh.edge)
-    longest = std::max(longest, (mesh.rest[e.p3] - mesh.rest[e.p2]).squaredNorm());
-  return longest / (6 * (1 - kCompressed) * scene.fabric.thickness);
-}
-
-bool is_sharper_than_mesh(const Scene& scene, const ClothMesh& mesh) {
-  const double sharp = sharp_radius(scene, mesh);
-  return std::any_of(scene.obstacle.begin(), scene.obstacle.end(),
-                     [&](const Obstacle& o) { return sharpest_radius(o) < sharp; });
-}
 
 template <class Real, class Device>
 FaceContact<Real, Device>::FaceContact(Device& device, const ClothMesh& mesh, const Scene& scene,

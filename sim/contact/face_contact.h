@@ -18,10 +18,6 @@
 
 namespace hysteron {
 
-// Below this radius of curvature an obstacle is sharper than the mesh [m].
-double sharp_radius(const Scene& scene, const ClothMesh& mesh);
-bool is_sharper_than_mesh(const Scene& scene, const ClothMesh& mesh);
-
 // Friction at a triangle's nearest point: what depends on the normal force, held fixed.
 template <class Real>
 struct FaceFriction {
