@@ -119,7 +119,7 @@ void expect_straight_line(const VirginCurve& c) {
 }
 
 TEST(VirginCurve, WithoutFrictionEveryLawIsTheStraightLine) {
-  for (const VirginCurve c : {VirginCurve{1e-5, 1e-5, 50}, VirginCurve{3e-5, 1e-5, 0}}) {
+  for (const VirginCurve& c : {VirginCurve{1e-5, 1e-5, 50}, VirginCurve{3e-5, 1e-5, 0}}) {
     expect_straight_line<Linear<double, 1>>(c);
     expect_straight_line<Pabst<double, 1>>(c);
     expect_straight_line<PrandtlStops<double, 1, 8>>(c);
