@@ -82,6 +82,8 @@ class ImplicitStep {
   std::vector<Vec3<Real>> handle_forces(const VertexState<Real>& state) const;
   // Where solve() has ended without success.
   Unbalanced most_unbalanced(const char* held);
+  // Which part of the potential is not finite at x, in a user's words; "" if none.
+  std::string not_finite(const Vec3<Real>* x) { return potential_.not_finite(x); }
   std::size_t bytes() const;
 
   // The parts; public because nvcc allows no device lambda in a private member function.

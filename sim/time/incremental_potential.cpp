@@ -87,24 +87,9 @@ PotentialValue IncrementalPotential<Real, Device>::renew_friction(const Vec3<Rea
 template <class Real, class Device>
 PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, const Vec3<Real>* direction) {
   compute_gradient(x);
-  Energies energies;
-  if (contact_) {
-    contact_->evaluate(x, start_.now, gradient_.data());
-    energies.list[0] = contact_->energies();
-    energies.count[0] = contact_->energies_count();
-  }
-  if (self_contact_) {
-    self_contact_->evaluate(x, start_.now, gradient_.data());
-    energies.list[1] = self_contact_->energies();
-    energies.count[1] = self_contact_->pairs();
-  }
-  energies.list[2] = membrane_.energies();
-  energies.count[2] = membrane_.faces();
-  if (!bending_lags_) {
-    energies.list[3] = bending_.energies();
-    energies.count[3] = bending_.elements();
-  }
-  add_up(energies, x, direction);
+  if (contact_) contact_->evaluate(x, start_.now, gradient_.data());
+  if (self_contact_) self_contact_->evaluate(x, start_.now, gradient_.data());
+  add_up(energies(), x, direction);
   device_.synchronize();
   const Totals& t = *totals_;
   return {t.energy,
@@ -115,6 +100,43 @@ PotentialValue IncrementalPotential<Real, Device>::balance(const Vec3<Real>* x, 
           std::sqrt(t.internal2),
           std::sqrt(t.weight2),
           t.slope};
+}
+
+template <class Real, class Device>
+typename IncrementalPotential<Real, Device>::Energies IncrementalPotential<Real, Device>::energies() {
+  Energies result;
+  if (contact_) {
+    result.list[0] = contact_->energies();
+    result.count[0] = contact_->energies_count();
+  }
+  if (self_contact_) {
+    result.list[1] = self_contact_->energies();
+    result.count[1] = self_contact_->pairs();
+  }
+  result.list[2] = membrane_.energies();
+  result.count[2] = membrane_.faces();
+  if (!bending_lags_) {
+    result.list[3] = bending_.energies();
+    result.count[3] = bending_.elements();
+  }
+  return result;
+}
+
+template <class Real, class Device>
+std::string IncrementalPotential<Real, Device>::not_finite(const Vec3<Real>* x) {
+  constexpr const char* kPart[] = {"contact with obstacles", "contact between layers", "the membrane",
+                                   "bending"};
+  if (std::isfinite(evaluate(x, nullptr).energy)) return "";
+  const Energies of = energies();
+  for (int l = 0; l < 4; ++l) {
+    std::vector<double> energy(of.count[l]);
+    device_download(device_, energy.data(), of.list[l], energy.size() * sizeof(double));
+    const auto bad = std::find_if(energy.begin(), energy.end(), [](double e) { return !std::isfinite(e); });
+    if (bad != energy.end())
+      return std::string("the energy of ") + kPart[l] + " (element " + std::to_string(bad - energy.begin()) +
+             " of " + std::to_string(of.count[l]) + ")";
+  }
+  return "inertia, weight or the pull of hands";
 }
 
 // Inertia, drag and weight with their energies; the gradients of membrane and bending.

@@ -11,6 +11,8 @@
 // beta_dt = infinity: no inertia, drag or viscosity.
 #pragma once
 
+#include <string>
+
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
@@ -79,6 +81,8 @@ class IncrementalPotential {
   void visit(Archive& archive) { hysteron::visit(archive, device_, gradient_); }
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient of the last linearise() [N]
+  // Which part is not finite at x, in a user's words; "" if none.
+  std::string not_finite(const Vec3<Real>* x);
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
     return bytes_of(gradient_, descent_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
@@ -100,6 +104,7 @@ class IncrementalPotential {
 
  private:
   PotentialValue balance(const Vec3<Real>* x, const Vec3<Real>* direction);
+  Energies energies();
   std::size_t vertex_bytes(int vectors) const { return vectors * gradient_.bytes(); }
   Device& device_;
   BlockRows<Real, Device>& matrix_;

@@ -141,8 +141,11 @@ void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& ste
     if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
     throw Error::run(message);
   }
-  if (!(outcome.load > 0))
-    throw Error::run(message + "the forces are not finite, or nothing holds the cloth back");
+  if (!(outcome.load > 0)) {
+    const std::string part = step.not_finite(body.x.data());
+    throw Error::run(message + (part.empty() ? "nothing holds the cloth back, or an obstacle bars its way"
+                                             : part + " is not finite"));
+  }
   message += "an unbalanced force of " + number(outcome.residual) +
              " N remains (weight, pins and inertia: " + number(outcome.load) + " N)";
   const Unbalanced worst = step.most_unbalanced(body.held.data());
