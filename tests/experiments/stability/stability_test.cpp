@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "experiments/stability/limit.h"
+#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 #include "tests/experiments/folder.h"
@@ -143,6 +144,31 @@ TEST(Sweeps, RefuseUnknownNames) {
     EXPECT_EQ(error.exit_code(), 2);
     EXPECT_NE(std::string(error.what()).find("bending-step"), std::string::npos);
   }
+}
+
+// A hollow sphere closes on a sheet of 300 triangles to 0.3 of its radius, with friction.
+class ClosingSphere : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(EveryLaw, ClosingSphere, testing::ValuesIn(law_names()), [](const auto& of) {
+  std::string name = of.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
+  SweepChoice choice;
+  choice.laws = {GetParam()};
+  const Sweep sweep = contact_sweep(choice);
+  const auto row = std::find(sweep.y.ticks.begin(), sweep.y.ticks.end(), "sphere, friction 0.3");
+  ASSERT_NE(row, sweep.y.ticks.end());
+  Attempt attempt = sweep.at(0, 0, static_cast<int>(row - sweep.y.ticks.begin()));
+  ASSERT_EQ(attempt.scene.law, GetParam());
+  attempt.scene.integrator = Integrator::implicit;
+  attempt.scene.device = DeviceChoice::cpu;
+  attempt.scene.threads = 1;
+  const Finding f = find_out(attempt, {});
+  EXPECT_TRUE(f.outcome == Outcome::ended || f.outcome == Outcome::retried) << f.message;
+  EXPECT_LE(f.energy_growth, kLargestGrowth);
+  EXPECT_NEAR(f.seconds_simulated, attempt.most_seconds, attempt.scene.step);
 }
 
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
