@@ -289,8 +289,8 @@ template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
   return bytes_of(area_, coefficient_, transposed_, rest_angle_, row_start_, row_hinge_, column_start_,
                   column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_, viscous_, gradient_,
-                  moment_area_, force_, energy_, taken_, trial_angle_, tangent_, hinge_stiffness_, reference_,
-                  angle_before_);
+                  moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_, tangent_,
+                  hinge_stiffness_, reference_, angle_before_);
 }
 
 template class Bending<double, ThisDevice>;

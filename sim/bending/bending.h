@@ -36,7 +36,8 @@ class Bending {
   // Implicit steps (bending_implicit.cpp).  begin_step() says how rates are formed, as
   // (angle - reference)/beta_dt with the reference (1 + e) times the accepted angle minus e times the one
   // accepted before it, e the extrapolation.  evaluate() tries a step to `position`; accept() commits the one
-  // that was tried last.
+  // that was tried last.  Angles are continued from where linearise() was called last, as Newton's method
+  // goes along: within a step a hinge may turn by more than half a turn, and its energy has no jump there.
   void begin_step(const StepFormula& formula);
   void evaluate(const Vec3<Real>* position);                 // forces(), and energies()
   const double* energies() const { return energy_.data(); }  // incremental potential per element [J]
@@ -120,6 +121,9 @@ class Bending {
   // Of implicit steps; empty before the first.
   StepFormula formula_;
   Buffer<Real, Device> trial_angle_, tangent_, hinge_stiffness_;
+  Buffer<Real, Device> iterate_angle_;             // where linearise() was called last,
+  bool iterates_ = false;                          // if it was in this step;
+  bool tried_ = false;                             // evaluate() was called since
   Buffer<Real, Device> reference_, angle_before_;  // with viscosity
 };
 

@@ -1,6 +1,7 @@
 // Bending in an implicit step: the incremental potential of the laws along the pipeline angles -> curvatures
 // -> moments -> forces, and its Gauss-Newton stiffness as a product.
 #include <cmath>
+#include <utility>
 
 #include "sim/bending/bending.h"
 
@@ -10,6 +11,7 @@ template <class Real, class Device>
 void Bending<Real, Device>::make_trials() {
   const int packed = dimension_ * (dimension_ + 1) / 2;
   trial_angle_ = Buffer<Real, Device>(device_, hinges_);
+  iterate_angle_ = Buffer<Real, Device>(device_, hinges_);
   hinge_stiffness_ = Buffer<Real, Device>(device_, hinges_);
   tangent_ = Buffer<Real, Device>(device_, static_cast<std::size_t>(elements_) * packed);
   if (rate_.size() == 0) rate_ = Buffer<Real, Device>(device_, hinges_);
@@ -34,6 +36,7 @@ void Bending<Real, Device>::visit(Archive& archive) {
 template <class Real, class Device>
 void Bending<Real, Device>::begin_step(const StepFormula& formula) {
   formula_ = formula;
+  iterates_ = false;
   if (trial_angle_.size() == 0) make_trials();
   if (viscosity_ <= 0) return;
   const Real now = static_cast<Real>(1 + formula.extrapolation),
@@ -56,14 +59,17 @@ template <class Real, class Device>
 void Bending<Real, Device>::evaluate(const Vec3<Real>* x) {
   AngleRates rates;
   if (viscosity_ > 0) rates = {rate_.data(), reference_.data(), static_cast<Real>(1 / formula_.beta_dt)};
-  compute_angles(x, angle_.data(), trial_angle_.data(), rates);
+  compute_angles(x, iterates_ ? iterate_angle_.data() : angle_.data(), trial_angle_.data(), rates);
+  tried_ = true;
   law_->trial(device_, view(), trial_angle_.data(), trial_step(), moment_area_.data(), energy_.data());
   compute_energy_forces();
 }
 
 template <class Real, class Device>
 void Bending<Real, Device>::linearise() {
-  law_->tangents(device_, view(), trial_angle_.data(), trial_step(), tangent_.data());
+  if (std::exchange(tried_, false)) std::swap(iterate_angle_, trial_angle_);
+  iterates_ = true;
+  law_->tangents(device_, view(), iterate_angle_.data(), trial_step(), tangent_.data());
 }
 
 template <class Real, class Device>

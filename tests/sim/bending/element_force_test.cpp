@@ -213,5 +213,38 @@ TEST(ChapterForce, BreaksAngularMomentumOnASkewHinge) {
   EXPECT_GT(worst, kNoticeable);
 }
 
+// The energy of a linear law is that of the turn from rest, squared.
+TEST(ImplicitBending, FollowsAHingeBeyondHalfATurnInOneStep) {
+  const auto turned = [](double halves) { return OneHinge(0.5, 0.5, 0.8, 0.8, halves * M_PI); };
+  const OneHinge flat = turned(0);
+  Bent bent(flat.mesh, "hinge", "linear", flat.bent);
+  bent.bending.begin_step(StepFormula::statics(1));
+  const auto energy_at = [&](double halves) {
+    bent.bending.evaluate(turned(halves).bent.data());
+    return bent.bending.energies()[0];
+  };
+  const double of_half = energy_at(0.5) / (0.5 * 0.5);
+  for (const double halves : {0.9, 1.2, 1.9, 2.4}) {
+    EXPECT_NEAR(energy_at(halves), of_half * halves * halves, kRounding * of_half) << halves;
+    bent.bending.linearise();
+  }
+  EXPECT_NEAR(energy_at(1.6), of_half * 1.6 * 1.6, kRounding * of_half) << "a trial on the way back";
+  bent.bending.accept();
+  bent.bending.begin_step(StepFormula::statics(1));
+  EXPECT_NEAR(energy_at(1.5), of_half * 1.5 * 1.5, kRounding * of_half) << "the next step";
+}
+
+// From the step's start alone 1.2 half turns one way are 0.8 the other way.
+TEST(ImplicitBending, TakesTheShorterWayToWhereAStepBegins) {
+  const OneHinge flat(0.5, 0.5, 0.8, 0.8, 0);
+  Bent bent(flat.mesh, "hinge", "linear", flat.bent);
+  bent.bending.begin_step(StepFormula::statics(1));
+  const auto energy_at = [&](double halves) {
+    bent.bending.evaluate(OneHinge(0.5, 0.5, 0.8, 0.8, halves * M_PI).bent.data());
+    return bent.bending.energies()[0];
+  };
+  EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kRounding * energy_at(-0.8));
+}
+
 }  // namespace
 }  // namespace hysteron
