@@ -131,7 +131,7 @@ std::string html_cards(const std::vector<Card>& cards) {
   std::vector<Fields> all;
   for (const Card& card : cards)
     all.push_back({{"value", card.value},
-                   {"has_more", card.more.has_value()},
+                   {"has_more", !card.more.value_or("").empty()},
                    {"more", card.more.value_or("")},
                    {"name", card.name}});
   return filled("cards.html", {{"cards", all}});

@@ -14,11 +14,11 @@ TEST(Template, EscapesTextsAndLeavesHtml) {
 
 TEST(Template, RepeatsAListAndLeavesOutWhatIsEmpty) {
   EXPECT_EQ(html_table({"law", "2HB [N]"}, {{"wong", "0.5"}, {"<b>", ""}}, {1}),
-            "<div class=\"scroll\"><table>\n<thead><tr><th>law</th><th>2HB [N]</th></tr>\n</thead>\n"
-            "<tbody><tr><td>wong</td><td>0.5</td></tr>\n<tr><td>&lt;b&gt;</td><td></td></tr>\n"
+            "<div class=\"scroll\"><table>\n<thead><tr><th>law<th>2HB [N]\n</thead>\n"
+            "<tbody><tr><td>wong<td>0.5\n<tr><td>&lt;b&gt;<td>\n"
             "</tbody></table></div>\n");
   EXPECT_EQ(html_table({}, {}, {}),
-            "<div class=\"scroll\"><table>\n<thead><tr></tr>\n</thead>\n<tbody></tbody></table></div>\n");
+            "<div class=\"scroll\"><table>\n<thead><tr>\n</thead>\n<tbody></tbody></table></div>\n");
 }
 
 TEST(Template, OfADocumentHasItsScriptWhereSomethingMoves) {

@@ -63,8 +63,7 @@ TEST(TextTable, SaysOnceWhatEveryRowSays) {
 
 TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
   const std::string html = html_of(table_in("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
-  for (const char* part :
-       {"<th>law</th><th>2HB [N]</th>", "<td>0.000123457<", "<td>1e-8<", "<td>1170<", "<td>wong<"})
+  for (const char* part : {"<th>law<th>2HB [N]", "<td>0.000123457<", "<td>1e-8<", "<td>1170\n", "<td>wong<"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
@@ -72,7 +71,7 @@ TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
 TEST(TextTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
   const std::string html = html_of(table_in("count,note\n12,\"cut, twice\"\n7,\n"));
   for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
-                           "<td class=\"t\">cut, twice<"})
+                           "<td class=\"t\">cut, twice\n"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
