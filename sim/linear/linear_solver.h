@@ -9,6 +9,8 @@ template <class Real, class Device>
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
+  // The systems that follow resemble one another until it is called again, and hold the same rows.
+  virtual void begin() {}
   // system * x = rhs for the rows that are not held, zero for those that are.
   virtual PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                            Vec3<Real>* x, double tolerance) = 0;

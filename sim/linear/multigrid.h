@@ -32,6 +32,10 @@ class Multigrid : public Preconditioner<Real, Device> {
   //   held              rows that apply() leaves zero; read by apply() too
   void rebuild(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal, Real bending,
                const char* held);
+  // The same with the coarse levels of the last rebuild(), which held the same rows.
+  void renew_finest(BlockRowsView<Real> matrix, const Mat3<Real>* bending_diagonal) {
+    invert_diagonal(matrix, bending_diagonal, held_, inverse_.data());
+  }
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   std::size_t bytes() const override;
   int levels() const { return 1 + static_cast<int>(level_.size()); }

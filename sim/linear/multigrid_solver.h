@@ -18,19 +18,32 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                    Vec3<Real>* x, double tolerance) override {
     constexpr int kMostIterations = 20000;
-    multigrid_.rebuild(system.matrix, system.rest_diagonal, rigidity_, held);
+    const bool renews = is_stale_;
+    if (renews)
+      multigrid_.rebuild(system.matrix, system.rest_diagonal, rigidity_, held);
+    else
+      multigrid_.renew_finest(system.matrix, system.rest_diagonal);
     LinearSystem<Real, Device> preconditioned = system;
     preconditioned.preconditioner = &multigrid_;
-    return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
+    const PcgOutcome outcome =
+        pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
+    if (renews) iterations_when_new_ = outcome.iterations / decades(tolerance);
+    is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + kWorthNewLevels;
+    return outcome;
   }
-  // The levels are made anew for every system.
+  void begin() override { is_stale_ = true; }
+  // The levels are made anew where begin() was called.
   void visit(Archive& archive) override { pcg_.visit(archive); }
   std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
 
  private:
+  // Iterations that take about as long as new coarse levels.
+  static constexpr double kWorthNewLevels = 2;
   Multigrid<Real, Device> multigrid_;
   Pcg<Real, Device> pcg_;
   Real rigidity_;
+  bool is_stale_ = true;            // coarse levels have to be made anew
+  double iterations_when_new_ = 0;  // of the solve after that, for each decade of its tolerance
 };
 
 }  // namespace hysteron

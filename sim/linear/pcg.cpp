@@ -1,8 +1,6 @@
 #include "sim/linear/pcg.h"
 
 #include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 
 #include "sim/linear/row_products.h"
 
@@ -33,12 +31,6 @@ GatheredForces<Real> product(const StiffnessProduct<Real>& stiffness, const Vec3
 
 // Sent to a GPU between two questions whether they were enough.
 constexpr int kIterationsAtOnce = 4;
-
-// How many times the tolerance makes a tenth of the residual.
-double decades(double tolerance) {
-  constexpr double kLeast = 0.5;
-  return std::max(-std::log10(tolerance), kLeast);
-}
 
 }  // namespace
 

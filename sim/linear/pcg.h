@@ -2,6 +2,8 @@
 // caller brings.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "sim/base/archive.h"
@@ -16,6 +18,12 @@ struct PcgOutcome {
   int iterations = 0;
   bool converged = false;
 };
+
+// How many times the tolerance makes a tenth of the residual.
+inline double decades(double tolerance) {
+  constexpr double kLeast = 0.5;
+  return std::max(-std::log10(tolerance), kLeast);
+}
 
 // A stiffness that is applied element by element: what it makes of a displacement [m].
 template <class Real>

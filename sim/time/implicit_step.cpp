@@ -126,6 +126,7 @@ template <class Real, class Device>
 NewtonOutcome ImplicitStep<Real, Device>::solve(const VertexState<Real>& state, double h, double share,
                                                 bool is_first_stage) {
   formula_ = formula_of(h, is_first_stage);
+  solver_->begin();
   share_ = static_cast<Real>(share);
   place(state);
   potential_.begin({formula_, rates_of(h), state.x, x_before_.data(), reference_.data(), predicted_.data(),
