@@ -1,5 +1,6 @@
 // Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone;
-// with --hard: of steps that Newton's method finds hard; with --profile: of the kernels of a step.
+// with --hard: of steps that Newton's method finds hard; with --profile: of the kernels of a step; with
+// --parts: of what a scene's model is made of.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
+#include "experiments/bench/parts.h"
 #include "experiments/bench/step_profile.h"
 #include "experiments/bench/table.h"
 #include "experiments/workbench/app/experiment.h"
@@ -43,6 +45,10 @@ struct BenchOptions {
       "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press,fold,crease,drape";
   int hard_steps = 20, hard_triangles = 300;
   bool profile = false;
+  bool parts = false;
+  std::string parts_scenes = "crumple-fall,crumple-sphere,crease,drape,fold";
+  int parts_triangles = 2000;
+  double parts_after = 0.1;
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
@@ -53,6 +59,10 @@ const KeyRow<BenchOptions> kRows[] = {
     {"hard-steps", at<&BenchOptions::hard_steps>, "", between(1, 1000), "", "of --hard: how many steps of each scene"},
     {"hard-triangles", at<&BenchOptions::hard_triangles>, "", between(1, 1e6), "", "of --hard"},
     {"profile", at<&BenchOptions::profile>, "", any(), "", "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
+    {"parts", at<&BenchOptions::parts>, "", any(), "", "scenes as they are and without one part of their model each: memory, launches and time of a step, of which table.csv tells"},
+    {"parts-scenes", at<&BenchOptions::parts_scenes>, "", any(), "", "of --parts: as --hard-scenes"},
+    {"parts-triangles", at<&BenchOptions::parts_triangles>, "", between(1, 1e6), "", "of --parts"},
+    {"parts-after", at<&BenchOptions::parts_after>, "s", at_least(0), "", "of --parts: simulated before steps are timed"},
 };
 // clang-format on
 
@@ -259,17 +269,42 @@ int bench_kernels(const CommandLine& line, const Setup& setup) {
   return 0;
 }
 
+int bench_parts(const CommandLine& line, const Setup& setup, BenchOptions own) {
+  Options options = setup.options;
+  options.json = false;  // of its rows, not of the manifest
+  Run run(line, options, to_json(bind(kRows, own)));
+  std::vector<Metrics> rows;
+  if (!setup.options.json) fmt::print("ms/step launches newton  linear bytes/triangle scene without\n");
+  for (const std::string& name : split(own.parts_scenes))
+    for (const Metrics& row : cost_of_parts(hard_scene(name, own.parts_triangles, setup.scene),
+                                            own.parts_after, options.quick ? kQuickSteps : kSteps)) {
+      rows.push_back(row);
+      if (setup.options.json) continue;
+      fmt::print("{:7.2f} {:8.0f} {:6.1f} {:7.1f} {:14.0f} {} {}\n", row.number("ms_per_step"),
+                 row.number("launches_per_step"), row.number("newton_iterations_per_step"),
+                 row.number("solver_iterations_per_step"), row.number("bytes_per_triangle"), name,
+                 row["without"].text());
+      std::fflush(stdout);
+    }
+  write_table(run, rows);
+  run.finish();
+  if (setup.options.json) print_json(rows);
+  return 0;
+}
+
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
     own.elements = std::min(own.elements, kQuickElements);
     own.hard_steps = std::min(own.hard_steps, kQuickHardSteps);
     own.hard_triangles = std::min(own.hard_triangles, kQuickHardTriangles);
+    own.parts_triangles = std::min(own.parts_triangles, kQuickHardTriangles);
   });
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
   if (own.hard) return bench_hard_steps(line, setup, own);
   if (own.profile) return bench_kernels(line, setup);
+  if (own.parts) return bench_parts(line, setup, own);
   if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
   std::vector<Metrics> rows;
   const Cloth cloth = make_cloth(setup.scene);

@@ -1,6 +1,8 @@
 // The profile of a step: as many calls as there are launches, and bytes that follow from the cloth's size.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/time/back_end.h"
 #include "tests/sim/time/scenes.h"
 
@@ -106,6 +108,31 @@ TEST_P(ProfileOfSteps, LaunchesNoMoreThanItsPartsNeed) {
   EXPECT_LE(own,
             6 * calls("membrane stress, tried") + 7 * profile.newton + calls("newton: try") + 12 * kSteps);
   EXPECT_EQ(profile.work.allocations, 0);
+}
+
+// Neither obstacles nor layers, no history, no damping: none of their loops runs.
+TEST_P(ProfileOfSteps, HasNoLoopOfAPartThatTheSceneLacks) {
+  Scene plain = hanging("implicit", GetParam());
+  plain.law = "linear";
+  plain.fabric.damping = 0;
+  const Profile without = profile_of(plain);
+  Scene full = hanging("implicit", GetParam());
+  full.self_contact = true;
+  Obstacle ball;
+  ball.kind = ObstacleKind::sphere;
+  ball.center = {0, 0, -10};
+  ball.radius = 0.1;
+  full.obstacle = {ball};
+  const Profile with = profile_of(full);
+  for (const char* part : {"contact: ", "self-contact: ", "bending reference"}) {
+    const auto runs = [&](const Profile& profile) {
+      return std::any_of(profile.costs.begin(), profile.costs.end(),
+                         [&](const auto& cost) { return cost.first.starts_with(part); });
+    };
+    EXPECT_TRUE(runs(with)) << part;
+    EXPECT_FALSE(runs(without)) << part;
+  }
+  EXPECT_LT(without.work.loops, with.work.loops);
 }
 
 }  // namespace
