@@ -34,7 +34,7 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
-    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take along, on, mesh, triangles and strip-steps"},
+    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take along, load, on, mesh, triangles and strip-steps"},
     {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
     {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
     {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},

@@ -16,21 +16,24 @@ struct InPlaneFlags {
   std::string test = "shear";
   Along along = Along::warp;
   std::string on = "law";
+  InPlaneProtocol protocol;
   InPlaneSpecimen specimen;
   Options options;
 };
 using F = InPlaneFlags;
 using S = InPlaneSpecimen;
+using P = InPlaneProtocol;
 // clang-format off
 const KeyRow<InPlaneFlags> kOwnRows[] = {
     {"along", at<&F::along>, "", any(), "", "shear, tension: the direction from clamp to clamp"},
+    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "", "tension: largest force per width; the tester's is 500 gf/cm"},
 };
 // As of the bending test's.
 const KeyRow<InPlaneFlags> kSharedRows[] = {
     {"test", at<&F::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, KES-FB1 shear or tension"},
     {"on", at<&F::on>, "", any(), "law | strip", "the law alone, or beside it a specimen of cloth"},
     {"mesh", at<&F::specimen, &S::mesh>, "", any(), "", "of the specimen"},
-    {"triangles", at<&F::specimen, &S::triangles>, "", between(20, 1e6), "", "about how many it has"},
+    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "", "about how many it has"},
     {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "", "its equilibria from zero to the largest"},
 };
 // clang-format on
@@ -49,9 +52,9 @@ void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& f
   if (flags.on == "law") return;
   InPlaneSpecimen coarse = flags.specimen;
   coarse.triangles /= 4;
-  const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, InPlaneProtocol{});
+  const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, flags.protocol);
   result.cloth = loop_of(cloth.test);
-  result.coarse = loop_of(on_cloth(result.fabric, flags.along, coarse, InPlaneProtocol{}).test);
+  result.coarse = loop_of(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
   result.tension = cloth.tension;
   result.triangles = cloth.triangles;
   result.seconds = cloth.seconds;
@@ -62,9 +65,9 @@ InPlaneResult tested(const Fabric& fabric, InPlaneTest test, const InPlaneFlags&
   result.fabric = fabric;
   const InPlaneLaw law = in_plane_law(fabric, flags.along);
   if (test == InPlaneTest::shear)
-    test_on_cloth(result, test_shear(law), flags, shear_cloth);
+    test_on_cloth(result, test_shear(law, flags.protocol), flags, shear_cloth);
   else
-    test_on_cloth(result, test_tension(law), flags, stretch_cloth);
+    test_on_cloth(result, test_tension(law, flags.protocol), flags, stretch_cloth);
   return result;
 }
 

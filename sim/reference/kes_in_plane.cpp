@@ -121,9 +121,9 @@ TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& p) {
   };
   if (force(kMostStretch - 1) < p.largest)
     throw Error::request(
-        fmt::format("a tension of {:g} N/m stretches the fabric to more than twice its "
-                    "length: fabric.warp and fabric.weft are too small for a tension test",
-                    p.largest));
+        fmt::format("load = {0:g} N/m stretches a fabric of {1:g} N/m to more than twice its length: it must "
+                    "be < {2:g} N/m",
+                    p.largest, law.tension.spring, force(kMostStretch - 1)));
   TensionTest test;
   const auto go = [&](double extension) {
     test.extension.push_back(extension);
