@@ -182,6 +182,7 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
 int run_kes(const CommandLine& line) {
   KesFlags flags;
   if (last_text(line.flags, "test", flags.test) != flags.test) return run_in_plane(line);
+  refuse_other_tests(line, keys_of(flags), flags.test);
   set_keys(line, keys_of(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;

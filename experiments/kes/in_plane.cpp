@@ -1,6 +1,6 @@
 #include "experiments/kes/in_plane.h"
 
-#include <iostream>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/kes/in_plane_output.h"
@@ -87,8 +87,18 @@ Json resolved(InPlaneFlags& flags, const std::vector<InPlaneResult>& results) {
 
 }  // namespace
 
+void refuse_other_tests(const CommandLine& line, const Keys& keys, const std::string& test) {
+  for (const Flag& flag : line.flags) {
+    if (flag.path.starts_with("fabric")) continue;
+    const auto is_it = [&](const BoundKey& key) { return key.description.path == flag.path; };
+    if (std::none_of(keys.begin(), keys.end(), is_it))
+      throw Error::request("--" + flag.path + " is not of --test " + test).of(flag.path, flag.text);
+  }
+}
+
 int run_in_plane(const CommandLine& line) {
   InPlaneFlags flags;
+  refuse_other_tests(line, keys_of(flags), last_text(line.flags, "test", flags.test));
   set_keys(line, keys_of(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);

@@ -74,5 +74,14 @@ TEST_F(KesInPlane, TestsTheDirectionAndTheStopsThatFlagsName) {
   testing::internal::GetCapturedStdout();
 }
 
+TEST_F(KesInPlane, RefusesFlagsOfAnotherTest) {
+  const auto run = [&](std::vector<Flag> flags) {
+    experiment_named("kes").run({"kes", "hysteron kes", std::move(flags), {}});
+  };
+  EXPECT_THROW(run({{"test", "shear"}, {"law", "pabst"}}), Error);
+  EXPECT_THROW(run({{"test", "bending"}, {"along", "weft"}}), Error);
+  EXPECT_THROW(run({{"test", "twist"}}), Error);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
