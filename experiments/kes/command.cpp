@@ -1,9 +1,10 @@
 // `hysteron kes`: the KES-FB2 pure bending test of laws, alone or on strips of cloth, on fabrics of the
-// assets.
+// assets; with --test the tests of KES-FB1 (in_plane.h).
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/kes/in_plane.h"
 #include "experiments/kes/output.h"
 #include "experiments/kes/strip_pictures.h"
 #include "experiments/workbench/app/experiment.h"
@@ -18,6 +19,7 @@ namespace hysteron::experiments {
 namespace {
 
 struct KesFlags {
+  std::string test = "bending";
   std::string law = "prandtl";
   Parameters param;
   KesProtocol protocol;
@@ -32,6 +34,7 @@ using P = KesProtocol;
 using S = StripShape;
 // clang-format off
 const KeyRow<KesFlags> kRows[] = {
+    {"test", at<&K::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, or shear or tension of KES-FB1, which take along, load, on, mesh, triangles and strip-steps"},
     {"law", at<&K::law>, "", any(), "", "NAME, several separated by commas, or all; see `hysteron list laws`"},
     {"param", at<&K::param>, "", any(), "", "parameters, for those of the laws that have them"},
     {"amplitude", at<&K::protocol, &P::amplitude>, "1/m", positive(), "", "largest curvature; the tester's is 2.5 per cm"},
@@ -178,6 +181,8 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
 
 int run_kes(const CommandLine& line) {
   KesFlags flags;
+  if (last_text(line.flags, "test", flags.test) != flags.test) return run_in_plane(line);
+  refuse_other_tests(line, keys_of(flags), flags.test);
   set_keys(line, keys_of(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
@@ -204,10 +209,11 @@ int run_kes(const CommandLine& line) {
 }  // namespace
 
 Experiment kes() {
-  return {.name = "kes",
-          .question = "virtual KES-FB2 pure bending of laws alone: B, 2HB, residual curvature, loops",
-          .run = run_kes,
-          .own_keys = own_keys_of<keys_of, fabric_keys>};
+  return {
+      .name = "kes",
+      .question = "virtual KES tests: bending (B, 2HB, residual curvature), shear (G, 2HG), tension (WT, RT)",
+      .run = run_kes,
+      .own_keys = own_keys_of<keys_of, fabric_keys, in_plane_keys>};
 }
 
 }  // namespace hysteron::experiments

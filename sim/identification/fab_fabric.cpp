@@ -7,9 +7,8 @@
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
-#include "sim/scene/assets.h"
+#include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_reader.h"
-#include "sim/scene/toml_file.h"
 
 namespace hysteron {
 namespace {
@@ -123,59 +122,6 @@ std::string further_parameters(const FabIdentification& found) {
   return text;
 }
 
-class Reader {
- public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
-
-  const TomlNode* find(const TomlNode* node, const std::vector<std::string>& path) const {
-    for (const std::string& name : path)
-      if (node) node = node->find(name);
-    return node;
-  }
-
-  // The stops of a table beside that spring.
-  StopsLaw law(const TomlNode& table, double spring) const {
-    StopsLaw law{spring, numbers(table, "thresholds"), numbers(table, "stiffnesses")};
-    if (law.thresholds.size() != law.stiffnesses.size())
-      throw refusal(table, "thresholds and stiffnesses must be as many");
-    for (std::size_t j = 0; j < law.thresholds.size(); ++j) {
-      if (!(law.thresholds[j] > (j == 0 ? 0 : law.thresholds[j - 1])))
-        throw refusal(table, "thresholds must be > 0 and rise");
-      if (!(law.stiffnesses[j] >= 0)) throw refusal(table, "stiffnesses must be >= 0");
-    }
-    return law;
-  }
-
-  // The value of a parameter {value = .., ..}; none if it is not there.
-  std::optional<double> parameter(const TomlNode& root, const std::string& name) const {
-    const TomlNode* node = find(&root, {"parameters", name, "value"});
-    if (!node) return std::nullopt;
-    if (const auto* integer = std::get_if<std::int64_t>(&node->value)) return static_cast<double>(*integer);
-    if (const auto* real = std::get_if<double>(&node->value)) return *real;
-    throw refusal(*node, name + " must be a number");
-  }
-
-  double required(const TomlNode& root, const std::string& name) const {
-    const auto value = parameter(root, name);
-    if (!value) throw refusal(root, "parameters needs " + name);
-    return *value;
-  }
-
- private:
-  Error refusal(const TomlNode& node, const std::string& what) const {
-    return Error::request(what + " (" + place(file_, node) + ")");
-  }
-  std::vector<double> numbers(const TomlNode& table, const std::string& name) const {
-    const TomlNode* node = table.find(name);
-    if (node && node->kind == TomlNode::Kind::table) node = node->find("value");
-    const auto* values = node ? std::get_if<std::vector<double>>(&node->value) : nullptr;
-    if (!values || values->empty()) throw refusal(table, table.key + "." + name + " must be numbers");
-    return *values;
-  }
-
-  std::string file_;
-};
-
 // Friction uniform on [0, k0] as even stops.
 StopsLaw of_three_numbers(const VirginCurve& curve) {
   StopsLaw law{curve.b2, {}, {}};
@@ -225,35 +171,17 @@ FabStrip FabFabric::strip(const std::string& direction) const {
 }
 
 FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin) {
-  const std::string file = find_asset("fabrics", name_or_file, origin).string();
-  const TomlNode root = read_toml(file);
-  const Reader reader(file);
+  const Fabric read = read_fabric(name_or_file, origin).fabric;
+  const Spectrum &stops = read.bending.stops, &weft = read.bending.weft_stops;
   FabFabric fabric;
-  const TomlNode* stops = reader.find(&root, {"bending", "stops"});
-  if (!stops) {
-    const Fabric read = read_fabric(name_or_file, origin).fabric;
-    fabric.name = read.name;
-    fabric.density = read.density;
-    fabric.warp = of_three_numbers(read.virgin_curve());
-    fabric.weft = scaled(fabric.warp, read.weft_bending);
-  } else {
-    const TomlNode* name = root.find("name");
-    const auto* text = name ? std::get_if<std::string>(&name->value) : nullptr;
-    fabric.name = text ? *text : std::filesystem::path(file).stem().string();
-    fabric.density = reader.required(root, "density");
-    const double b2 = reader.required(root, "b2"), q = reader.parameter(root, "weft-bending").value_or(1);
-    fabric.warp = reader.law(*stops, b2);
-    const TomlNode* weft = stops->find("weft");
-    fabric.weft = weft ? reader.law(*weft, q * b2) : scaled(fabric.warp, q);
-  }
-  const Fabric usual;
-  const auto tension = [&](const char* name, double otherwise) {
-    const double spring = reader.parameter(root, name).value_or(otherwise);
-    const TomlNode* table = reader.find(&root, {"membrane", "stops", name});
-    return table ? reader.law(*table, spring) : StopsLaw{spring, {}, {}};
-  };
-  fabric.warp_tension = tension("warp", usual.warp);
-  fabric.weft_tension = tension("weft", usual.weft);
+  fabric.name = read.name;
+  fabric.density = read.density;
+  fabric.warp = stops.empty() ? of_three_numbers(read.virgin_curve())
+                              : StopsLaw{read.b2, stops.thresholds, stops.stiffnesses};
+  fabric.weft = weft.empty() ? scaled(fabric.warp, read.weft_bending)
+                             : StopsLaw{read.weft_bending * read.b2, weft.thresholds, weft.stiffnesses};
+  fabric.warp_tension = in_plane_law(read, Along::warp).tension;
+  fabric.weft_tension = in_plane_law(read, Along::weft).tension;
   return fabric;
 }
 

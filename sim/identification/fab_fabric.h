@@ -41,8 +41,7 @@ struct FabFabric {
   FabStrip strip(const std::string& direction) const;
 };
 
-// By name (assets/fabrics) or file.  Throws as read_fabric(), and Error::request with file and line for stops
-// that are no numbers, not as many, or not positive and rising.
+// By name (assets/fabrics) or file.  Throws as read_fabric().
 FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin);
 
 }  // namespace hysteron

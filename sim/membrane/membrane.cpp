@@ -56,7 +56,8 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
       stress_(device, faces_),
       tension_(device, faces_),
       measure_(device, faces_),
-      viscous_(device, damping_ > 0 ? faces_ : 0) {}
+      viscous_(device, damping_ > 0 ? faces_ : 0),
+      friction_(device, fabric.in_plane, faces_) {}
 
 template <class Real, class Device>
 void Membrane<Real, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
@@ -80,6 +81,7 @@ void Membrane<Real, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
         deformed[f] = d;
         stress[f] = membrane_stress(c, strain);
       });
+  if (friction_.any()) friction_.add(c, stressed());
 }
 
 template <class Real, class Device>
@@ -99,6 +101,7 @@ double Membrane<Real, Device>::stored_energy(const Vec3<Real>* x) {
         const Vec3<Real> strain = green_strain(deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]));
         energy[f] = static_cast<double>(rest[f].area * membrane_energy(c, strain));
       });
+  if (friction_.any()) friction_.add_stored(rest, corner, x, energy);
   const std::vector<double> values = measure_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -119,6 +122,16 @@ void Membrane<Real, Device>::add_viscous_loss(const Vec3<Real>* v, Real step) {
             green_strain_rate(deformed[f], deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]));
         lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, rate));
       });
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::start_friction(const Vec3<Real>* x) {
+  if (friction_.any()) friction_.commit(rest_.data(), corner_.data(), x, true);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::commit_friction(const Vec3<Real>* x) {
+  if (friction_.any()) friction_.commit(rest_.data(), corner_.data(), x, false);
 }
 
 template <class Real, class Device>
@@ -149,7 +162,8 @@ double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
 template <class Real, class Device>
 std::size_t Membrane<Real, Device>::bytes() const {
   return bytes_of(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, stress_, tension_,
-                  measure_, viscous_, reference_);
+                  measure_, viscous_, reference_) +
+         friction_.bytes();
 }
 
 template class Membrane<double, ThisDevice>;

@@ -5,6 +5,7 @@
 #include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/membrane/green_lagrange.h"
+#include "sim/membrane/in_plane_friction.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
 
@@ -13,7 +14,7 @@ namespace hysteron {
 // Rest geometry of every face in its warp-weft frame.
 std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh);
 
-// Largest eigenvalue of M^-1 K of the unstretched membrane [1/s^2], damping left out.
+// Largest eigenvalue of M^-1 K of the unstretched membrane, whose stops hold [1/s^2]; damping left out.
 double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, const std::vector<double>& mass,
                                 const std::vector<char>& held);
 
@@ -63,7 +64,8 @@ class Membrane {
  public:
   Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, const BlockRows<Real, Device>& rows);
 
-  // Strains and stresses (elastic, and viscous of `velocity`) at `position`; forces() then gathers them.
+  // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
+  // gathers them.
   void update(const Vec3<Real>* position, const Vec3<Real>* velocity);
   MembraneForceView<Real> forces() const;
   // matrix = factor * Gauss-Newton stiffness + geometric * stiffness of the tension at the last update, to
@@ -74,11 +76,15 @@ class Membrane {
   void assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix);
   void assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix);
   void assemble_softening(ScalarRowsView<Real> softening);
+  template <class Stiffness>
+  void gather_blocks(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
+  template <class Stiffness>
+  void gather_entries(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
-  // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic and
-  // viscous stress, and what assemble() needs, at `position`.
+  // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic,
+  // frictional and viscous stress, and what assemble() needs, at `position`.
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position);
   const double* energies() const { return measure_.data(); }  // per face [J]
@@ -86,8 +92,17 @@ class Membrane {
   Real viscous_factor() const;
   void add_viscous_loss();  // of the step that evaluate() saw last
 
-  // What outlives a step: losses alone, since stresses follow from positions.
-  void visit(Archive& archive) { hysteron::visit(archive, device_, viscous_); }
+  // Friction in the plane: accepts positions, of the start without a loss.  Nothing without stops.
+  bool has_friction() const { return friction_.any(); }
+  void start_friction(const Vec3<Real>* position);
+  void commit_friction(const Vec3<Real>* position);
+  double friction_loss() const { return friction_.loss(); }  // since the start [J]
+
+  // What outlives a step: losses, and what friction remembers; stresses follow from positions.
+  void visit(Archive& archive) {
+    hysteron::visit(archive, device_, viscous_);
+    friction_.visit(archive);
+  }
 
   double stored_energy(const Vec3<Real>* position);              // [J]
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
@@ -97,9 +112,13 @@ class Membrane {
   std::size_t force_bytes() const {  // of forces()
     return bytes_of(vertex_start_, vertex_item_, rest_, deformation_, stress_);
   }
-  std::size_t bytes() const;
+  std::size_t bytes() const;  // without friction's history
+  std::size_t history_bytes() const { return friction_.history_bytes(); }
 
  private:
+  StressedFaces<Real> stressed() {
+    return {rest_.data(), deformation_.data(), stress_.data(), tension_.data()};
+  }
   MembraneBlocks<Real> blocks() const {
     return {static_cast<int>(block_sum_.size()), block_sum_.data(), vertex_start_.data(), vertex_item_.data(),
             rest_.data()};
@@ -118,6 +137,7 @@ class Membrane {
   Buffer<Deformation<Real>, Device> deformation_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;
   Buffer<double, Device> measure_, viscous_;
+  InPlaneFriction<Real, Device> friction_;
   StepFormula formula_;                   // of implicit steps
   Buffer<Vec3<Real>, Device> reference_;  // strain from which rates are measured; empty without damping
 };

@@ -1,4 +1,5 @@
-// The membrane in an implicit step: elastic energy W(E), and viscosity as the potential
+// The membrane in an implicit step: elastic energy W(E), friction's potential (strain_stops.h), and viscosity
+// as the potential
 //   damping/beta_dt * W(E - E_ref),   whose stress is damping * C dE/dt with dE/dt = (E - E_ref)/beta_dt,
 // so that a step is a minimum problem and rotations cost nothing.
 #include <cmath>
@@ -66,6 +67,7 @@ void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
         tension[f] = tensile_part(stress[f]);
         energy[f] = static_cast<double>(rest[f].area * potential);
       });
+  if (friction_.any()) friction_.add_to_trial(stressed(), energy);
 }
 
 template <class Real, class Device>

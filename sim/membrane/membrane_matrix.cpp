@@ -10,6 +10,23 @@ HYST_HD MembraneStress<Real> scaled(Real factor, const MembraneStress<Real>& s) 
   return {factor * s.s11, factor * s.s22, factor * s.s12};
 }
 
+// Of each triangle, what the factor multiplies: C, and with stops what those that hold add to it.
+template <class Real>
+struct ElasticStiffness {
+  MembraneStiffness<Real> c;
+  HYST_HD const MembraneStiffness<Real>& of(int) const { return c; }
+};
+template <class Real>
+struct StiffnessWithStops {
+  MembraneStiffness<Real> c;
+  Real share;  // viscosity, a part of the factor, is of elasticity alone
+  const Vec3<Real>* tangent;
+  HYST_HD MembraneStiffness<Real> of(int face) const {
+    const Vec3<Real> t = share * tangent[face];
+    return {c.warp + t[0], c.weft + t[1], c.coupling, c.shear + t[2]};
+  }
+};
+
 }  // namespace
 
 template <class Real, class Device>
@@ -22,10 +39,30 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
   if (softening.off_diagonal) assemble_softening(softening);
 }
 
-// A CPU computes what the entries of a block have in common once.
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  const MembraneStiffness<Real> c = stiffness_;
+  if (friction_.any())
+    gather_blocks(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
+                  geometric, matrix);
+  else
+    gather_blocks(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix) {
+  if (friction_.any())
+    gather_entries(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
+                   geometric, matrix);
+  else
+    gather_entries(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
+}
+
+// A CPU computes what the entries of a block have in common once.
+template <class Real, class Device>
+template <class Stiffness>
+void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real factor, Real geometric,
+                                           BlockRowsView<Real> matrix) {
+  const Stiffness c = stiffness;
   const MembraneBlocks<Real> blocks = this->blocks();
   const Deformation<Real>* deformed = deformation_.data();
   const MembraneStress<Real>* tension = tension_.data();
@@ -36,7 +73,8 @@ void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockR
        bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
       all_blocks(), HYST_KERNEL(int b) {
         const Mat3<Real> block = blocks.gather(b, Mat3<Real>(Mat3<Real>::Zero()), [&](int f, int i, int j) {
-          return membrane_block(blocks.rest[f], c, factor, deformed[f], scaled(geometric, tension[f]), i, j);
+          return membrane_block(blocks.rest[f], c.of(f), factor, deformed[f], scaled(geometric, tension[f]),
+                                i, j);
         });
         (b < blocks.off_diagonal ? matrix.off_diagonal[b] : matrix.diagonal[b - blocks.off_diagonal]) = block;
       });
@@ -45,8 +83,10 @@ void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockR
 // On a GPU neighbouring threads store neighbouring numbers; all nine of a block read the same triangles, out
 // of the cache, and what they compute again is free beside the stores.
 template <class Real, class Device>
-void Membrane<Real, Device>::assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  const MembraneStiffness<Real> c = stiffness_;
+template <class Stiffness>
+void Membrane<Real, Device>::gather_entries(const Stiffness& stiffness, Real factor, Real geometric,
+                                            BlockRowsView<Real> matrix) {
+  const Stiffness c = stiffness;
   const MembraneBlocks<Real> blocks = this->blocks();
   const Deformation<Real>* deformed = deformation_.data();
   const MembraneStress<Real>* tension = tension_.data();
@@ -58,8 +98,8 @@ void Membrane<Real, Device>::assemble_entries(Real factor, Real geometric, Block
       9 * all_blocks(), HYST_KERNEL(int e) {
         const int b = e / 9, row = e % 3, col = e % 9 / 3;  // blocks are stored by columns
         const Real entry = blocks.gather(b, Real(0), [&](int f, int i, int j) {
-          return membrane_entry(blocks.rest[f], c, factor, deformed[f], scaled(geometric, tension[f]), i, j,
-                                row, col);
+          return membrane_entry(blocks.rest[f], c.of(f), factor, deformed[f], scaled(geometric, tension[f]),
+                                i, j, row, col);
         });
         Mat3<Real>& block =
             b < blocks.off_diagonal ? matrix.off_diagonal[b] : matrix.diagonal[b - blocks.off_diagonal];

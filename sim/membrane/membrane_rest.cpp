@@ -27,7 +27,10 @@ std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh) {
 double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, const std::vector<double>& mass,
                                 const std::vector<char>& held) {
   const auto rest = membrane_rest(mesh);
-  const MembraneStiffness<double> c{fabric.warp, fabric.weft, fabric.coupling, fabric.shear};
+  const InPlaneStops& stops = fabric.in_plane;  // none slips
+  const MembraneStiffness<double> c{fabric.warp + stops.warp.stiffness(),
+                                    fabric.weft + stops.weft.stiffness(), fabric.coupling,
+                                    fabric.shear + stops.shear.stiffness()};
   return largest_eigenvalue(mass, held, [&](const auto& v, auto& w) {
     std::fill(w.begin(), w.end(), Eigen::Vector3d::Zero());
     for (int f = 0; f < mesh.faces(); ++f) {

@@ -66,4 +66,14 @@ void check_bending_parts(const Scene& scene) {
                          " must both be > 0, or both 0: no set");
 }
 
+void check_in_plane_stops(const Scene& scene) {
+  const InPlaneStops& p = scene.fabric.in_plane;
+  const auto stops = [&](const char* table, const Spectrum& of) {
+    check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
+  };
+  stops("membrane.stops.warp", p.warp);
+  stops("membrane.stops.weft", p.weft);
+  stops("membrane.stops.shear", p.shear);
+}
+
 }  // namespace hysteron

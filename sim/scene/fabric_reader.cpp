@@ -15,6 +15,7 @@ namespace {
 const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "given", "assumed"};
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
 const std::vector<std::string> kSaidByStops = {"b1", "k0"};
+constexpr const char* kPartTables[] = {"bending", "membrane"};
 
 struct Reader {
   std::string file;
@@ -107,8 +108,8 @@ void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* 
   result.place[node.key] = origin;
 }
 
-// [bending] and the tables in it: the keys fabric.bending.* as bare values, each table with a source of its
-// own.
+// [bending] or [membrane] and the tables in it: the keys fabric.bending.* or fabric.membrane.* as bare
+// values, each table with a source of its own.
 void read_lists(const Reader& reader, const TomlNode& table, const std::string& path, const TomlNode* sources,
                 Scene& scene) {
   const Keys keys = bind_scene(scene);
@@ -136,11 +137,12 @@ void note_three_numbers(Fabric& fabric) {
     fabric.k0 = 2 * stops.friction_moment() / stops.stiffness();
 }
 
-void read_bending(const Reader& reader, const TomlNode& table, const TomlNode* sources, FabricFile& result) {
+void read_parts(const Reader& reader, const TomlNode& table, const TomlNode* sources, FabricFile& result) {
   Scene scene;
   scene.fabric = std::move(result.fabric);
-  read_lists(reader, table, "bending", sources, scene);
+  read_lists(reader, table, table.key, sources, scene);
   check_bending_parts(scene);
+  check_in_plane_stops(scene);
   note_three_numbers(scene.fabric);
   result.fabric = std::move(scene.fabric);
   for (const auto& [key, place] : scene.origin)
@@ -151,7 +153,8 @@ void read_bending(const Reader& reader, const TomlNode& table, const TomlNode* s
 void note_defaults(Fabric& fabric) {
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
-    if (key.path.starts_with("fabric.bending.")) continue;  // the fabric has none of it
+    if (key.path.starts_with("fabric.bending.") || key.path.starts_with("fabric.membrane."))
+      continue;  // the fabric has none of it
     fabric.provenance.try_emplace(key.path.substr(7), Provenance{"the program's default", "assumed"});
   }
 }
@@ -161,7 +164,8 @@ void note_defaults(Fabric& fabric) {
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
   const TomlNode root = read_toml(reader.file);
-  reader.only_known(root, {"name", "description", "sources", "parameters", "bending", "published"});
+  reader.only_known(root,
+                    {"name", "description", "sources", "parameters", "bending", "membrane", "published"});
   const TomlNode* sources = root.find("sources");
   const TomlNode& parameters = reader.required(root, "parameters");
 
@@ -169,7 +173,8 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   result.fabric.name = reader.text(root, "name");
   result.description = reader.text(root, "description");
   for (const TomlNode& node : parameters.children) read_parameter(reader, node, sources, result);
-  if (const TomlNode* bending = root.find("bending")) read_bending(reader, *bending, sources, result);
+  for (const char* table : kPartTables)
+    if (const TomlNode* parts = root.find(table)) read_parts(reader, *parts, sources, result);
   for (const std::string& name : kRequired) {
     const bool said =
         !result.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);

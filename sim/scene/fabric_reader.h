@@ -10,6 +10,9 @@
 //   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
 //   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
 //   source = "kes"                     optional, as is confidence: of the whole table
+//   [membrane.stops.shear]             optional: friction elements in the plane; also .warp, .weft
+//   thresholds = [0.005, 0.02]         strains, ascending
+//   stiffnesses = [200, 50]            N/m
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
 #pragma once

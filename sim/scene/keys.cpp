@@ -13,6 +13,7 @@ using S = Scene;
 using C = ClothShape;
 using F = Fabric;
 using B = BendingParts;
+using P = InPlaneStops;
 
 // clang-format off
 const KeyRow<Scene> kSceneRows[] = {
@@ -53,6 +54,12 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.bending.branches.stiffnesses", at<&S::fabric, &F::bending, &B::branches, &RelaxingBranches::stiffnesses>, "N m", positive(), "", "of these branches, beside fabric.b2"},
     {"fabric.bending.set.yield", at<&S::fabric, &F::bending, &B::set, &PermanentSet::yield>, "1/m", at_least(0), "", "prandtl, chapman: curvature over fabric.b2 times which a moment leaves permanent set"},
     {"fabric.bending.set.hardening", at<&S::fabric, &F::bending, &B::set, &PermanentSet::hardening>, "N m", at_least(0), "", "by which that moment rises with the set; 0: no set"},
+    {"fabric.membrane.stops.warp.thresholds", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of stretch along warp slip, ascending; none: elastic"},
+    {"fabric.membrane.stops.warp.stiffnesses", at<&S::fabric, &F::in_plane, &P::warp, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.warp"},
+    {"fabric.membrane.stops.weft.thresholds", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of stretch along weft slip, ascending; none: elastic"},
+    {"fabric.membrane.stops.weft.stiffnesses", at<&S::fabric, &F::in_plane, &P::weft, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.weft"},
+    {"fabric.membrane.stops.shear.thresholds", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::thresholds>, "", positive(), "", "strains at which friction elements of in-plane shear slip, ascending; none: elastic"},
+    {"fabric.membrane.stops.shear.stiffnesses", at<&S::fabric, &F::in_plane, &P::shear, &Spectrum::stiffnesses>, "N/m", positive(), "", "of these elements, beside fabric.shear"},
     {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name; the table [param] of a file"},
     {"element", at<&S::element>, "", any(), "", "bending element"},

@@ -35,6 +35,14 @@ struct PublishedNumber {
   Provenance provenance;
 };
 
+// Friction elements in the plane beside the membrane's stiffness: springs [N/m] that slip at strains, each on
+// one component of Green's strain in the material axes.
+struct InPlaneStops {
+  Spectrum warp, weft, shear;  // of E11, E22 and 2 E12
+
+  bool empty() const { return warp.empty() && weft.empty() && shear.empty(); }
+};
+
 // Physics of a cloth.  Every number has its source in the fabric's file.
 struct Fabric {
   std::string name = "cotton-broad";
@@ -52,6 +60,7 @@ struct Fabric {
   double damping = 1e-4;
   double friction = 0.3;
   BendingParts bending = {};
+  InPlaneStops in_plane = {};
 
   std::map<std::string, Provenance> provenance;      // of each parameter above that it has, by its key
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed

@@ -33,6 +33,7 @@ void check_fabric(const Scene& scene) {
                          number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)");
   }
   check_bending_parts(scene);
+  check_in_plane_stops(scene);
 }
 
 bool is_obj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }

@@ -32,6 +32,7 @@ void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra
 void check_scene(const Scene& scene);
 // The part of it that asks whether the lists of fabric.bending.* fit together.
 void check_bending_parts(const Scene& scene);
+void check_in_plane_stops(const Scene& scene);  // the same of fabric.membrane.*
 // That there is a step in it at all, and that commands are due before its end: of a scene that is about to
 // run, since experiments say how long they last.  Throws Error::request.
 void check_duration(const Scene& scene);

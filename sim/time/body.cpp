@@ -47,6 +47,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
   if (scene.self_contact) self_contact.emplace(*device, cloth.mesh, scene);
   if (contact || self_contact) before = Buffer<Vec3<Real>, Device>(*device, vertices);
   bending.commit(x.data(), v.data(), 0);
+  membrane.start_friction(x.data());
   if (self_contact) {
     self_contact->prepare(x.data(), v.data(), held.data());  // at rest: v = 0
     self_contact->moved(x.data());
@@ -181,6 +182,7 @@ Ledger Body<Real, Device>::balance() {
   sum.bending_friction = bending.dissipated_energy() - sum.bending_relaxation;
   const double viscous_bending = bending.viscous_loss(), viscous_membrane = membrane.viscous_loss();
   sum.viscous = viscous_bending + viscous_membrane;
+  sum.membrane_friction = membrane.friction_loss();
   if (contact) {
     const ContactLoss lost = contact->losses();
     sum.contact_friction = lost.friction;
@@ -192,7 +194,7 @@ Ledger Body<Real, Device>::balance() {
                     sum.commands - viscous_bending - bending_work;
   sum.gravity_gap = -sum.gravitational - gravity_work;
   sum.implicit_gap = initial_.membrane - sum.membrane + initial_.contact - sum.contact - viscous_membrane -
-                     sum.contact_friction + sum.obstacle_work - implicit_work;
+                     sum.membrane_friction - sum.contact_friction + sum.obstacle_work - implicit_work;
   sum.close();
   return sum;
 }

@@ -49,6 +49,7 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
         if (held[i]) sum.handle_work -= static_cast<double>((bend + rest + weight).dot(d));
       });
   body_.membrane.add_viscous_loss(body_.v.data(), dt);
+  body_.membrane.commit_friction(body_.x.data());
 }
 
 template class ExplicitEuler<double, ThisDevice>;

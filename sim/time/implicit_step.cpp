@@ -306,6 +306,7 @@ void ImplicitStep<Real, Device>::accept(const VertexState<Real>& state, VertexLe
   if (!bending_lags_) bending_.accept();
   book(state, ledger);
   membrane_.add_viscous_loss();
+  membrane_.commit_friction(end_.data());
   move_on(state);
   last_h_ = formula_.dt;
   knows_acceleration_ = true;

@@ -69,8 +69,8 @@ class ImplicitStep {
   void forget_acceleration() { knows_acceleration_ = false; }
   // Steps are equilibria from now on.
   void become_static(const Scene& scene);
-  // Takes what solve() has found: positions, velocities, bending history, losses.  Contact's history is the
-  // caller's.
+  // Takes what solve() has found: positions, velocities, history of bending and membrane, losses.  Contact's
+  // history is the caller's.
   void accept(const VertexState<Real>& state, VertexLedger* ledger);
   // Estimated error of the positions that solve() has found, by the difference from an extrapolation: root
   // mean square by mass [m].  It is of the order error_order() in the step.

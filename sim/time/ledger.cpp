@@ -6,21 +6,21 @@ namespace hysteron {
 
 void Ledger::close() {
   const double now = kinetic + gravitational + membrane + bending + contact;
-  const double losses =
-      commands + bending_friction + bending_relaxation + viscous + air + contact_friction + integrator();
+  const double losses = commands + bending_friction + bending_relaxation + membrane_friction + viscous + air +
+                        contact_friction + integrator();
   remainder = now - initial - handle_work - obstacle_work + losses;
   double scale = 0;
   for (double term :
        {kinetic, gravitational, membrane, bending, contact, handle_work, obstacle_work, commands,
-        bending_friction, bending_relaxation, viscous, air, contact_friction, inertia})
+        bending_friction, bending_relaxation, membrane_friction, viscous, air, contact_friction, inertia})
     scale += std::abs(term);
   remainder_relative = scale > 0 ? std::abs(remainder) / scale : 0;
 }
 
 double Ledger::integrator_share() const {
   const double numerical = std::abs(integrator());
-  const double physical =
-      std::abs(bending_friction) + bending_relaxation + viscous + air + std::abs(contact_friction);
+  const double physical = std::abs(bending_friction) + bending_relaxation + membrane_friction + viscous +
+                          air + std::abs(contact_friction);
   return numerical > 0 ? numerical / (numerical + physical) : 0;
 }
 
@@ -36,6 +36,7 @@ std::vector<std::pair<std::string, double>> Ledger::rows() const {
           {"commands", commands},
           {"bending_friction", bending_friction},
           {"bending_relaxation", bending_relaxation},
+          {"membrane_friction", membrane_friction},
           {"viscous", viscous},
           {"air", air},
           {"contact_friction", contact_friction},

@@ -8,8 +8,9 @@
 namespace hysteron {
 
 // All in joules.  Balance: (kinetic + gravitational + membrane + bending + contact) - initial
-//   = handle_work + obstacle_work - commands - bending_friction - bending_relaxation - viscous - air
-//     - contact_friction - inertia - unbalanced - bending_gap - implicit_gap - gravity_gap + remainder.
+//   = handle_work + obstacle_work - commands - bending_friction - bending_relaxation - membrane_friction
+//     - viscous - air - contact_friction - inertia - unbalanced - bending_gap - implicit_gap - gravity_gap +
+//     remainder.
 // The five integrator terms come from their own formulas (headers of semi_implicit.cpp and
 // implicit_step.cpp), so the remainder is the arithmetic's alone.
 struct Ledger {
@@ -19,6 +20,7 @@ struct Ledger {
   double handle_work = 0, obstacle_work = 0;                                // done on the cloth
   double bending_friction = 0, viscous = 0, air = 0, contact_friction = 0;  // lost to physics
   double bending_relaxation = 0;  // lost to it by branches that relax
+  double membrane_friction = 0;   // lost to it by stops in the plane
   double commands = 0;    // recoverable bending energy taken away by ironing and edits, less what they gave
   double inertia = 0;     // lost by the integrator: sum of m |dv|^2/2 over all velocity changes
   double unbalanced = 0;  // lost to forces that an implicit solve has left unbalanced

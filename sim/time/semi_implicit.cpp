@@ -171,6 +171,7 @@ void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
   }
   book(h, impulse);
   body_.membrane.add_viscous_loss(body_.v.data(), h);
+  body_.membrane.commit_friction(body_.x.data());
 }
 
 // rhs = explicit impulse + h (f_m + f_d + f_c) - M dv, matrix = M + h^2 K + h D at the present iterate.

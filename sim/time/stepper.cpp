@@ -187,6 +187,8 @@ std::vector<ScenePart> Stepper<Real, Device>::parts() const {
   add("membrane", true, body_.membrane.bytes(), "membrane stress, membrane matrix", "");
   add("implicit solve", solves, solves ? body_.matrix.bytes() + integrator_->bytes() : 0,
       "solve: start, product, advance, direction", "the integrator is explicit");
+  add("membrane history", body_.membrane.has_friction(), body_.membrane.history_bytes(),
+      "membrane friction, membrane history", "the fabric has no membrane.stops");
   add("bending", true, body_.bending.bytes(), "bending angles, bending law, bending forces", "");
   add("bending history", law.has_history(), law.history_bytes(), "bending law", "the law remembers nothing");
   add("commands", !scene.command.empty(), 0, "bending command", "no command");

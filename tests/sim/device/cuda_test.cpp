@@ -100,6 +100,30 @@ TEST(Gpu, TiresAndObeysCommandsAsTheCpuDoes) {
   EXPECT_NEAR(gpu->ledger().commands, cpu->ledger().commands, 1e-6 * std::abs(cpu->ledger().commands));
 }
 
+std::vector<test::Method> every_integrator() {
+  std::vector<test::Method> all;
+  for (const char* name : {"semi-implicit", "explicit", "implicit", "tr-bdf2"})
+    all.push_back({"prandtl", "shape", name});
+  return all;
+}
+
+class InPlaneFrictionOnBothDevices : public testing::TestWithParam<test::Method> {};
+INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionOnBothDevices, testing::ValuesIn(every_integrator()),
+                         [](const auto& method) { return method.param.name(); });
+
+TEST_P(InPlaneFrictionOnBothDevices, LosesTheSameToTheSameCloth) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  Scene scene = busy_scene(GetParam().law, GetParam().element, GetParam().integrator);
+  scene.fabric.in_plane = {{{1e-4}, {300}}, {{1e-4, 1e-3}, {200, 80}}, {{5e-4, 3e-3}, {90, 40}}};
+  const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
+  const double lost = cpu->ledger().membrane_friction;
+  EXPECT_GT(lost, 0);
+  EXPECT_NEAR(gpu->ledger().membrane_friction, lost, 1e-6 * lost);
+  EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9);
+  EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash());
+}
+
 TEST(Gpu, InSinglePrecisionStaysNearTheCpusDouble) {
   std::string reason;
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;

@@ -20,9 +20,10 @@ struct Saved {
   bool layers = false;   // two sheets, the upper one falls onto the lower one and slides
   bool chapter = false;  // implicit-every = step
   LawParameters param = {};
-  double strength = 0;  // of the second hand [N]
-  bool barred = false;  // two layers: a rigid hand leads the upper one through the lower
-  bool parts = false;   // stops along warp and weft, branches and set
+  double strength = 0;    // of the second hand [N]
+  bool barred = false;    // two layers: a rigid hand leads the upper one through the lower
+  bool parts = false;     // stops along warp and weft, branches and set
+  bool in_plane = false;  // stops of the membrane
 };
 
 const LawParameters kFatigue = {{"fatigue.dc", "0.01"}};
@@ -56,6 +57,16 @@ const Saved kCases[] = {
      .law = "chapman",
      .precision = Precision::fp32,
      .parts = true},
+    {.name = "semi_implicit_in_plane", .integrator = "semi-implicit", .in_plane = true},
+    {.name = "semi_implicit_layers_in_plane",
+     .integrator = "semi-implicit",
+     .layers = true,
+     .in_plane = true},
+    {.name = "explicit_in_plane", .integrator = "explicit", .in_plane = true},
+    {.name = "tr_bdf2_in_plane_fp32",
+     .integrator = "tr-bdf2",
+     .precision = Precision::fp32,
+     .in_plane = true},
 };
 
 // Between hands that move, one of which comes later, over a ball with friction that comes up; a command and
@@ -102,6 +113,7 @@ Trial trial_of(const Saved& of) {
     test::hold_upper(trial, hand, test::kUpperSide / 2);
   }
   if (of.parts) scene.fabric.bending = test::all_parts();
+  if (of.in_plane) scene.fabric.in_plane = test::in_plane_stops();
   if (of.strength > 0) scene.pin[1].strength = of.strength;
   if (of.chapter) scene.implicit_every = ImplicitEvery::step;
   if (of.integrator == std::string("quasi-static")) scene.ramp = 0.05;

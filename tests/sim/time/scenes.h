@@ -56,6 +56,11 @@ inline BendingParts all_parts() {
           {15, 6e-6}};
 }
 
+// Friction in the plane on the scale of a light fabric.
+inline InPlaneStops in_plane_stops() {
+  return {{{0.004}, {300}}, {{0.003, 0.01}, {200, 80}}, {{0.005, 0.03}, {90, 40}}};
+}
+
 // A square of 0.2 m without pins or obstacles, linear bending, solver as exact as its arithmetic.
 inline Scene free_square(int triangles = 200) {
   Scene scene;

@@ -1,0 +1,132 @@
+#include "experiments/kes/in_plane.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/kes/in_plane_output.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/error.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/keys.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct InPlaneFlags {
+  std::string test = "shear";
+  Along along = Along::warp;
+  std::string on = "law";
+  InPlaneProtocol protocol;
+  InPlaneSpecimen specimen;
+  Options options;
+};
+using F = InPlaneFlags;
+using S = InPlaneSpecimen;
+using P = InPlaneProtocol;
+// clang-format off
+const KeyRow<InPlaneFlags> kOwnRows[] = {
+    {"along", at<&F::along>, "", any(), "", "shear, tension: the direction from clamp to clamp"},
+    {"load", at<&F::protocol, &P::largest>, "N/m", positive(), "", "tension: largest force per width; the tester's is 500 gf/cm"},
+};
+// As of the bending test's.
+const KeyRow<InPlaneFlags> kSharedRows[] = {
+    {"test", at<&F::test>, "", any(), "bending | shear | tension", "KES-FB2 bending, KES-FB1 shear or tension"},
+    {"on", at<&F::on>, "", any(), "law | strip", "the law alone, or beside it a specimen of cloth"},
+    {"mesh", at<&F::specimen, &S::mesh>, "", any(), "", "of the specimen"},
+    {"triangles", at<&F::specimen, &S::triangles>, "", between(80, 1e6), "", "about how many it has"},
+    {"strip-steps", at<&F::specimen, &S::steps>, "", between(4, 1e5), "", "its equilibria from zero to the largest"},
+};
+// clang-format on
+constexpr int kQuickTriangles = 400;
+
+Keys keys_of(InPlaneFlags& flags) {
+  Keys keys = bind(kSharedRows, flags);
+  for (const BoundKey& key : bind(kOwnRows, flags)) keys.push_back(key);
+  return with_output_options(keys, flags.options);
+}
+
+template <class Test, class OnCloth>
+void test_on_cloth(InPlaneResult& result, const Test& law, const InPlaneFlags& flags,
+                   const OnCloth& on_cloth) {
+  result.law = loop_of(law);
+  if (flags.on == "law") return;
+  InPlaneSpecimen coarse = flags.specimen;
+  coarse.triangles /= 4;
+  const auto cloth = on_cloth(result.fabric, flags.along, flags.specimen, flags.protocol);
+  result.cloth = loop_of(cloth.test);
+  result.coarse = loop_of(on_cloth(result.fabric, flags.along, coarse, flags.protocol).test);
+  result.tension = cloth.tension;
+  result.triangles = cloth.triangles;
+  result.seconds = cloth.seconds;
+}
+
+InPlaneResult tested(const Fabric& fabric, InPlaneTest test, const InPlaneFlags& flags) {
+  InPlaneResult result;
+  result.fabric = fabric;
+  const InPlaneLaw law = in_plane_law(fabric, flags.along);
+  if (test == InPlaneTest::shear)
+    test_on_cloth(result, test_shear(law, flags.protocol), flags, shear_cloth);
+  else
+    test_on_cloth(result, test_tension(law, flags.protocol), flags, stretch_cloth);
+  return result;
+}
+
+Json resolved(InPlaneFlags& flags, const std::vector<InPlaneResult>& results) {
+  Json keys = to_json(keys_of(flags));
+  for (const InPlaneResult& result : results) {
+    Scene scene;
+    scene.fabric = result.fabric;
+    const Json numbers = to_json(scene)["fabric"];
+    if (results.size() == 1)
+      keys["fabric"] = numbers;
+    else
+      keys["fabrics"].push_back(numbers);
+  }
+  return keys;
+}
+
+}  // namespace
+
+void refuse_other_tests(const CommandLine& line, const Keys& keys, const std::string& test) {
+  for (const Flag& flag : line.flags) {
+    if (flag.path.starts_with("fabric")) continue;
+    const auto is_it = [&](const BoundKey& key) { return key.description.path == flag.path; };
+    if (std::none_of(keys.begin(), keys.end(), is_it))
+      throw Error::request("--" + flag.path + " is not of --test " + test).of(flag.path, flag.text);
+  }
+}
+
+int run_in_plane(const CommandLine& line) {
+  InPlaneFlags flags;
+  refuse_other_tests(line, keys_of(flags), last_text(line.flags, "test", flags.test));
+  set_keys(line, keys_of(flags),
+           [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
+  const auto test = value_named<InPlaneTest>(flags.test);
+  const std::string list = last_text(line.flags, "fabric", Fabric{}.name);
+  const std::vector<std::string> fabrics = listed(list, list_assets("fabrics"));
+  if (fabrics.empty()) throw Error::request("--fabric names none").of("fabric", list);
+  std::vector<InPlaneResult> results;
+  for (const std::string& name : fabrics) {
+    results.push_back(tested(fabric_of(name, line.flags), test, flags));
+    if (fabrics.size() > 1) results.back().prefix = results.back().fabric.name + ".";
+  }
+  Run run(line, flags.options, resolved(flags, results));
+  write_in_plane_metrics(run, results);
+  write_in_plane_tables(run, results, test);
+  if (!flags.options.no_images) write_in_plane_plots(run, results, test);
+  finish_with_report(run);
+  if (!flags.options.json) print_in_plane(results);
+  return 0;
+}
+
+std::vector<KeyDescription> in_plane_keys() {
+  std::vector<KeyDescription> keys = descriptions_of(kOwnRows);
+  for (const KeyDescription& key : scene_keys()) {
+    const bool stiffness =
+        key.path == "fabric.warp" || key.path == "fabric.weft" || key.path == "fabric.shear";
+    if (stiffness || key.path.starts_with("fabric.membrane.")) keys.push_back(key);
+  }
+  return keys;
+}
+
+}  // namespace hysteron::experiments

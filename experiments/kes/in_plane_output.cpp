@@ -1,0 +1,178 @@
+#include "experiments/kes/in_plane_output.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "experiments/kes/strip_output.h"
+#include "render/plot.h"
+#include "sim/base/csv.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr const char* kLawColor = "#C8C8C8";
+constexpr const char* kClothColor = "#0072B2";
+
+// A number as a fabric's source prints it, and its unit in SI.
+struct PrintedNumber {
+  const char *key, *name, *unit;
+  double si;
+};
+constexpr PrintedNumber kPrinted[] = {
+    {"G_N_per_m", "G", "gf/(cm degree)", kGramForcePerCentimetre / kDegree},
+    {"2HG_N_per_m", "2HG", "gf/cm", kGramForcePerCentimetre},
+    {"2HG5_N_per_m", "2HG5", "gf/cm", kGramForcePerCentimetre},
+    {"LT", "LT", "", 1},
+    {"WT_J_per_m2", "WT", "gf cm/cm^2", kGramForcePerCentimetre},
+    {"RT_percent", "RT", "%", 1},
+    {"EMT_percent", "EMT", "%", 1},
+};
+
+double published(const Fabric& fabric, const std::string& key) {  // in SI; NaN: not published
+  for (const PrintedNumber& printed : kPrinted) {
+    const auto found = fabric.published.find(printed.name);
+    if (key == printed.key && found != fabric.published.end() && found->second.unit == printed.unit)
+      return found->second.value * printed.si;
+  }
+  return NAN;
+}
+
+constexpr double kNothing = 1e-9;  // [N/m], [J/m^2]: what an elastic law's loop has of width and area
+
+// Over another, minus 1 [percent].
+double difference(double a, double b) { return 100 * (a / b - 1); }
+// Of a specimen's number over the law's, and of one with fewer triangles over the specimen's; NaN where the
+// law reads nothing.
+struct ClothDifference {
+  double law = NAN, mesh = NAN;
+};
+ClothDifference cloth_difference(const InPlaneResult& result, std::size_t i) {
+  const double law = result.law.numbers[i].value, cloth = result.cloth.numbers[i].value;
+  if (std::abs(law) < kNothing) return {};
+  return {difference(cloth, law), difference(result.coarse.numbers[i].value, cloth)};
+}
+
+std::string percent(double value) { return std::isfinite(value) ? fmt::format("{:+.2f} %", value) : "-"; }
+
+std::string ending(const std::vector<InPlaneResult>& results, const InPlaneResult& result) {
+  return results.size() > 1 ? "_" + result.fabric.name : "";
+}
+
+const char* axis_of(InPlaneTest test) {
+  return test == InPlaneTest::shear ? "angle [degree]" : "extension [percent]";
+}
+
+render::Series series(const InPlaneLoop& loop, const char* label, const char* color, double width) {
+  return {.label = label, .x = loop.x, .y = loop.force, .color = color, .line_width = width};
+}
+
+}  // namespace
+
+InPlaneLoop loop_of(const ShearTest& test) {
+  InPlaneLoop loop;
+  for (const LawRow& row : test.walk.shear.rows) loop.x.push_back(std::atan(row.curvature) / kDegree);
+  loop.force = test.force;
+  const ShearReading& r = test.reading;
+  loop.numbers = {{"G_N_per_m", "G [N/m]", r.stiffness},
+                  {"2HG_N_per_m", "2HG [N/m]", r.width},
+                  {"2HG5_N_per_m", "2HG5 [N/m]", r.second_width},
+                  {"shear_loop_area_J_per_m2", "area [J/m2]", r.loop_area}};
+  return loop;
+}
+
+InPlaneLoop loop_of(const TensionTest& test) {
+  InPlaneLoop loop;
+  for (const double e : test.extension) loop.x.push_back(100 * e);
+  loop.force = test.force;
+  const TensionReading& r = test.reading;
+  loop.numbers = {{"LT", "LT", r.linearity},
+                  {"WT_J_per_m2", "WT [J/m2]", r.work},
+                  {"RT_percent", "RT [%]", r.resilience},
+                  {"EMT_percent", "EMT [%]", r.extension}};
+  return loop;
+}
+
+void write_in_plane_metrics(Run& run, const std::vector<InPlaneResult>& results) {
+  for (const InPlaneResult& result : results) {
+    for (const InPlaneNumber& n : result.law.numbers) {
+      run.metric(result.prefix + n.key, n.value);
+      const double printed = published(result.fabric, n.key);
+      if (!std::isnan(printed))
+        run.metric(result.prefix + "published_" + n.key + "_difference_percent",
+                   difference(n.value, printed));
+    }
+    for (std::size_t i = 0; i < result.cloth.numbers.size(); ++i) {
+      const InPlaneNumber& n = result.cloth.numbers[i];
+      const std::string name = result.prefix + "strip_" + n.key;
+      run.metric(name, n.value);
+      const ClothDifference apart = cloth_difference(result, i);
+      run.metric(name + "_difference_percent", apart.law);
+      run.metric(name + "_mesh_error_percent", std::abs(apart.mesh));
+    }
+    if (result.cloth.numbers.empty()) continue;
+    if (result.tension > 0) run.metric(result.prefix + "strip_tension_N_per_m", result.tension);
+    run.metric(result.prefix + "strip_triangles_count", result.triangles);
+    run.metric(result.prefix + "strip_solve_s", result.seconds);
+  }
+}
+
+void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
+  CsvFile file(run.path("table.csv"),
+               "fabric,number,published,law,strip,strip of a quarter of the triangles");
+  for (const InPlaneResult& result : results) {
+    const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
+      write_csv(run.path(name + ending(results, result) + ".csv"),
+                {{{axis_of(test), loop.x}, {"force per width [N/m]", loop.force}}, {}});
+    };
+    write("loops", result.law);
+    const bool cloth = !result.cloth.numbers.empty();
+    if (cloth) write("strip", result.cloth);
+    for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
+      const InPlaneNumber& n = result.law.numbers[i];
+      file.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
+                cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
+    }
+  }
+  file.commit();
+}
+
+void write_in_plane_plots(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
+  for (const InPlaneResult& result : results) {
+    render::Plot plot{.title = "KES-FB1 " + name_of(test) + " of " + result.fabric.name,
+                      .x = {axis_of(test)},
+                      .y = {"force per width [N/m]"}};
+    plot.axes_at_zero = plot.key_inside = true;
+    plot.series.push_back(series(result.law, "law alone", kLawColor, 6));
+    if (!result.cloth.numbers.empty())
+      plot.series.push_back(series(result.cloth, "specimen of cloth", kClothColor, 1.6));
+    run.plot("plot_loops" + ending(results, result), plot);
+  }
+}
+
+void print_in_plane(const std::vector<InPlaneResult>& results) {
+  for (const InPlaneResult& result : results) {
+    std::vector<std::string> labels, printed, law, cloth, apart, mesh;
+    for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
+      const InPlaneNumber& n = result.law.numbers[i];
+      labels.push_back(n.label);
+      printed.push_back(four_digits(published(result.fabric, n.key)));
+      law.push_back(four_digits(n.value));
+      if (result.cloth.numbers.empty()) continue;
+      cloth.push_back(four_digits(result.cloth.numbers[i].value));
+      apart.push_back(percent(cloth_difference(result, i).law));
+      mesh.push_back(percent(cloth_difference(result, i).mesh));
+    }
+    print_row(result.fabric.name, labels);
+    print_row("published", printed);
+    print_row("law", law);
+    if (!cloth.empty()) {
+      print_row("specimen of cloth", cloth);
+      print_row("  against the law", apart);
+      print_row("  1/4 the triangles", mesh);
+    }
+    fmt::print("\n");
+  }
+}
+
+}  // namespace hysteron::experiments

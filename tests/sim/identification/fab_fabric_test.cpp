@@ -1,0 +1,72 @@
+// What FAB loops identify, as a fabric's file: scenes take it, and the virtual tester reads the same laws of
+// it.
+#include "sim/identification/fab_fabric.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/scene/fabric_reader.h"
+#include "tests/sim/base/folder.h"
+
+namespace hysteron {
+namespace {
+
+FabBending bending(const std::string& direction, double spring, const std::vector<double>& stiffnesses) {
+  FabBending found;
+  found.direction = direction;
+  found.law = {spring, {4, 16, 64}, stiffnesses};
+  found.stiffness_errors = {1e-7, 1e-7, 1e-7};
+  found.determined = {true, true, true, false};
+  return found;
+}
+
+FabTension tension(const std::string& direction, double spring, const std::vector<double>& stiffnesses) {
+  FabTension found;
+  found.direction = direction;
+  found.law = {spring, {0.005, 0.03}, stiffnesses};
+  found.stiffness_errors = {1, 1};
+  found.determined = {true, true, true};
+  return found;
+}
+
+void expect_same(const StopsLaw& a, const StopsLaw& b) {
+  EXPECT_EQ(a.spring, b.spring);
+  EXPECT_EQ(a.thresholds, b.thresholds);
+  EXPECT_EQ(a.stiffnesses, b.stiffnesses);
+}
+
+TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
+  const test::Folder folder;
+  const FabIdentification found = {
+      {bending("L", 4e-6, {2e-5, 2e-6, 8e-7}), bending("W", 2e-6, {1e-5, 1e-6, 5e-7})},
+      {tension("L", 60, {300, 40}), tension("W", 30, {200, 20})},
+      "a test"};
+  const std::string file = folder.file("fabric.toml");
+  write_fab_fabric(file, found, {"mine", "a test", 0.3, 2e-4});
+  const Fabric fabric = read_fabric(file, "test").fabric;
+  EXPECT_EQ(fabric.bending.weft_stops.stiffnesses, found.bending[1].law.stiffnesses);
+  EXPECT_EQ(fabric.in_plane.warp.thresholds, found.tension[0].law.thresholds);
+  EXPECT_EQ(fabric.in_plane.weft.stiffnesses, found.tension[1].law.stiffnesses);
+  EXPECT_TRUE(fabric.in_plane.shear.empty());
+  EXPECT_EQ(fabric.weft, 30);
+  EXPECT_EQ(fabric.provenance.at("membrane.stops.warp.thresholds").confidence, "fitted");
+  const FabFabric tested = read_fab_fabric(file, "test");
+  EXPECT_EQ(tested.name, "mine");
+  EXPECT_EQ(tested.density, 0.3);
+  expect_same(tested.strip("L").bending, found.bending[0].law);
+  expect_same(tested.strip("W").bending, found.bending[1].law);
+  expect_same(tested.strip("L").stretch, found.tension[0].law);
+  expect_same(tested.strip("W").stretch, found.tension[1].law);
+}
+
+// Friction uniform on [0, k0], of which the virgin curve is M0 (2u - u^2).
+TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
+  const VirginCurve curve = read_fabric("cotton-broad", "test").fabric.virgin_curve();
+  const StopsLaw law = read_fab_fabric("cotton-broad", "test").strip("warp").bending;
+  constexpr double kRounding = 1e-12;
+  EXPECT_EQ(law.spring, curve.b2);
+  EXPECT_NEAR(law.initial_stiffness(), curve.b1, kRounding * curve.b1);
+  EXPECT_NEAR(law.friction(), curve.friction_moment(), kRounding * curve.friction_moment());
+}
+
+}  // namespace
+}  // namespace hysteron
