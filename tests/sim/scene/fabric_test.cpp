@@ -66,6 +66,14 @@ TEST_P(ShippedFabric, StatesASourceAndAConfidenceForEveryNumber) {
   }
 }
 
+// What a validation varies: what the source does not give, and nothing that it does.
+TEST_P(KesFabric, StatesARangeForWhatIsAssumedOfItAlone) {
+  for (const char* key : {"k0", "shear", "warp", "weft", "friction"})
+    EXPECT_TRUE(file.range.count(key)) << key;
+  for (const auto& [key, range] : file.range)
+    EXPECT_EQ(fabric.provenance.at(key).confidence, "assumed") << key;
+}
+
 TEST_P(KesFabric, KeepsTheMeasuredDrapeForComparison) {
   EXPECT_EQ(fabric.published.at("drape-coefficient").unit, "%");
   EXPECT_GT(published("drape-coefficient"), 0);
@@ -223,6 +231,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"OutOfRange",
                   "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "fabric.thickness = 0 m must be > 0"},
+        BadFabric{"ValueOutsideItsRange",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", "
+                  "range = [5e-4, 6e-4]}",
+                  8, "thickness = 0.0004 must lie in its range [0.0005, 0.0006]"},
+        BadFabric{"RangeOfOneEnd",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", range "
+                  "= [4e-4]}",
+                  8, "thickness: range must be [low, high]"},
+        BadFabric{"RangeThatTheModelRefuses",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", range "
+                  "= [-1.0, 1.0]}",
+                  8, "fabric.thickness = -1 m must be > 0"},
         BadFabric{"FewerStiffnesses", "[bending.stops]\nthresholds = [5, 20]\nstiffnesses = [1e-6]\n", 9,
                   "fabric.bending.stops.thresholds has 2 numbers and must have as many as "
                   "fabric.bending.stops.stiffnesses, 1"},
