@@ -163,11 +163,20 @@ TablePlot recovery_plot(const std::string& title, const C& choice) {
   return plot;
 }
 
+constexpr const char* kLogarithm = "log10 of the seconds since the load went";
+constexpr const char* kRecoveryCaption =
+    "The angle between the limbs, 180 degrees if the specimen is flat again, over the logarithm of the time "
+    "since "
+    "the load went: friction and set keep what they keep, relaxing branches give it back in time.";
+
 void write_recovery(Run& run, const Recovered& recovered) {
-  CsvFile file(run.path("recovery.csv"), "time since the load went [s],opening [degree]");
+  CsvFile file(run.path("recovery.csv"),
+               std::vector<CsvField>{"time since the load went [s]", kLogarithm, "opening [degree]"});
   for (std::size_t i = 0; i < recovered.seconds.size(); ++i)
-    file.row({recovered.seconds[i], recovered.angle[i]});
+    file.row({recovered.seconds[i], std::log10(recovered.seconds[i]), recovered.angle[i]});
   file.commit();
+  run.manifest().curves = {
+      {"plot_recovery", "recovery.csv", kLogarithm, "opening [degree]", false, kRecoveryCaption}};
 }
 
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // of times, in steps
 constexpr int kSteps = 40;          // of the law's way to its largest curvature
+constexpr int kParts = 4;           // of a step, in which it is let go
 
 // Equal steps as long as the scene's, or nearly.
 void add_even(std::vector<double>& lengths, double seconds, double step) {
@@ -28,8 +29,8 @@ void add_growing(std::vector<double>& lengths, double seconds, double step, doub
   }
 }
 
-// Of a law bent to `size` and let go, with the rests in between: in each step after release it is brought to
-// where its moment was zero before.
+// Of a law bent to `size` and let go, with the rests in between: after release it is brought, several times a
+// step, to where its moment was zero before.
 double kept_in_time(const LawRequest& law, double size, const Crease& crease) {
   LawWalk walk(law);
   for (int k = 1; k <= kSteps; ++k) walk.to({size * k / kSteps, crease.times.folded / kSteps});
@@ -37,7 +38,11 @@ double kept_in_time(const LawRequest& law, double size, const Crease& crease) {
   for (const double length : crease.step_lengths) {
     time += length;
     if (time <= crease.times.folded + kRounding) continue;
-    walk.to({time <= crease.times.released + kRounding ? size : walk.residual(), length});
+    if (time <= crease.times.released + kRounding) {
+      walk.to({size, length});
+      continue;
+    }
+    for (int part = 0; part < kParts; ++part) walk.to({walk.residual(), length / kParts});
   }
   return walk.residual();
 }

@@ -100,7 +100,7 @@ std::string value_text(const BoundKey& key) {
 void list_numbers(const FabricFile& file) {
   Scene scene;
   scene.fabric = file.fabric;
-  const std::vector<int> widths = {25, 24, 7, 10, 16};
+  const std::vector<int> widths = {25, 24, 11, 10, 16};
   std::cout << scene.fabric.name << ": " << file.description << "\n";
   print_row({"number", "value", "unit", "known", "range", "from"}, widths);
   for (const BoundKey& key : bind_scene(scene)) {
@@ -110,10 +110,11 @@ void list_numbers(const FabricFile& file) {
     const auto range = file.range.find(from->first);
     const bool stated = range != file.range.end();
     print_row({from->first, value_text(key), key.description.unit, from->second.confidence,
-               stated ? short_number(range->second.low) + " to " + short_number(range->second.high) : "",
+               stated ? number_text(range->second.low) + " to " + number_text(range->second.high) : "",
                from->second.source},
               widths);
   }
+  if (!file.fabric.published.empty()) std::cout << "as printed:\n";
   for (const auto& [name, number] : file.fabric.published)
     print_row({name, short_number(number.value), number.unit, number.provenance.confidence, "",
                number.provenance.source},

@@ -100,8 +100,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{
             "UnknownMesh", "mesh = \"randem\"\n", 1, {"mesh = randem", "FILE.obj", "did you mean random?"}},
         BadScene{"FileWithoutName", "[cloth]\nshape = \"file\"\n", 2, {"cloth.file"}},
-        BadScene{
-            "UnknownFabric", "fabric = \"cotton\"\n", 1, {"\"cotton\"", "cotton-broad, feng2022-median"}},
+        BadScene{"UnknownFabric",
+                 "fabric = \"cotton\"\n",
+                 1,
+                 {"\"cotton\"", "cotton-broad-relaxing, feng2022-median"}},
         BadScene{"InvertedRigidities",
                  "[fabric]\nb1 = 1e-6\n",
                  2,

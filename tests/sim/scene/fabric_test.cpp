@@ -99,12 +99,30 @@ INSTANTIATE_TEST_SUITE_P(Assets, KesFabric, testing::ValuesIn(fabrics_that_publi
 INSTANTIATE_TEST_SUITE_P(Assets, FabricMeasuredInThreeDirections,
                          testing::ValuesIn(fabrics_that_publish("ke-0-small")), test_name);
 
+// Beside these, two that add time and set to cotton broad.
 TEST(Fabrics, AreFourOfKesTenMeasuredInThreeDirectionsAndOneMedian) {
   const std::vector<std::string> expected = {"cotton-broad", "polyester-faille", "polyester-tropical",
                                              "wool-tropical"};
   EXPECT_EQ(fabrics_that_publish("2HB"), expected);
   EXPECT_EQ(fabrics_that_publish("ke-0-small").size(), 10u);
-  EXPECT_EQ(list_fabrics().size(), 15u);
+  EXPECT_EQ(list_fabrics().size(), 15u + 2);
+}
+
+// All but its bending is that of cotton broad, and both bend alike until one of them sets.
+TEST(Fabrics, ThatRelaxAndSetAreCottonBroadOtherwise) {
+  const auto numbers = [](const Fabric& f) {
+    return std::vector<double>{f.k0,    f.density, f.thickness, f.warp,         f.weft,        f.coupling,
+                               f.shear, f.damping, f.friction,  f.weft_bending, f.bias_bending};
+  };
+  const Fabric cotton = read_fabric("cotton-broad", "test").fabric,
+               relaxing = read_fabric("cotton-broad-relaxing", "test").fabric,
+               creasing = read_fabric("cotton-broad-creasing", "test").fabric;
+  for (const Fabric& fabric : {relaxing, creasing}) EXPECT_EQ(numbers(fabric), numbers(cotton));
+  EXPECT_EQ(std::pair(relaxing.b1, relaxing.b2), std::pair(creasing.b1, creasing.b2));
+  EXPECT_EQ(relaxing.bending.branches.times, creasing.bending.branches.times);
+  EXPECT_EQ(relaxing.bending.branches.stiffnesses, creasing.bending.branches.stiffnesses);
+  EXPECT_FALSE(relaxing.bending.set.on());
+  EXPECT_TRUE(creasing.bending.set.on());
 }
 
 TEST(Fabrics, AreFoundWithUnderscoresForHyphens) {
@@ -234,7 +252,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"ValueOutsideItsRange",
                   "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", "
                   "range = [5e-4, 6e-4]}",
-                  8, "thickness = 0.0004 must lie in its range [0.0005, 0.0006]"},
+                  8, "thickness = 4e-04 must lie in its range [5e-04, 6e-04]"},
         BadFabric{"RangeOfOneEnd",
                   "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", range "
                   "= [4e-4]}",

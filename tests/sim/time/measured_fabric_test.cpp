@@ -99,7 +99,8 @@ TEST(LongStep, RelaxesAHeldSheetAsTheClosedFormSays) {
   const std::vector<double> last = simulation->moment();
   double branch = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_NEAR(then[i] - last[i], (first[i] - last[i]) * std::exp(-7 / kTau), kRounding * std::abs(first[i]));
+    EXPECT_NEAR(then[i] - last[i], (first[i] - last[i]) * std::exp(-7 / kTau),
+                kRounding * std::abs(first[i]));
     branch = std::max(branch, std::abs(first[i] - last[i]));
   }
   EXPECT_GT(branch, 0);
