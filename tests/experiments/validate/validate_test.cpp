@@ -1,6 +1,7 @@
 // The comparison with measurements, small.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -63,6 +64,21 @@ TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMomen
     EXPECT_NEAR((sample.at("b1") - file.fabric.b2) * sample.at("k0") / 2, moment, kRounding * moment);
   EXPECT_EQ(samples_of(file, kCount, 1), samples);
   EXPECT_NE(samples_of(file, kCount, 2), samples);
+}
+
+// Loops that were not fitted, by the stops and by one constant 2HB, beside what was measured.
+TEST(Validate, TakesOverWhatAFitPredictsOfOtherLoops) {
+  const Folder folder;
+  std::ofstream(folder.path() / "predictions.csv")
+      << "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],one stop area [uJ/cm]\n"
+         "L D1 cycle 1,L D1 cycle 2,0,4.4,4,5\nL D1 cycle 2,L D1 cycle 2,1,8,8,8\n";
+  const std::vector<Prediction> loops = predict_loops(folder.path());
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_NEAR(loops[0].error_percent(), 10, 1e-9);
+  EXPECT_NEAR(loops[1].error_percent(), 25, 1e-9);
+  EXPECT_FALSE(loops[0].has_interval());
+  std::ofstream(folder.path() / "predictions.csv") << "loop\nL\n";
+  EXPECT_THROW(predict_loops(folder.path()), Error);
 }
 
 TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
