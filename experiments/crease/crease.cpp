@@ -9,6 +9,9 @@
 #include "experiments/crease/specimen.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/session.h"
+#include "sim/base/archive.h"
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -18,12 +21,14 @@ using C = CreaseChoice;
 const KeyRow<C> kRows[] = {
     {"crease.fold", at<&C::fold>, "", any(), "plate | rod | pleat", "how it is folded: flat under a plate, softly around a rod, or a pleat that is pulled straight"},
     {"crease.release", at<&C::release>, "", any(), "slow | quick", "slow: the plate rises within crease.lift, without inertia, from equilibrium to equilibrium; quick: within 0.1 s, in motion, damped by fabric.damping and air-drag"},
+    {"crease.standard", at<&C::standard>, "", any(), "none | iso2313 | aatcc66", "load and times of a standard, with steps that grow: both 5 min under the load and 5 min to recover, ISO 2313 10 N, AATCC 66 500 g; other crease keys that are given win"},
     {"crease.force", at<&C::force>, "N", positive(), "", "force of the plate"},
     {"crease.radius", at<&C::radius>, "m", positive(), "", "radius of the rod"},
     {"crease.pleat", at<&C::pleat>, "degree", between(5, 175), "", "angle between the limbs of the pleat at rest"},
     {"crease.hold", at<&C::hold>, "s", positive(), "", "time under the full load"},
     {"crease.lift", at<&C::lift>, "s", positive(), "", "slow release: time in which the plate rises"},
     {"crease.recovery", at<&C::recovery>, "s", positive(), "", "time to recover"},
+    {"crease.grow-after", at<&C::grow_after>, "s", at_least(0), "", "time t of rest, under the load or after release, after which a step is twice as long; steps grow as 1 + t over it; 0: they do not grow"},
 };
 // clang-format on
 
@@ -58,9 +63,21 @@ void let_go_quickly(Scene& scene) {
 
 // What is read off the specimen as time goes on.
 struct Recovered {
-  double opening = NAN;  // [degree]
-  double force = 0;      // of the plate before it goes [N]
+  double opening = NAN;                // [degree]
+  double force = 0;                    // of the plate before it goes [N]
+  std::vector<double> seconds, angle;  // since it was let go [s]; the opening then [degree]
+
+  double angle_at(double since) const;
 };
+
+// In logarithmic time between the instants that were seen; NaN before and after them.
+double Recovered::angle_at(double since) const {
+  const auto after = std::lower_bound(seconds.begin(), seconds.end(), since * (1 - 1e-9));
+  const auto i = after - seconds.begin();
+  if (after == seconds.end() || i == 0) return NAN;
+  const double share = std::log(since / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
+  return angle[i - 1] + share * (angle[i] - angle[i - 1]);
+}
 
 // Curvature along the strip that was largest in each triangle, with its sign [1/m].
 void keep_largest(Simulation& simulation, std::vector<double>& largest) {
@@ -81,6 +98,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   const float low = (pressed ? 0 : -0.35f) * length;
   question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.5f : 0.85f) * length}};
   question.floor = low;
+  question.step_lengths = crease.step_lengths;
   question.columns = {"opening [degree]", "plate_force [N]"};
   question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const bool plate =
@@ -89,6 +107,10 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
     if (plate) recovered.force = force;
     if (m.time <= crease.times.released + crease.scene.step / 2) keep_largest(session.simulation(), largest);
     recovered.opening = crease.opening(m.x);
+    if (m.time > crease.times.lifted + crease.scene.step / 2) {
+      recovered.seconds.push_back(m.time - crease.times.lifted);
+      recovered.angle.push_back(recovered.opening);
+    }
     return {recovered.opening, force};
   };
   question.progress = [&](const Snapshot& m) {
@@ -96,7 +118,10 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   };
   question.visit = [&](Archive& archive) {
     archive(largest);
-    archive(recovered);
+    archive(recovered.opening);
+    archive(recovered.force);
+    archive(recovered.seconds);
+    archive(recovered.angle);
   };
   return question;
 }
@@ -123,19 +148,67 @@ TablePlot opening_plot(const std::string& title, const C& choice, double end) {
   return plot;
 }
 
+// The angle against logarithmic time, with what is in print for its end.
+TablePlot recovery_plot(const std::string& title, const C& choice) {
+  using Style = render::Series::Style;
+  TablePlot plot{
+      "plot_recovery",
+      {title, {"time since the load went [s]", true}, {"angle between the limbs [degree]", false, 0, 180}},
+      "recovery.csv",
+      "time since the load went",
+      "opening"};
+  if (choice.standard != "none")
+    for (const render::Series& line : published(choice.recovery))
+      plot.plot.series.push_back({line.label, {line.x.back()}, {line.y.back()}, Style::points, line.color});
+  return plot;
+}
+
+constexpr const char* kLogarithm = "log10 of the seconds since the load went";
+constexpr const char* kRecoveryCaption =
+    "The angle between the limbs, 180 degrees if the specimen is flat again, over the logarithm of the time "
+    "since "
+    "the load went: friction and set keep what they keep, relaxing branches give it back in time.";
+
+void write_recovery(Run& run, const Recovered& recovered) {
+  CsvFile file(run.path("recovery.csv"),
+               std::vector<CsvField>{"time since the load went [s]", kLogarithm, "opening [degree]"});
+  for (std::size_t i = 0; i < recovered.seconds.size(); ++i)
+    file.row({recovered.seconds[i], std::log10(recovered.seconds[i]), recovered.angle[i]});
+  file.commit();
+  run.manifest().curves = {
+      {"plot_recovery", "recovery.csv", kLogarithm, "opening [degree]", false, kRecoveryCaption}};
+}
+
 void limit_to_quick(Setup& setup) { setup.scene.triangles = std::min(setup.scene.triangles, 500); }
+
+// A standard stands for the defaults of the other keys.
+Setup set_up_crease(const CommandLine& line, C& choice) {
+  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  if (choice.standard != "none") {
+    choice = by_standard(choice.standard);
+    setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  }
+  if (choice.release == "quick" && choice.grow_after > 0)
+    throw Error::request(
+        "crease.release = quick moves, and its steps cannot grow: crease.grow-after = 0, or "
+        "crease.release = slow")
+        .of("crease.grow-after", "");
+  return setup;
+}
 
 void crease_once(const CommandLine& line) {
   C choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  Setup setup = set_up_crease(line, choice);
   if (choice.release == "quick") let_go_quickly(setup.scene);
   const bool pressed = choice.fold == "plate";
   const double plate = !pressed                ? 0.0
                        : setup.options.explain ? 2 * setup.scene.fabric.thickness
                                                : loaded_plate(setup.scene, choice);
-  const Crease crease = pressed                ? creased(setup.scene, choice, plate)
-                        : choice.fold == "rod" ? wrapped(setup.scene, choice)
-                                               : pleated(setup.scene, choice);
+  Crease crease = pressed                ? creased(setup.scene, choice, plate)
+                  : choice.fold == "rod" ? wrapped(setup.scene, choice)
+                                         : pleated(setup.scene, choice);
+  if (choice.grow_after > 0)
+    crease.step_lengths = growing_steps(crease.times, crease.scene.step, choice.grow_after);
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;
@@ -147,6 +220,9 @@ void crease_once(const CommandLine& line) {
   run.metric("recovery_angle_deg", recovered.opening);
   run.metric("law_recovery_angle_deg",
              session.simulation().dimension() == 3 ? crease.opening_of_law(largest) : NAN);
+  if (!recovered.angle.empty()) run.metric("release_angle_deg", recovered.angle.front());
+  if (choice.standard != "none") run.metric("recovery_angle_15_s_deg", recovered.angle_at(15));
+  if (choice.grow_after > 0) write_recovery(run, recovered);
   const auto [least, most] = std::minmax_element(left.begin(), left.end());
   run.metric("residual_curvature_per_m", std::max(-*least, *most));
   if (pressed) {
@@ -156,23 +232,26 @@ void crease_once(const CommandLine& line) {
   const std::string what = setup.scene.fabric.name + ", law " + setup.scene.law;
   if (session.pictures())
     draw(run, opening_plot("Opening after release, " + what, choice, crease.times.end), setup.scene.law);
+  if (session.pictures() && choice.grow_after > 0)
+    draw(run, recovery_plot("Recovery after release, " + what, choice), setup.scene.law);
   session.finish("Crease: " + what);
 }
 
 VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
   C choice;
-  const Setup setup = set_up(line, defaults(), bind(kRows, choice));
+  const Setup setup = set_up_crease(line, choice);
   const bool pressed = choice.fold == "plate";
   const double end = pressed ? creased(setup.scene, choice, 2 * setup.scene.fabric.thickness).times.end : 0;
   return {"Crease recovery",
           setup,
           to_json(bind(kRows, choice)),
-          {"recovery_angle_deg", "law_recovery_angle_deg", "plate_force_N"},
+          {"recovery_angle_deg", "release_angle_deg", "law_recovery_angle_deg", "plate_force_N"},
           [](const Metrics& m) {
             return fmt::format("{:.0f} deg (law alone {:.0f})", m.number("recovery_angle_deg"),
                                m.number("law_recovery_angle_deg"));
           },
-          {opening_plot("", choice, end)}};
+          choice.grow_after > 0 ? std::vector{recovery_plot("", choice)}
+                                : std::vector{opening_plot("", choice, end)}};
 }
 
 int run_crease(const CommandLine& line) { return run_variants(line, crease_once, page_of); }

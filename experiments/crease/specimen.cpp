@@ -6,7 +6,6 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
-#include "sim/bending/laws/recovery.h"
 #include "sim/contact/compression.h"
 #include "sim/scene/motion.h"
 #include "sim/time/simulation.h"
@@ -156,19 +155,6 @@ double Crease::opening(const std::vector<Eigen::Vector3d>& x) const {
       middle(length - reach / 4, length) - middle(length - reach, length - 0.75 * reach);
   const Eigen::Vector3d near = middle(0, reach / 4) - middle(0.75 * reach, reach);
   return std::acos(std::clamp(far.normalized().dot(near.normalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
-double Crease::opening_of_law(const std::vector<double>& largest) const {
-  constexpr int kRows = 40;
-  const LawRequest law{scene.law, scene.fabric.virgin_curve(), scene.param};
-  double bent = 0;
-  for (int f = 0; f < cloth.mesh.faces(); ++f) {
-    std::vector<LawRow> rows;
-    const double size = std::abs(largest[f]);
-    for (int k = 1; k <= kRows; ++k) rows.push_back({size * k / kRows, times.released / kRows});
-    if (size > 0) bent += std::copysign(cloth.mesh.face_area[f], largest[f]) * residual_after(law, rows);
-  }
-  return 180 - rest_turn - bent / scene.cloth.width * 180 / std::numbers::pi;
 }
 
 double loaded_plate(const Scene& scene, const CreaseChoice& choice) {

@@ -8,18 +8,25 @@
 namespace hysteron::experiments {
 
 struct CreaseChoice {
-  std::string fold = "plate";    // plate | rod | pleat
-  std::string release = "slow";  // slow: from equilibrium to equilibrium | quick: let go in motion
-  double force = 10;             // of the plate [N] (ISO 2313)
-  double radius = 0.01;          // of the rod [m]
-  double pleat = 60;             // angle between the limbs of the pleated specimen at rest [degree]
-  double hold = 0.2;             // under the whole load [s]
-  double lift = 1;               // time in which the plate of a slow release rises [s]
-  double recovery = 1;           // time to recover [s]
+  std::string fold = "plate";     // plate | rod | pleat
+  std::string release = "slow";   // slow: from equilibrium to equilibrium | quick: let go in motion
+  double force = 10;              // of the plate [N] (ISO 2313)
+  double radius = 0.01;           // of the rod [m]
+  double pleat = 60;              // angle between the limbs of the pleated specimen at rest [degree]
+  double hold = 0.2;              // under the whole load [s]
+  double lift = 1;                // time in which the plate of a slow release rises [s]
+  double recovery = 1;            // time to recover [s]
+  std::string standard = "none";  // whose load and times these are
+  double grow_after = 0;  // time of rest after which a step is twice the scene's [s]; 0: steps do not grow
 
   // Of the plate: that of a quick release is gone in a tenth of a second.
   double lifting() const { return release == "slow" ? lift : 0.1; }
 };
+
+// Load and times of a standard, with steps that grow:
+//   iso2313   10 N for 5 min, read after 5 min (ISO 2313-2)
+//   aatcc66   500 g for 5 min, read after 5 min (AATCC 66)
+CreaseChoice by_standard(const std::string& standard);
 
 // When things happen [s].
 struct CreaseTimes {
@@ -30,8 +37,9 @@ struct Crease {
   Scene scene;
   Cloth cloth;
   CreaseTimes times;
-  double rest_turn = 0;  // of a pleat [degree]
-  double grip = 0.2;     // share of the length at either end of which the limbs' directions are taken
+  double rest_turn = 0;                   // of a pleat [degree]
+  std::vector<double> step_lengths = {};  // [s]; empty: the scene's
+  double grip = 0.2;  // share of the length at either end of which the limbs' directions are taken
 
   // Force of the plate on the cloth at these positions [N]; 0 without a plate.
   double plate_force(const std::vector<Eigen::Vector3d>& x, double time) const;
@@ -41,6 +49,11 @@ struct Crease {
   // `largest` curvature, of either sign [1/m], and let go [degree].
   double opening_of_law(const std::vector<double>& largest) const;
 };
+
+// Lengths of the steps from the start to the end: the scene's while anything moves; under the load and after
+// release they grow in proportion to the time t since that rest began, step (1 + t/grow_after), as relaxation
+// and recovery slow down.  Each phase ends with a step [s].
+std::vector<double> growing_steps(const CreaseTimes& times, double step, double grow_after);
 
 // A specimen of scene.cloth.length by scene.cloth.width whose elements are at most a thickness long across
 // the crease, which is in its middle.  Its near limb is clamped on a plane; a hand takes the end of the far

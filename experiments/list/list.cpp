@@ -12,6 +12,7 @@
 #include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/scene/keys.h"
 #include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
@@ -98,6 +99,38 @@ void list_fabrics_table() {
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
 
+// The value of a key as text: a number, or the numbers of a list.
+std::string value_text(const BoundKey& key) {
+  if (const auto* numbers = std::get_if<Numbers*>(&key.field)) return listed(**numbers);
+  return short_number(*std::get<double*>(key.field));
+}
+
+// Every number of one fabric with its unit, how it is known, between which numbers it may lie, and its
+// source.
+void list_numbers(const FabricFile& file) {
+  Scene scene;
+  scene.fabric = file.fabric;
+  const std::vector<int> widths = {25, 24, 11, 10, 16};
+  std::cout << scene.fabric.name << ": " << file.description << "\n";
+  print_row({"number", "value", "unit", "known", "range", "from"}, widths);
+  for (const BoundKey& key : bind_scene(scene)) {
+    const std::string& path = key.description.path;
+    const auto from = file.fabric.provenance.find(path.substr(path.find('.') + 1));
+    if (!path.starts_with("fabric.") || from == file.fabric.provenance.end()) continue;
+    const auto range = file.range.find(from->first);
+    const bool stated = range != file.range.end();
+    print_row({from->first, value_text(key), key.description.unit, from->second.confidence,
+               stated ? number_text(range->second.low) + " to " + number_text(range->second.high) : "",
+               from->second.source},
+              widths);
+  }
+  if (!file.fabric.published.empty()) std::cout << "as printed:\n";
+  for (const auto& [name, number] : file.fabric.published)
+    print_row({name, short_number(number.value), number.unit, number.provenance.confidence, "",
+               number.provenance.source},
+              widths);
+}
+
 void list_laws() {
   for (const LawEntry& law : law_catalogue()) {
     std::string parameters;
@@ -127,15 +160,21 @@ int run_list(const CommandLine& line) {
                                                                  {"laws", list_laws},
                                                                  {"scenes", list_scenes},
                                                                  {"devices", list_devices}};
-  for (const std::string& name : line.names) {
-    const auto is_named = [&](const auto& part) { return part.first == name; };
-    if (std::none_of(parts.begin(), parts.end(), is_named)) {
-      throw Error::request("\"" + name + "\" must be fabrics | laws | scenes | devices");
-    }
+  const auto is_part = [&](const std::string& name) {
+    return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.first == name; });
+  };
+  const std::vector<std::string>& names = line.names;
+  if (names.size() > 1 && names.front() == "fabrics" &&
+      std::none_of(names.begin() + 1, names.end(), is_part)) {
+    for (auto name = names.begin() + 1; name != names.end(); ++name)
+      list_numbers(read_fabric(*name, "list fabrics"));
+    return 0;
   }
+  for (const std::string& name : names)
+    if (!is_part(name)) throw Error::request("\"" + name + "\" must be fabrics | laws | scenes | devices");
   for (const auto& [name, print] : parts) {
-    if (line.names.empty()) std::cout << (print == list_fabrics_table ? "" : "\n") << name << ":\n";
-    if (line.names.empty() || std::count(line.names.begin(), line.names.end(), name)) print();
+    if (names.empty()) std::cout << (print == list_fabrics_table ? "" : "\n") << name << ":\n";
+    if (names.empty() || std::count(names.begin(), names.end(), name)) print();
   }
   return 0;
 }
@@ -146,7 +185,7 @@ Experiment list() {
   return {.name = "list",
           .question = "what there is: fabrics, laws, scenes, devices",
           .run = run_list,
-          .names = "fabrics|laws|scenes|devices"};
+          .names = "fabrics [NAME|FILE]...|laws|scenes|devices"};
 }
 
 }  // namespace hysteron::experiments

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "sim/scene/assets.h"
@@ -60,9 +61,10 @@ struct Reader {
   // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
   PublishedNumber quantity(const TomlNode& node, const TomlNode* sources) const {
     if (node.kind != TomlNode::Kind::table) {
-      throw refusal(node.key + " must be a table {value, unit, source, confidence}, stderr if known", node);
+      throw refusal(
+          node.key + " must be a table {value, unit, source, confidence}, stderr and range if known", node);
     }
-    only_known(node, {"value", "unit", "source", "confidence", "stderr"});
+    only_known(node, {"value", "unit", "source", "confidence", "stderr", "range"});
     PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), confidence(node, node)}};
     if (node.find("unit")) number.unit = text(node, "unit");
     if (node.find("stderr")) {
@@ -73,6 +75,21 @@ struct Reader {
       number.provenance.source = text(*sources, number.provenance.source);
     }
     return number;
+  }
+
+  // range = [low, high], around the value; none where the number does not state it.
+  std::optional<Range> range(const TomlNode& number, double value) const {
+    const TomlNode* node = number.find("range");
+    if (!node) return {};
+    const auto* ends = std::get_if<std::vector<double>>(&node->value);
+    if (node->kind != TomlNode::Kind::value || !ends || ends->size() != 2)
+      throw refusal(number.key + ": range must be [low, high]", *node);
+    const Range range = between((*ends)[0], (*ends)[1]);
+    if (!range.contains(value))
+      throw refusal(number.key + " = " + number_text(value) + " must lie in its range [" +
+                        number_text(range.low) + ", " + number_text(range.high) + "]",
+                    *node);
+    return range;
   }
 
   // Of a table of lists, which may leave it out: then the file itself is the source.
@@ -101,6 +118,10 @@ void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* 
   if (number.unit != key.description.unit) {
     throw Error::request("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
                          key.description.unit + "\" (" + origin + ")");
+  }
+  if (const auto range = reader.range(node, number.value)) {
+    for (const double end : {range->low, range->high}) assign(key, end, origin + ", range");
+    result.range[node.key] = *range;
   }
   assign(key, number.value, origin);
   result.fabric = std::move(scene.fabric);
@@ -183,6 +204,8 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   if (const TomlNode* published = root.find("published")) {
     for (const TomlNode& node : published->children) {
       result.fabric.published[node.key] = reader.quantity(node, sources);
+      if (const TomlNode* range = node.find("range"))
+        throw reader.refusal(node.key + ": a range belongs to [parameters]", *range);
     }
   }
   note_defaults(result.fabric);

@@ -7,6 +7,7 @@
 //   [parameters]         the keys fabric.* of a scene, in their SI units
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
 //                        optional: stderr = 2e-7, the standard error in the same unit
+//                        optional: range = [8e-6, 1.5e-5], between which the number may lie
 //   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
 //   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
 //   source = "kes"                     optional, as is confidence: of the whole table
@@ -21,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
@@ -29,6 +31,7 @@ struct FabricFile {
   Fabric fabric;
   std::string description;
   std::map<std::string, std::string> place;  // of each parameter: "assets/fabrics/cotton-broad.toml:12"
+  std::map<std::string, Range> range;        // of each parameter that states one, in its unit
 };
 
 // KES units (Kawabata 1980) in SI; 1 gf = 9.80665e-3 N by definition.

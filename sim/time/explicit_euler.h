@@ -10,6 +10,7 @@ class ExplicitEuler : public TimeIntegrator<Real, Device> {
  public:
   ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
+  void step_by(double, double) override { refuse_long_step(body_.scene); }
   void become_static() override { refuse_statics(body_.scene); }
   void visit(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }

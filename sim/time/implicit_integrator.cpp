@@ -36,6 +36,12 @@ void ImplicitIntegrator<Real, Device>::step(double start) {
 }
 
 template <class Real, class Device>
+void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
+  if (body_.scene.integrator != Integrator::quasi_static) refuse_long_step(body_.scene);
+  take_interval(start, h, 0);
+}
+
+template <class Real, class Device>
 std::vector<Vec3<Real>> ImplicitIntegrator<Real, Device>::handle_forces() {
   return solver_.handle_forces(vertices_of(body_));
 }

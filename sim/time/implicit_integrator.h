@@ -14,6 +14,7 @@ class ImplicitIntegrator : public TimeIntegrator<Real, Device> {
  public:
   explicit ImplicitIntegrator(Body<Real, Device>& body);
   void step(double start) override;
+  void step_by(double start, double h) override;
   void become_static() override;
   std::vector<Vec3<Real>> handle_forces() override;
   void visit(Archive& archive) override {

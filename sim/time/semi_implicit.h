@@ -39,6 +39,7 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
  public:
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
+  void step_by(double, double) override { refuse_long_step(body_.scene); }
   void become_static() override { refuse_statics(body_.scene); }
   void visit(Archive& archive) override {
     archive(part_);
@@ -67,6 +68,7 @@ class ChapterSteps : public TimeIntegrator<Real, Device> {
   ChapterSteps(Body<Real, Device>& body, const StepLimits& limits)
       : body_(body), substeps_(limits.substeps), solve_(body) {}
   void step(double start) override;
+  void step_by(double, double) override { refuse_long_step(body_.scene); }
   void become_static() override { refuse_statics(body_.scene); }
   void visit(Archive& archive) override { solve_.visit(archive); }
   std::size_t bytes() const override { return solve_.bytes(); }

@@ -52,6 +52,9 @@ class Simulation {
 
   // Error::run when the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.
   virtual void advance(int steps) = 0;
+  // One step of this length instead of the scene's: to the equilibrium after a rest, however long [s].
+  // Error::request for integrators but `quasi-static`, Error::run as advance().
+  virtual void advance_by(double seconds) = 0;
   // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
   // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
   // Error::request for integrators that are not implicit in all forces.

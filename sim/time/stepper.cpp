@@ -64,8 +64,20 @@ void Stepper<Real, Device>::advance(int steps) {
 }
 
 template <class Real, class Device>
+void Stepper<Real, Device>::advance_by(double seconds) {
+  const DeviceCounts before = device_counts;
+  body_.carry_out_commands(time(), time() + seconds);
+  integrator_->step_by(time(), seconds);
+  ++steps_;
+  beyond_ += seconds - body_.scene.step;
+  refuse_divergence(body_, time());
+  body_.counts.device += device_counts - before;
+}
+
+template <class Real, class Device>
 void Stepper<Real, Device>::visit(Archive& archive) {
   archive(steps_);
+  archive(beyond_);
   body_.visit(archive);
   integrator_->visit(archive);
 }

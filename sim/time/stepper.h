@@ -12,11 +12,12 @@ class Stepper : public Simulation {
           const StepLimits& limits);
 
   void advance(int steps) override;
+  void advance_by(double seconds) override;
   void become_static() override { integrator_->become_static(); }
   std::string save() override;
   void load(std::string_view state) override;
   void wait() override { body_.device->synchronize(); }
-  double time() const override { return static_cast<double>(steps_) * body_.scene.step; }
+  double time() const override { return static_cast<double>(steps_) * body_.scene.step + beyond_; }
   long steps() const override { return steps_; }
 
   std::vector<Eigen::Vector3d> positions() override;
@@ -70,6 +71,7 @@ class Stepper : public Simulation {
   StepLimits limits_;
   std::unique_ptr<TimeIntegrator<Real, Device>> integrator_;
   long steps_ = 0;
+  double beyond_ = 0;  // by which steps of other lengths have exceeded the scene's [s]
 };
 
 }  // namespace hysteron

@@ -15,6 +15,8 @@ class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
   virtual void step(double start) = 0;  // of the scene's length
+  // Of a length of its own [s]; Error::request where steps do not lead from equilibrium to equilibrium.
+  virtual void step_by(double start, double h) = 0;
   // Steps are equilibria from now on; Error::request where there is no equilibrium solve.
   virtual void become_static() = 0;
   // Of the step accepted last, on each vertex [N]; empty where they are not known.
@@ -26,6 +28,11 @@ class TimeIntegrator {
 [[noreturn]] inline void refuse_statics(const Scene& scene) {
   throw Error::request("integrator = " + name_of(scene.integrator) +
                        " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
+}
+
+[[noreturn]] inline void refuse_long_step(const Scene& scene) {
+  throw Error::request("integrator = " + name_of(scene.integrator) +
+                       " has steps of one length only: use quasi-static");
 }
 
 // The one that the body's scene names.

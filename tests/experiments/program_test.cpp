@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "experiments/workbench/app/experiment.h"
 #include "tests/experiments/folder.h"
@@ -72,6 +74,19 @@ TEST(Program, ListsTheFabricsWithTheirSource) {
                            "1.157e-05", "0.001216", "52.5", "0.1238", "Matsudaira"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   }
+}
+
+TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
+  const Outcome outcome = program("list fabrics wool-tropical");
+  EXPECT_EQ(outcome.exit_code, 0);
+  std::map<std::string, std::string> row;  // by its first word
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) row[line.substr(0, line.find(' '))] = line;
+  EXPECT_NE(row["b2"].find("6.57e-06"), std::string::npos) << row["b2"];
+  EXPECT_NE(row["b2"].find("published"), std::string::npos) << row["b2"];
+  EXPECT_NE(row["k0"].find("assumed    12.5 to 50"), std::string::npos) << row["k0"];
+  EXPECT_NE(row["drape-coefficient"].find("49.8"), std::string::npos) << row["drape-coefficient"];
+  EXPECT_EQ(program("list fabrics silk-of-nowhere").exit_code, 2);
 }
 
 TEST(Program, ListsLawsScenesAndDevices) {

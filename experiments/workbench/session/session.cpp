@@ -271,27 +271,50 @@ bool Session::find_rest(const Question& question, Record& series) {
 }
 
 // "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu"
-std::string Session::opening_words() const {
+std::string Session::opening_words(const Question& question) const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
-         number_text(scene.seconds) + " s in " + grouped(std::lround(scene.seconds / scene.step)) +
-         " steps on " + simulation_->device();
+         number_text(scene.seconds) + " s in " + grouped(steps_of(question)) + " steps on " +
+         simulation_->device();
+}
+
+long Session::steps_of(const Question& question) const {
+  return question.step_lengths.empty() ? std::lround(setup_.scene.seconds / setup_.scene.step)
+                                       : static_cast<long>(question.step_lengths.size());
+}
+
+// Returns how far it is [s].
+double Session::go_to_next_instant(const Question& question) {
+  const double step = setup_.scene.step;
+  const long left = steps_of(question) - simulation_->steps();
+  const int stride = static_cast<int>(std::min<long>(steps_per_frame(setup_), left));
+  if (question.step_lengths.empty()) {
+    simulation_->advance(stride);
+    return steps_per_frame(setup_) * step;
+  }
+  double passed = 0;
+  double length = step;
+  for (int s = 0; s < stride && length <= step; ++s) {
+    length = question.step_lengths[simulation_->steps()];
+    length == step ? simulation_->advance(1) : simulation_->advance_by(length);
+    passed += length;
+  }
+  return passed;
 }
 
 // All instants; those before a checkpoint have been recorded.  Returns whether the question is settled.
 bool Session::go_through(const Question& question, Record& series) {
-  const int stride = steps_per_frame(setup_);
-  const long steps = std::lround(setup_.scene.seconds / setup_.scene.step);
+  const long steps = steps_of(question);
   std::optional<Interrupts> interrupts;
   if (takes_checkpoints(question)) interrupts.emplace();
   const bool goes_on = go_on(question, series);
   std::vector<Eigen::Vector3d> before = simulation_->positions();
   const auto start = std::chrono::steady_clock::now();
   const long first_step = simulation_->steps();
-  const auto look = [&] {
+  const auto look = [&](double passed) {
     const std::vector<Eigen::Vector3d> x = simulation_->positions();
     const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                 speed = fastest(x, before, stride * setup_.scene.step);
+                 speed = fastest(x, before, passed);
     const long left = steps - first_step;
     const Snapshot instant =
         record(question, series, x, speed,
@@ -299,18 +322,17 @@ bool Session::go_through(const Question& question, Record& series) {
     before = x;
     return question.settled && question.settled(instant);
   };
-  if (!goes_on) look();
+  if (!goes_on) look(setup_.scene.step);
   bool settled = false;
   while (!settled && simulation_->steps() < steps) {
     if (interrupts) pause(question, series, *interrupts);
-    simulation_->advance(static_cast<int>(std::min<long>(stride, steps - simulation_->steps())));
-    settled = look();
+    settled = look(go_to_next_instant(question));
   }
   return settled;
 }
 
 bool Session::simulate(const Question& question) {
-  run_->progress(opening_words());
+  run_->progress(opening_words(question));
   if (!setup_.options.no_images) {
     pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, question.bounds, question.floor);
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());

@@ -32,6 +32,8 @@ struct Question {
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Snapshot&)> measure;
   std::function<bool(const Snapshot&)> settled;  // ends the run early
+  // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
+  std::vector<double> step_lengths;
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
@@ -67,6 +69,8 @@ class Session {
   // An instant of the series: its row, pictures and checks.
   Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                   double fastest, const std::string& left);
+  long steps_of(const Question& question) const;
+  double go_to_next_instant(const Question& question);
   bool go_through(const Question& question, Record& series);
   bool find_rest(const Question& question, Record& series);
   // resuming.cpp
@@ -80,7 +84,7 @@ class Session {
   void drop_checkpoint();
   bool checks_intersections() const;
   void watch_intersections(const std::vector<Eigen::Vector3d>& x);
-  std::string opening_words() const;
+  std::string opening_words(const Question& question) const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void note_integrator(const Ledger& ledger);

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "experiments/workbench/compare/variants.h"
 #include "sim/contact/compression.h"
+#include "sim/reference/kes.h"
+#include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
@@ -146,6 +150,112 @@ TEST(CreaseSpecimen, IsLeftByASlowPlateSlowly) {
   EXPECT_EQ(one.released, other.released);
   EXPECT_NEAR(one.lifted - one.released, slow.lift, 1e-12);
   EXPECT_LT(other.lifted - other.released, 0.2);
+}
+
+// The ends of all phases are ends of steps, and a step that begins after a rest of grow_after is twice as
+// long.
+TEST(GrowingSteps, MeetTheEndOfEveryPhase) {
+  const CreaseTimes times{0.6, 1, 301, 302, 602};
+  const double step = 1.0 / 120, grow_after = 0.1, rounding = 1e-9;
+  const std::vector<double> lengths = growing_steps(times, step, grow_after);
+  std::vector<double> ends;
+  for (double length : lengths) ends.push_back((ends.empty() ? 0 : ends.back()) + length);
+  for (double end : {times.folded, times.pressed, times.released, times.lifted, times.end}) {
+    const auto is_end = [&](double t) { return std::abs(t - end) < rounding; };
+    EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), is_end)) << end;
+  }
+  EXPECT_NEAR(ends.back(), times.end, rounding);
+  EXPECT_EQ(std::count(lengths.begin(), lengths.end(), step), 120 + 120 + 2);  // moving; first of both rests
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double begun = ends[i] - lengths[i] - times.pressed;
+    if (begun < rounding || begun > 100) continue;
+    EXPECT_NEAR(lengths[i], step * (1 + begun / grow_after), rounding);
+  }
+}
+
+// Elastic with one branch: held at K1 for T it opens to K1 c (1 - e^(-T/tau))/(b + c) at once, and recovers
+// as e^(-t b/((b + c) tau)) (docs/laws.md); bent to K1 within r, what has relaxed is 1 - e^(-T/tau) (1 -
+// e^(-r/tau)) tau/r.
+TEST(CreaseInTime, KeepsWhatTheClosedFormOfOneBranchKeeps) {
+  const auto kept = [](double step) {
+    Crease crease = creased(small_scene(), {}, 1.4e-3);
+    Fabric& f = crease.scene.fabric;
+    f.b1 = f.b2;  // no friction
+    f.bending.branches = {{20}, {0.8 * f.b2}};
+    crease.scene.law = "chapman";
+    crease.times = {0.6, 1, 41, 41, 71};
+    crease.step_lengths = growing_steps(crease.times, step, 1.0 / 30);
+    const std::vector<double> largest(crease.cloth.mesh.faces(), 100.0);
+    return (180 - crease.opening_of_law(largest)) * std::numbers::pi / 180 / crease.scene.cloth.length;
+  };
+  const double share = 0.8, bend = 0.6, hold = 40.4, tau = 20, recovery = 30;
+  const double relaxed = 1 - std::exp(-hold / tau) * (1 - std::exp(-bend / tau)) * tau / bend;
+  const double expected = 100 * share / (1 + share) * relaxed * std::exp(-recovery / ((1 + share) * tau));
+  const double error = std::abs(kept(1.0 / 120) / expected - 1),
+               half = std::abs(kept(1.0 / 240) / expected - 1);
+  EXPECT_LT(error, 0.02);
+  EXPECT_NEAR(half / error, 0.5, 0.1);  // of first order
+}
+
+// The tester reads of it what it reads of cotton broad without branches or set: B and 2HB as published.
+TEST(CreaseInTime, OfCottonBroadHasItsPublishedPair) {
+  constexpr double kPrinted = 1e-6;  // of the numbers in the files
+  KesProtocol protocol;
+  protocol.cycles = 1;
+  protocol.minor_loops = false;
+  const KesWalk walk = walk_to({250, -250, 250}, protocol);
+  const KesPair published = kes_pair(read_fabric("cotton-broad", "test").fabric.virgin_curve());
+  for (const char* name : {"cotton-broad-relaxing", "cotton-broad-creasing"}) {
+    const LawRequest law{"chapman", read_fabric(name, "test").fabric.virgin_curve(), {}};
+    const KesReading read = read_loop(protocol, walk, run_law(law, walk.rows).moment);
+    EXPECT_NEAR(read.rigidity, published.rigidity, kPrinted * published.rigidity) << name;
+    EXPECT_NEAR(read.loop_width, published.loop_width, kPrinted * published.loop_width) << name;
+  }
+}
+
+CommandLine pressed_by_standard(const std::filesystem::path& out, std::vector<Flag> further) {
+  CommandLine line{
+      "crease",
+      "hysteron crease",
+      {{"crease.standard", "iso2313"}, {"law", "chapman"}, {"triangles", "200"}, {"out", out.string()}},
+      {}};
+  line.flags.insert(line.flags.end(), further.begin(), further.end());
+  for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
+  return line;
+}
+
+// Friction alone keeps what it keeps; with a branch the angle comes back in time.
+TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
+  const auto recovered = [](std::vector<Flag> further) {
+    const Folder folder;
+    EXPECT_EQ(experiment_named("crease").run(pressed_by_standard(folder.path(), std::move(further))), 0);
+    return metrics_in(folder.path());
+  };
+  const auto friction = recovered({}),
+             relaxing = recovered({{"fabric.bending.branches.times", "30"},
+                                   {"fabric.bending.branches.stiffnesses", "1.2e-5"}});
+  const auto angle = [](const nlohmann::json& m, const char* key) { return m[key].get<double>(); };
+  constexpr double kAtRest = 0.05;  // degrees
+  EXPECT_NEAR(angle(friction, "recovery_angle_deg"), angle(friction, "release_angle_deg"), kAtRest);
+  EXPECT_LT(angle(relaxing, "release_angle_deg"), angle(friction, "release_angle_deg") - 10);
+  EXPECT_GT(angle(relaxing, "recovery_angle_15_s_deg"), angle(relaxing, "release_angle_deg"));
+  EXPECT_GT(angle(relaxing, "recovery_angle_deg"), angle(relaxing, "recovery_angle_15_s_deg") + 5);
+}
+
+TEST(CreaseInTime, HasTheLoadsAndTimesOfTheStandards) {
+  EXPECT_EQ(by_standard("iso2313").force, 10);
+  EXPECT_NEAR(by_standard("aatcc66").force, 0.5 * 9.80665, 1e-12);
+  for (const char* standard : {"iso2313", "aatcc66"}) {
+    EXPECT_EQ(by_standard(standard).hold, 300);
+    EXPECT_EQ(by_standard(standard).recovery, 300);
+  }
+}
+
+TEST(CreaseInTime, IsRefusedForAReleaseInMotion) {
+  const Folder folder;
+  EXPECT_THROW(
+      experiment_named("crease").run(pressed_by_standard(folder.path(), {{"crease.release", "quick"}})),
+      Error);
 }
 
 // Pulled straight, it does not return to the angle that it was made with.

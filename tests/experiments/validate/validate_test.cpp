@@ -1,7 +1,11 @@
 // The comparison with measurements, small.
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "experiments/validate/spread.h"
 #include "experiments/workbench/app/experiment.h"
 #include "tests/experiments/folder.h"
 
@@ -13,7 +17,10 @@ TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
   const auto out = folder.path() / "v";
   CommandLine line{"validate",
                    "hysteron validate",
-                   {{"fabrics", "wool-tropical"}, {"laws", "linear"}, {"out", out.string()}},
+                   {{"fabrics", "wool-tropical"},
+                    {"laws", "linear"},
+                    {"parts", "pairs,drapes,lengths"},
+                    {"out", out.string()}},
                    {}};
   for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
   ASSERT_EQ(experiment_named("validate").run(line), 0);
@@ -31,6 +38,75 @@ TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
   EXPECT_NEAR(metrics["cantilever-wool-tropical-linear.bending_length_m"].get<double>() / bending, 1, 5e-3);
   EXPECT_NE(text_of(out / "drape.csv").find("wool-tropical,linear,lowered"), std::string::npos);
   EXPECT_NE(text_of(out / "drape.csv").find("49.8"), std::string::npos) << "published";
+  // B and 2HB of ten fabrics come back as they went in.
+  EXPECT_LT(metrics["kes_pairs_largest_error_percent"], 1);
+  const std::string table = text_of(out / "predictions.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 10);
+}
+
+// Each number once in each part of its range, in the logarithm; friction as published.
+TEST(Validate, DrawsUncertainNumbersFromALatinHypercubeThatKeepsTheFrictionMoment) {
+  constexpr int kCount = 7;
+  constexpr double kRounding = 1e-12;
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  const std::vector<Sample> samples = samples_of(file, kCount, 1);
+  for (const auto& [key, range] : file.range) {
+    std::set<int> parts;
+    for (const Sample& sample : samples)
+      parts.insert(
+          static_cast<int>(kCount * std::log(sample.at(key) / range.low) / std::log(range.high / range.low)));
+    EXPECT_EQ(parts.size(), kCount) << key;
+    EXPECT_EQ(*parts.begin(), 0) << key;
+    EXPECT_EQ(*parts.rbegin(), kCount - 1) << key;
+  }
+  const double moment = file.fabric.virgin_curve().friction_moment();
+  for (const Sample& sample : samples)
+    EXPECT_NEAR((sample.at("b1") - file.fabric.b2) * sample.at("k0") / 2, moment, kRounding * moment);
+  EXPECT_EQ(samples_of(file, kCount, 1), samples);
+  EXPECT_NE(samples_of(file, kCount, 2), samples);
+}
+
+// Loops that were not fitted, by the stops and by one constant 2HB, beside what was measured.
+TEST(Validate, TakesOverWhatAFitPredictsOfOtherLoops) {
+  const Folder folder;
+  std::ofstream(folder.path() / "predictions.csv")
+      << "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],one stop area [uJ/cm]\n"
+         "L D1 cycle 1,L D1 cycle 2,0,4.4,4,5\nL D1 cycle 2,L D1 cycle 2,1,8,8,8\n";
+  const std::vector<Prediction> loops = predict_loops(folder.path());
+  ASSERT_EQ(loops.size(), 2u);
+  EXPECT_NEAR(loops[0].error_percent(), 10, 1e-9);
+  EXPECT_NEAR(loops[1].error_percent(), 25, 1e-9);
+  EXPECT_FALSE(loops[0].has_interval());
+  std::ofstream(folder.path() / "predictions.csv") << "loop\nL\n";
+  EXPECT_THROW(predict_loops(folder.path()), Error);
+}
+
+TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
+  const Folder folder;
+  const auto out = folder.path() / "v";
+  CommandLine line{"validate",
+                   "hysteron validate",
+                   {{"fabrics", "polyester-faille"},
+                    {"parts", "spread,draws"},
+                    {"triangles", "150"},
+                    {"seconds", "0.2"},
+                    {"out", out.string()}},
+                   {}};
+  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
+  ASSERT_EQ(experiment_named("validate").run(line), 0);
+  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  const double low = metrics["polyester-faille.spread_low_percent"],
+               high = metrics["polyester-faille.spread_high_percent"];
+  EXPECT_LT(low, high);  // two samples differ
+  EXPECT_EQ(metrics["polyester-faille.spread_has_measured"].get<bool>(), low <= 28.3 && 28.3 <= high);
+  double sum = 0;
+  for (const char* draw : {"1", "2"})
+    sum +=
+        nlohmann::json::parse(text_of(out / (std::string("polyester-faille-prandtl-dropped-draw-") + draw) /
+                                      "manifest.json"))["metrics"]["drape_coefficient_percent"]
+            .get<double>();
+  EXPECT_NEAR(metrics["polyester-faille-dropped.drape_coefficient_percent_mean"].get<double>(), sum / 2,
+              1e-9);
 }
 
 }  // namespace

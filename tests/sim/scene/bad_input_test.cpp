@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"UnknownFabric",
                  "fabric = \"cotton\"\n",
                  1,
-                 {"\"cotton\"", "cotton-broad, denim-c-friction, feng2022-median"}},
+                 {"\"cotton\"", "cotton-broad-relaxing, denim-c-friction, feng2022-median"}},
         BadScene{"InvertedRigidities",
                  "[fabric]\nb1 = 1e-6\n",
                  2,

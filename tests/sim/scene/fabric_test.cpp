@@ -68,6 +68,14 @@ TEST_P(ShippedFabric, StatesASourceAndAConfidenceForEveryNumber) {
   }
 }
 
+// What a validation varies: what the source does not give, and nothing that it does.
+TEST_P(DrapedFabric, StatesARangeForWhatIsAssumedOfItAlone) {
+  for (const char* key : {"k0", "shear", "warp", "weft", "friction"})
+    EXPECT_TRUE(file.range.count(key)) << key;
+  for (const auto& [key, range] : file.range)
+    EXPECT_EQ(fabric.provenance.at(key).confidence, "assumed") << key;
+}
+
 TEST_P(DrapedFabric, KeepsTheMeasuredDrapeForComparison) {
   EXPECT_EQ(fabric.published.at("drape-coefficient").unit, "%");
   EXPECT_GT(published("drape-coefficient"), 0);
@@ -95,6 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Assets, DrapedFabric, testing::ValuesIn(fabrics_that_pu
 INSTANTIATE_TEST_SUITE_P(Assets, FabricMeasuredInThreeDirections,
                          testing::ValuesIn(fabrics_that_publish("ke-0-small")), test_name);
 
+// Beside these, two that add time and set to cotton broad.
 TEST(Fabrics, AreFiveOfKesTenMeasuredInThreeDirectionsAndOneMedian) {
   const std::vector<std::string> expected = {"cotton-broad", "denim-c-friction", "polyester-faille",
                                              "polyester-tropical", "wool-tropical"};
@@ -102,7 +111,24 @@ TEST(Fabrics, AreFiveOfKesTenMeasuredInThreeDirectionsAndOneMedian) {
   EXPECT_EQ(fabrics_that_publish("drape-coefficient").size(), 4u);
   EXPECT_EQ(fabrics_that_publish("2HG"), std::vector<std::string>{"denim-c-friction"});
   EXPECT_EQ(fabrics_that_publish("ke-0-small").size(), 10u);
-  EXPECT_EQ(list_fabrics().size(), 16u);
+  EXPECT_EQ(list_fabrics().size(), 16u + 2);
+}
+
+// All but its bending is that of cotton broad, and both bend alike until one of them sets.
+TEST(Fabrics, ThatRelaxAndSetAreCottonBroadOtherwise) {
+  const auto numbers = [](const Fabric& f) {
+    return std::vector<double>{f.k0,    f.density, f.thickness, f.warp,         f.weft,        f.coupling,
+                               f.shear, f.damping, f.friction,  f.weft_bending, f.bias_bending};
+  };
+  const Fabric cotton = read_fabric("cotton-broad", "test").fabric,
+               relaxing = read_fabric("cotton-broad-relaxing", "test").fabric,
+               creasing = read_fabric("cotton-broad-creasing", "test").fabric;
+  for (const Fabric& fabric : {relaxing, creasing}) EXPECT_EQ(numbers(fabric), numbers(cotton));
+  EXPECT_EQ(std::pair(relaxing.b1, relaxing.b2), std::pair(creasing.b1, creasing.b2));
+  EXPECT_EQ(relaxing.bending.branches.times, creasing.bending.branches.times);
+  EXPECT_EQ(relaxing.bending.branches.stiffnesses, creasing.bending.branches.stiffnesses);
+  EXPECT_FALSE(relaxing.bending.set.on());
+  EXPECT_TRUE(creasing.bending.set.on());
 }
 
 TEST(Fabrics, AreFoundWithUnderscoresForHyphens) {
@@ -251,6 +277,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadFabric{"OutOfRange",
                   "thickness = {value = 0, unit = \"m\", source = \"s\", confidence = \"assumed\"}", 8,
                   "fabric.thickness = 0 m must be > 0"},
+        BadFabric{"ValueOutsideItsRange",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", "
+                  "range = [5e-4, 6e-4]}",
+                  8, "thickness = 4e-04 must lie in its range [5e-04, 6e-04]"},
+        BadFabric{"RangeOfOneEnd",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", range "
+                  "= [4e-4]}",
+                  8, "thickness: range must be [low, high]"},
+        BadFabric{"RangeThatTheModelRefuses",
+                  "thickness = {value = 4e-4, unit = \"m\", source = \"s\", confidence = \"assumed\", range "
+                  "= [-1.0, 1.0]}",
+                  8, "fabric.thickness = -1 m must be > 0"},
         BadFabric{"FewerStiffnesses", "[bending.stops]\nthresholds = [5, 20]\nstiffnesses = [1e-6]\n", 9,
                   "fabric.bending.stops.thresholds has 2 numbers and must have as many as "
                   "fabric.bending.stops.stiffnesses, 1"},

@@ -73,5 +73,53 @@ TEST(MeasuredFabric, PaysForThePartsThatItHasAlone) {
   EXPECT_EQ(bytes("chapman", all), 8u + 5 + 1);
 }
 
+// A sheet with one relaxing branch, held in waves that it is not at rest in.
+Trial held_in_waves(const char* integrator, double tau) {
+  Trial trial = rippled({"chapman", "shape", integrator}, {{}, {}, {{tau}, {6e-6}}, {}});
+  Pin hand;
+  hand.low = {-1, -1, -1}, hand.high = {1, 1, 1};
+  trial.scene.pin = {hand};
+  const std::vector<Eigen::Vector3d> start = trial.cloth.start;
+  trial.cloth = make_cloth(trial.scene);
+  trial.cloth.start = start;
+  return trial;
+}
+
+// Its moment relaxes as e^(-t/tau), in one step of any length as in many.
+TEST(LongStep, RelaxesAHeldSheetAsTheClosedFormSays) {
+  constexpr double kTau = 30, kRounding = 1e-9;
+  const Trial trial = held_in_waves("quasi-static", kTau);
+  const auto simulation = trial.after(1);
+  const double begun = simulation->time();
+  const std::vector<double> first = simulation->moment();
+  simulation->advance_by(7);
+  EXPECT_NEAR(simulation->time(), begun + 7, kRounding);
+  const std::vector<double> then = simulation->moment();
+  simulation->advance_by(100 * kTau);
+  const std::vector<double> last = simulation->moment();
+  double branch = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_NEAR(then[i] - last[i], (first[i] - last[i]) * std::exp(-7 / kTau),
+                kRounding * std::abs(first[i]));
+    branch = std::max(branch, std::abs(first[i] - last[i]));
+  }
+  EXPECT_GT(branch, 0);
+}
+
+TEST(LongStep, IsRefusedWhereStepsAreOfOneLength) {
+  for (const char* integrator : {"semi-implicit", "explicit", "implicit", "tr-bdf2"})
+    EXPECT_THROW(held_in_waves(integrator, 1).after(1)->advance_by(1), Error) << integrator;
+}
+
+// What is saved in between goes on at the same time.
+TEST(LongStep, IsRememberedByAStateThatIsSaved) {
+  const Trial trial = held_in_waves("quasi-static", 1);
+  const auto simulation = trial.after(1), other = trial.simulation();
+  simulation->advance_by(2.5);
+  other->load(simulation->save());
+  EXPECT_EQ(other->time(), simulation->time());
+  EXPECT_EQ(other->moment(), simulation->moment());
+}
+
 }  // namespace
 }  // namespace hysteron

@@ -1,0 +1,120 @@
+#include "experiments/validate/drapes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "render/plot.h"
+#include "sim/base/comma_list.h"
+#include "sim/base/csv.h"
+
+namespace hysteron::experiments {
+
+// Runs another subcommand into a folder of this one; its manifest.
+Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
+                   const Run& run, const std::string& folder) {
+  CommandLine line{name, "hysteron " + name, own, {}};
+  const std::filesystem::path out = run.folder() / folder;
+  line.flags.push_back({"out", out.string()});
+  line.flags.push_back({"quiet", "true"});
+  if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
+  for (const Flag& flag : own) line.command += " --" + flag.path + " " + flag.text;
+  experiment_named(name).run(line);
+  return read_manifest(out / "manifest.json");
+}
+
+Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
+  return {
+      fabric,         split(flags.laws).front(), "lowered", "", static_cast<int>(flags.triangles), flags.step,
+      flags.tolerance};
+}
+
+void run_drape(Drape& drape, const ValidateFlags& flags, Run& run) {
+  std::vector<Flag> own = {{"fabric", drape.fabric},
+                           {"law", drape.law},
+                           {"drape.release", drape.release},
+                           {"triangles", std::to_string(drape.triangles)},
+                           {"step", number_field(drape.step)},
+                           {"tolerance", number_field(drape.tolerance)},
+                           {"seconds", number_field(flags.seconds)},
+                           {"device", flags.device}};
+  own.insert(own.end(), drape.further.begin(), drape.further.end());
+  const Manifest manifest = result_of("drape", own, flags, run, drape.name());
+  drape.metrics = manifest.metrics;
+  drape.seconds = manifest.total_seconds();
+  run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",
+                           drape.name(), drape.number("drape_coefficient_percent"),
+                           drape.number("published_drape_coefficient_percent"), drape.number("node_count"),
+                           drape.seconds));
+}
+
+namespace {
+
+std::vector<Drape> planned(const ValidateFlags& flags) {
+  std::vector<Drape> plan;
+  const int triangles = static_cast<int>(flags.triangles);
+  for (const std::string& fabric : split(flags.fabrics)) {
+    for (const std::string& law : split(flags.laws))
+      for (const char* release : {"lowered", "dropped"}) {
+        plan.push_back({fabric, law, release, "", triangles, flags.step, flags.tolerance});
+        if (flags.options.quick) break;
+      }
+    if (flags.options.quick) continue;
+    const std::string law = split(flags.laws).front();
+    plan.push_back({fabric, law, "lowered", "mesh", 4 * triangles, flags.step, flags.tolerance});
+    plan.push_back({fabric, law, "lowered", "step", triangles, flags.step / 2, flags.tolerance / 8});
+  }
+  return plan;
+}
+
+void write_drapes(Run& run, const std::vector<Drape>& drapes) {
+  CsvFile file(run.path("drape.csv"),
+               "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
+               "coefficient [%],published nodes,sharp edges [%],computing [s]");
+  for (const Drape& d : drapes)
+    file.row({d.fabric, d.law, d.release, d.triangles, d.step, d.number("drape_coefficient_percent"),
+              d.number("node_count"), d.metrics["settled"].is(true) ? "yes" : "no",
+              d.number("published_drape_coefficient_percent"), d.number("published_node_count"),
+              d.number("sharp_edges_percent"), d.seconds});
+  file.commit();
+}
+
+void note_drapes(Run& run, const std::vector<Drape>& drapes) {
+  for (const Drape& d : drapes) {
+    run.metric(d.name() + ".drape_coefficient_percent", d.number("drape_coefficient_percent"));
+    run.metric(d.name() + ".node_count", d.number("node_count"));
+  }
+}
+
+void draw_drapes(Run& run, const std::vector<Drape>& drapes) {
+  render::Plot plot{"Drape coefficient, simulated against measured", {"published [%]"}, {"simulated [%]"}};
+  plot.series.push_back({"equal", {20, 100}, {20, 100}, render::Series::Style::dashed, "#888888"});
+  for (const Drape& d : drapes) {
+    if (!d.varied.empty()) continue;
+    const std::string label = d.law + ", " + d.release;
+    auto at = std::find_if(plot.series.begin(), plot.series.end(),
+                           [&](const render::Series& s) { return s.label == label; });
+    if (at == plot.series.end())
+      at = plot.series.insert(plot.series.end(), {label, {}, {}, render::Series::Style::points});
+    at->x.push_back(d.number("published_drape_coefficient_percent"));
+    at->y.push_back(d.number("drape_coefficient_percent"));
+    if (at == plot.series.begin() + 1)
+      plot.marks.push_back({d.fabric, at->x.back(), 25, 0, 0, "#555555", false});
+  }
+  run.plot("plot_drape", plot);
+}
+
+}  // namespace
+
+void compare_drapes(const ValidateFlags& flags, Run& run) {
+  std::vector<Drape> drapes = planned(flags);
+  for (Drape& drape : drapes) {
+    run_drape(drape, flags, run);
+    write_drapes(run, drapes);  // a run that is cut short keeps what it has found
+  }
+  note_drapes(run, drapes);
+  if (!flags.options.no_images) draw_drapes(run, drapes);
+}
+
+}  // namespace hysteron::experiments
