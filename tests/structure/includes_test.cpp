@@ -1,5 +1,5 @@
-// Folders include each other one way only: experiments -> render -> libraries beside the simulation -> the
-// rest of sim, and inside each of them no folder one that includes it, directly or through others.
+// Folders include each other one way only: python -> experiments -> render -> libraries beside the simulation
+// -> the rest of sim, and inside each of them no folder one that includes it, directly or through others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each may include those before it; the folder of the longest name counts.
-constexpr std::array kLayers = {"sim", "sim/reference", "sim/identification", "render", "experiments"};
+constexpr std::array kLayers = {"sim",    "sim/reference", "sim/identification",
+                                "render", "experiments",   "python"};
 
 using Folders = std::map<std::string, std::set<std::string>>;  // what each includes
 
