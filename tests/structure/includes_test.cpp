@@ -37,7 +37,8 @@ bool is_source(const fs::path& file) {
 }
 
 Folders folders_of(const fs::path& root) {
-  static const std::regex kInclude("#\\s*include \"((?:sim|render|experiments)/[^\"]+)/[^/\"]+\"");
+  static const std::regex kInclude(
+      "#\\s*include \"((?:sim|render|experiments|python)(?:/[^\"/]+)*)/[^/\"]+\"");
   Folders folders;
   for (const char* layer : kLayers) {
     if (!fs::exists(root / layer)) continue;
@@ -98,6 +99,9 @@ TEST(Includes, ThatRunBackAreFound) {
             (std::vector<std::string>{"sim/a -> sim/b", "sim/b -> sim/c", "sim/c -> sim/a"}));
   write("sim/c/c.cpp", "sim/identification/i.h");
   EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> sim/identification"});
+  write("experiments/a/a.cpp", "python/a.h");
+  EXPECT_EQ(arrows_back(folders_of(root)).front(), "experiments/a -> python");
+  write("experiments/a/a.cpp", "sim/a/a.h");
   write("sim/c/c.cpp", "render/a/a.h");
   EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> render/a"});
 }
