@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install/check.sh BUILD_FOLDER: installs into a temporary folder and builds and runs tests/examples/consumer against it.
+# install/check.sh BUILD_FOLDER: installs into a temporary folder; tests/examples/consumer is built on that, and runs.
 set -euo pipefail
 build=$1
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
