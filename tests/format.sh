@@ -12,7 +12,7 @@ if [[ $program == none ]]; then
   exit 77
 fi
 
-mapfile -d '' files < <(find sim render experiments tests \( -name '*.cpp' -o -name '*.h' \) -print0)
+mapfile -d '' files < <(find sim render experiments python tests \( -name '*.cpp' -o -name '*.h' \) -print0)
 if [[ ${1:-} == --fix ]]; then
   exec "$program" -i "${files[@]}"
 fi

@@ -6,7 +6,10 @@ source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../experiments/setup.sh"
 
 test_packages=("${program_packages[@]}" "libgtest-dev|GoogleTest")
 optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|checks the style"
-  "chromium|opens pages of results, without a display")
+  "chromium|opens pages of results, without a display"
+  "python3-dev|headers of Python, for its package"
+  "pybind11-dev|C++ and Python in one module"
+  "python3-numpy|arrays in Python")
 
 install_missing test_packages optional_test_packages
 configure -DHYSTERON_TESTS=ON

@@ -78,10 +78,15 @@ std::vector<std::string> broken_limits(const Measures& found, const Measures& li
 }
 
 Comparison compare_files(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
-  Comparison result{render::read_png(a), render::read_png(b), {}, {}};
-  if (result.a.width() != result.b.width() || result.a.height() != result.b.height())
-    throw Error::request("pictures must have one size: " + a.string() + " has " + size_text(result.a) +
-                         " pixels, " + b.string() + " " + size_text(result.b));
+  render::Image of_a = render::read_png(a), of_b = render::read_png(b);
+  if (of_a.width() != of_b.width() || of_a.height() != of_b.height())
+    throw Error::request("pictures must have one size: " + a.string() + " has " + size_text(of_a) +
+                         " pixels, " + b.string() + " " + size_text(of_b));
+  return compare_pictures(std::move(of_a), std::move(of_b), flags);
+}
+
+Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags) {
+  Comparison result{std::move(a), std::move(b), {}, {}};
   const render::Difference steps = render::compare(result.a, result.b);
   const render::Plane flip = render::flip_map(result.a, result.b, flags.pixels_per_degree);
   result.measures = {steps.mean_abs, steps.rmse,

@@ -56,6 +56,8 @@ struct Comparison {
   render::Image a, b, heat;
   Measures measures;
 };
+// Error::request if the sizes differ.
+Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags);
 // Throws Error::request, naming the file or both, if one cannot be read or the sizes differ.
 Comparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                          const DiffFlags& flags);

@@ -9,6 +9,12 @@
 namespace hysteron {
 namespace fs = std::filesystem;
 
+namespace {
+fs::path assets_place;  // of another program; empty: none
+}
+
+void set_assets_place(const fs::path& folder) { assets_place = folder; }
+
 fs::path assets_folder() {
   std::error_code ignored;
   if (const char* named = std::getenv("HYSTERON_ASSETS"); named && *named) {
@@ -16,13 +22,16 @@ fs::path assets_folder() {
     throw Error::machine(std::string("HYSTERON_ASSETS = ") + named + " is no folder; unset it or name one");
   }
   const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
-  const std::vector<fs::path> places = {binary.parent_path() / "assets",
-                                        fs::path(HYSTERON_SOURCE_DIR) / "assets"};
+  const fs::path beside = binary.parent_path();
+  std::vector<fs::path> places = {beside / "assets", beside.parent_path() / "share" / "hysteron" / "assets",
+                                  fs::path(HYSTERON_SOURCE_DIR) / "assets"};
+  if (!assets_place.empty()) places.insert(places.begin(), assets_place);
+  std::vector<std::string> looked;
   for (const fs::path& place : places) {
     if (fs::is_directory(place, ignored)) return place;
+    looked.push_back(place.string());
   }
-  throw Error::machine("no assets folder at " + places[0].string() + " or " + places[1].string() +
-                       "; set HYSTERON_ASSETS to it");
+  throw Error::machine("no assets folder at " + join(looked, " or ") + "; set HYSTERON_ASSETS to it");
 }
 
 fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {

@@ -7,10 +7,13 @@
 
 namespace hysteron {
 
-// The assets folder: environment variable HYSTERON_ASSETS, else `assets` beside the binary, else in the
-// source tree that the program was built from.  Throws Error::machine if none exists, naming the places
-// looked at.
+// The assets folder: environment variable HYSTERON_ASSETS, else where set_assets_place() says, else `assets`
+// beside the binary or ../share/hysteron/assets from it, as installed, else in the source tree that the
+// program was built from.  Throws Error::machine if none exists, naming the places looked at.
 std::filesystem::path assets_folder();
+
+// Another program's place for them, which may be missing.  Before any other thread asks for assets.
+void set_assets_place(const std::filesystem::path& folder);
 
 // The file that `name` means: an existing file of that name, else assets/<kind>/<name>.toml (kind "fabrics",
 // "scenes").  `origin` says who asks.  Throws Error::request with the nearest name if there is none.

@@ -64,8 +64,9 @@ Error wrong_type(const KeyDescription& key, const Value& value, const std::strin
 }
 
 void check_number(const KeyDescription& key, double x, const std::string& shown, const std::string& origin) {
-  if (!std::isfinite(x)) throw refusal(key, with_unit(shown, key), "finite", origin);
-  if (!key.range.contains(x)) throw refusal(key, with_unit(shown, key), key.range.text(), origin);
+  const std::string allowed = std::isfinite(x) ? key.range.text() : "finite";
+  if (std::isfinite(x) && key.range.contains(x)) return;
+  throw refusal(key, with_unit(shown, key), allowed, origin).of(key.path, shown);
 }
 
 void check_choice(const KeyDescription& key, const std::string& name, const std::string& origin) {

@@ -32,18 +32,40 @@ double interpolate(const std::vector<Keyframe>& keys, double time, const Track& 
   return a + u * (ta + u * (3 * (b - a) - 2 * ta - tb + u * (2 * (a - b) + ta + tb)));
 }
 
+// Keyframes on a straight line are passed at a steady rate where there is another on either side.
+constexpr double kBeside = 1;  // [s]
+constexpr double kFar = 1e6;   // [s] beyond any run
+
 }  // namespace
+
+Keyframe state_at(const Motion& motion, double time) {
+  Keyframe now{time};
+  if (motion.keys.empty()) return now;
+  now.angle = interpolate(motion.keys, time, [](const Keyframe& k) { return k.angle; });
+  now.scale = interpolate(motion.keys, time, [](const Keyframe& k) { return k.scale; });
+  for (int c = 0; c < 3; ++c)
+    now.position[c] = interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
+  return now;
+}
+
+Motion steady_from(const Motion& motion, double time, const Eigen::Vector3d& velocity, double spin) {
+  Motion result = motion;
+  result.keys.clear();
+  const Keyframe now = state_at(motion, time);
+  for (double later : {-kBeside, 0.0, kFar, kFar + kBeside})
+    result.keys.push_back(
+        {time + later, now.position + later * velocity, now.angle + later * spin, now.scale});
+  return result;
+}
 
 Placement placement(const Motion& motion, double time) {
   Placement result;
   if (motion.keys.empty()) return result;
   constexpr double kDegree = 3.14159265358979323846 / 180;
-  const double angle = kDegree * interpolate(motion.keys, time, [](const Keyframe& k) { return k.angle; });
-  result.rotation = Eigen::AngleAxisd(angle, motion.axis.normalized()).toRotationMatrix();
-  result.scale = interpolate(motion.keys, time, [](const Keyframe& k) { return k.scale; });
-  result.translation = motion.center - result.scale * (result.rotation * motion.center);
-  for (int c = 0; c < 3; ++c)
-    result.translation[c] += interpolate(motion.keys, time, [c](const Keyframe& k) { return k.position[c]; });
+  const Keyframe at = state_at(motion, time);
+  result.rotation = Eigen::AngleAxisd(kDegree * at.angle, motion.axis.normalized()).toRotationMatrix();
+  result.scale = at.scale;
+  result.translation = motion.center - result.scale * (result.rotation * motion.center) + at.position;
   return result;
 }
 

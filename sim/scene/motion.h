@@ -18,6 +18,13 @@ struct Placement {
 };
 Placement placement(const Motion& motion, double time);
 
+// Where the motion is at that time [s], as a keyframe.
+Keyframe state_at(const Motion& motion, double time);
+
+// The motion that is where this one is at `time` [s] and goes on from there with this velocity [m/s] and spin
+// about its axis [degree/s].
+Motion steady_from(const Motion& motion, double time, const Eigen::Vector3d& velocity, double spin);
+
 // Share of the way home that a pin has brought its vertices by then, smoothly from 0 to 1; 0 if it does not.
 double home_share(const Pin& pin, double time);
 

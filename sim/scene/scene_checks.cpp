@@ -19,18 +19,22 @@ void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   if (f.b1 < f.b2) {
     throw Error::request(shown(scene, "fabric.b1", f.b1, "N m") +
-                         " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"));
+                         " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))
+        .of("fabric.b1", number_text(f.b1));
   }
   if (f.k0 == 0 && f.b1 > f.b2) {
-    throw Error::request(shown(scene, "fabric.k0", f.k0, "1/m") + " must be > 0 while fabric.b1 > fabric.b2");
+    throw Error::request(shown(scene, "fabric.k0", f.k0, "1/m") + " must be > 0 while fabric.b1 > fabric.b2")
+        .of("fabric.k0", "0");
   }
   if (4 * f.bias_bending < 1 + f.weft_bending) {
     throw Error::request(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
-                         number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4");
+                         number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4")
+        .of("fabric.bias-bending", number_text(f.bias_bending));
   }
   if (f.coupling * f.coupling >= f.warp * f.weft) {
     throw Error::request(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
-                         number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)");
+                         number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)")
+        .of("fabric.coupling", number_text(f.coupling));
   }
   check_bending_parts(scene);
   check_in_plane_stops(scene);

@@ -167,7 +167,11 @@ Scene default_scene(const std::string& fabric) {
 
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra) {
   const std::string file = find_asset("scenes", name_or_file, "--scene").string();
-  SceneFile(scene, file, extra).apply(read_toml(file));
+  apply_scene_tree(scene, read_toml(file), file, extra);
+}
+
+void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra) {
+  SceneFile(scene, source, extra).apply(root);
 }
 
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra) {

@@ -8,6 +8,8 @@
 
 namespace hysteron {
 
+struct TomlNode;
+
 // "--fabric.b2 1e-5" is {"fabric.b2", "1e-5"}; "--param stops=16" is {"param", "stops=16"}.
 struct Flag {
   std::string path;
@@ -23,6 +25,8 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // A cloth or mesh file is looked for from the working folder, then beside the scene file.
 // Throws Error::request (one line with file, line, key, value, unit, range), Error::machine if unreadable.
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {});
+// The same from a tree that another program has made; `source` stands for the file in messages.
+void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra = {});
 
 // Applies flags; a fabric is loaded first.  `extra` as above.
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});

@@ -151,7 +151,7 @@ TomlNode read_toml(const std::string& file) {
 }
 
 std::string place(const std::string& file, const TomlNode& node) {
-  return asset_name(file) + ":" + std::to_string(node.line);
+  return node.line > 0 ? asset_name(file) + ":" + std::to_string(node.line) : file;
 }
 
 }  // namespace hysteron

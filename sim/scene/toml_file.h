@@ -12,7 +12,7 @@ struct TomlNode {
   enum class Kind { value, table, array };  // array: of tables
   Kind kind = Kind::table;
   std::string key;                 // empty for elements of an array
-  int line = 0;                    // 1 = first line of the file
+  int line = 0;                    // 1 = first line of the file; 0: of no file
   Value value;                     // Kind::value; an array of numbers is one value
   std::vector<TomlNode> children;  // Kind::table, Kind::array; in the file's order
 
@@ -23,7 +23,7 @@ struct TomlNode {
 // no TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
 TomlNode read_toml(const std::string& file);
 
-// "scene.toml:7"
+// "scene.toml:7"; without a line of its own "scene.toml".
 std::string place(const std::string& file, const TomlNode& node);
 
 }  // namespace hysteron

@@ -119,7 +119,7 @@ void Body<Real, Device>::visit(Archive& archive) {
   archive(initial_);
   archive(next_obstacle_);
   archive(met_);
-  hands.visit(archive, *device);
+  hands.visit(archive, *this);
   membrane.visit(archive);
   bending.visit(archive);
   if (contact) contact->visit(archive);

@@ -24,34 +24,57 @@ bool may_meet(const Scene& scene) {
   }
   return scene.self_contact && rigid > 1 && moves;
 }
+
+void visit_keyframes(Archive& archive, std::vector<Keyframe>& keys) {
+  keys.resize(archive.size(keys.size()));
+  for (Keyframe& key : keys) {
+    for (double* number : {&key.time, &key.angle, &key.scale}) archive(*number);
+    archive.bytes(key.position.data(), sizeof key.position);
+  }
+}
 }  // namespace
 
 template <class Real, class Device>
 Hands<Real, Device>::Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs)
-    : give_(static_cast<Real>(kGive * scene.fabric.thickness)) {
-  bool homing = false;
+    : with_arcs_(with_arcs), give_(static_cast<Real>(kGive * scene.fabric.thickness)) {
   for (const Pin& pin : scene.pin) {
     limited_ |= pin.strength > 0;
     moving_ |= !pin.motion.keys.empty() || pin.from > 0 || limited_;
-    homing |= pin.home > 0;
     for (double time : {pin.from, pin.until})
       if (time > 0 && time < scene.seconds) times_.push_back(time);
   }
   std::sort(times_.begin(), times_.end());
-  if (!moving_) return;
+  if (moving_) set_out(device, scene, cloth, 0);
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::set_out(Device& device, const Scene& scene, const Cloth& cloth, double time) {
   const std::vector<Vec3<Real>> start = cast_to<Real>(cloth.start);
-  start_ = Buffer<Vec3<Real>, Device>(device, start);
-  if (homing) home_ = Buffer<Vec3<Real>, Device>(device, start);
-  pin_ = Buffer<int, Device>(device, cloth.pins(scene, 0));
   const int vertices = cloth.mesh.vertices();
-  if (with_arcs) arc_ = Buffer<Vec3<Real>, Device>(device, vertices);
-  if (may_meet(scene)) {
+  if (start_.size() == 0) {
+    const bool homing =
+        std::any_of(scene.pin.begin(), scene.pin.end(), [](const Pin& pin) { return pin.home > 0; });
+    start_ = Buffer<Vec3<Real>, Device>(device, start);
+    if (homing) home_ = Buffer<Vec3<Real>, Device>(device, start);
+    pin_ = Buffer<int, Device>(device, cloth.pins(scene, time));
+    if (with_arcs_) arc_ = Buffer<Vec3<Real>, Device>(device, vertices);
+  }
+  if (!sweep_ && may_meet(scene)) {
     way_ = Buffer<Vec3<Real>, Device>(device, vertices);
     sweep_ = std::make_unique<HandSweep<Real, Device>>(device, cloth.mesh, scene.fabric.thickness);
   }
-  if (!limited_) return;
+  if (!limited_ || place_.size() > 0) return;
   place_ = Buffer<Vec3<Real>, Device>(device, start);
   strength_ = Buffer<Real, Device>(device, vertices);
+}
+
+template <class Real, class Device>
+void Hands<Real, Device>::drive(Body<Real, Device>& body, int pin, double now,
+                                const Eigen::Vector3d& velocity, double spin) {
+  Motion& motion = body.scene.pin[pin].motion;
+  motion = steady_from(motion, now, velocity, spin);
+  moving_ = true;
+  set_out(*body.device, body.scene, body.cloth, now);
 }
 
 template <class Real, class Device>
@@ -140,7 +163,11 @@ HandPlacements<Real> Hands<Real, Device>::placements(const Scene& scene, double 
 }
 
 template <class Real, class Device>
-void Hands<Real, Device>::visit(Archive& archive, Device& device) {
+void Hands<Real, Device>::visit(Archive& archive, Body<Real, Device>& body) {
+  Device& device = *body.device;
+  archive(moving_);
+  for (Pin& pin : body.scene.pin) visit_keyframes(archive, pin.motion.keys);  // which may have been driven
+  if (archive.loads() && moving_) set_out(device, body.scene, body.cloth, 0);
   archive(next_);
   hysteron::visit(archive, device, start_);
   hysteron::visit(archive, device, pin_);

@@ -41,6 +41,9 @@ class Hands {
   // Hands take hold and let go where that is due at `start`; Error::run where cloth is let go in an obstacle.
   // Says whether any did.  What gave way is held again.
   bool attach_and_release(Body<Real, Device>& body, double start);
+  // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its
+  // axis [degree/s], whatever its motion was.
+  void drive(Body<Real, Device>& body, int pin, double now, const Eigen::Vector3d& velocity, double spin);
   // Gives held vertices the constant velocity that brings them to their place at the end of the stage.
   void move(Body<Real, Device>& body, double start, Real h);
 
@@ -61,7 +64,7 @@ class Hands {
   long barred_stages() const { return barred_stages_; }
   double largest_lag() const { return largest_lag_; }  // [m]
   // What outlives a step; where things were at t = 0 does not change.
-  void visit(Archive& archive, Device& device);
+  void visit(Archive& archive, Body<Real, Device>& body);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
   std::size_t bytes() const;
 
@@ -69,6 +72,9 @@ class Hands {
   Real farthest_behind(Body<Real, Device>& body);
 
  private:
+  // What hands that move take, where it is not there yet; what is held at `time` starts where it was at t =
+  // 0.
+  void set_out(Device& device, const Scene& scene, const Cloth& cloth, double time);
   // Says whether `held` differs from what was.
   bool book(Body<Real, Device>& body, const std::vector<char>& held);
   void take(Body<Real, Device>& body, const std::vector<int>& pins, double time);
@@ -77,6 +83,7 @@ class Hands {
   void hold_again(Body<Real, Device>& body);
   HandPlacements<Real> placements(const Scene& scene, double start, double h) const;
 
+  const bool with_arcs_;
   bool moving_ = false;                     // or of limited strength
   bool limited_ = false;                    // any is of limited strength
   bool goes_ = false;                       // a rigid one in the stage

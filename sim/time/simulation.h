@@ -68,6 +68,21 @@ class Simulation {
   virtual double time() const = 0;  // [s]
   virtual long steps() const = 0;
 
+  // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its
+  // axis [degree/s], whatever its motion was, until it is driven again; hand() is how far it has come by now.
+  // Error::request for a pin that there is not.
+  virtual void drive(int pin, const Eigen::Vector3d& velocity, double spin) = 0;
+  virtual Keyframe hand(int pin) const = 0;
+
+  // Where the state lies in the host's memory, for who looks at it between steps without a copy: three
+  // numbers a vertex, of one of the two types; both null on a GPU.  A step may lay it elsewhere, but frees
+  // nothing.
+  struct InPlace {
+    const double* fp64 = nullptr;
+    const float* fp32 = nullptr;
+  };
+  virtual InPlace positions_in_place() const = 0;         // [m]
+  virtual InPlace velocities_in_place() const = 0;        // [m/s]
   virtual std::vector<Eigen::Vector3d> positions() = 0;   // [m]
   virtual std::vector<Eigen::Vector3d> velocities() = 0;  // [m/s]
   virtual std::vector<double> curvature() = 0;            // `dimension` components per element [1/m]

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <type_traits>
 #include <utility>
 
 #include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
+#include "sim/scene/motion.h"
 #include "sim/time/explicit_euler.h"
 #include "sim/time/implicit_integrator.h"
 #include "sim/time/refusals.h"
@@ -94,6 +96,40 @@ void Stepper<Real, Device>::load(std::string_view state) {
   Archive archive(state);
   visit(archive);
   if (!archive.at_end()) throw Error::request("the state is of another simulation");
+}
+
+template <class Real, class Device>
+const Pin& Stepper<Real, Device>::pin(int number) const {
+  const std::vector<Pin>& pins = body_.scene.pin;
+  if (number >= 0 && number < static_cast<int>(pins.size())) return pins[number];
+  const std::string text = std::to_string(number);
+  throw Error::request("pin = " + text +
+                       (pins.empty()
+                            ? ": the scene has none"
+                            : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
+      .of("pin", text);
+}
+
+template <class Real, class Device>
+void Stepper<Real, Device>::drive(int number, const Eigen::Vector3d& velocity, double spin) {
+  pin(number);
+  body_.hands.drive(body_, number, time(), velocity, spin);
+}
+
+template <class Real, class Device>
+Keyframe Stepper<Real, Device>::hand(int number) const {
+  return state_at(pin(number).motion, time());
+}
+
+template <class Real, class Device>
+Simulation::InPlace Stepper<Real, Device>::in_place(const Buffer<Vec3<Real>, Device>& buffer) {
+  InPlace place;
+  if constexpr (Device::kGpu) return place;
+  if constexpr (std::is_same_v<Real, double>)
+    place.fp64 = reinterpret_cast<const double*>(buffer.data());
+  else
+    place.fp32 = reinterpret_cast<const float*>(buffer.data());
+  return place;
 }
 
 template <class Real, class Device>

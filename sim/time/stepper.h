@@ -20,6 +20,10 @@ class Stepper : public Simulation {
   double time() const override { return static_cast<double>(steps_) * body_.scene.step + beyond_; }
   long steps() const override { return steps_; }
 
+  void drive(int pin, const Eigen::Vector3d& velocity, double spin) override;
+  Keyframe hand(int pin) const override;
+  InPlace positions_in_place() const override { return in_place(body_.x); }
+  InPlace velocities_in_place() const override { return in_place(body_.v); }
   std::vector<Eigen::Vector3d> positions() override;
   std::vector<Eigen::Vector3d> velocities() override;
   std::vector<double> curvature() override { return body_.bending.curvature(); }
@@ -63,6 +67,8 @@ class Stepper : public Simulation {
 
  private:
   void visit(Archive& archive);
+  const Pin& pin(int number) const;
+  static InPlace in_place(const Buffer<Vec3<Real>, Device>& buffer);
   double per_step(long count) const {
     return steps_ ? static_cast<double>(count) / static_cast<double>(steps_) : 0;
   }

@@ -1,5 +1,5 @@
-// Folders include each other one way only: experiments -> render -> libraries beside the simulation -> the
-// rest of sim, and inside each of them no folder one that includes it, directly or through others.
+// Folders include each other one way only: python -> experiments -> render -> libraries beside the simulation
+// -> the rest of sim, and inside each of them no folder one that includes it, directly or through others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each may include those before it; the folder of the longest name counts.
-constexpr std::array kLayers = {"sim", "sim/reference", "sim/identification", "render", "experiments"};
+constexpr std::array kLayers = {"sim",    "sim/reference", "sim/identification",
+                                "render", "experiments",   "python"};
 
 using Folders = std::map<std::string, std::set<std::string>>;  // what each includes
 
@@ -36,7 +37,8 @@ bool is_source(const fs::path& file) {
 }
 
 Folders folders_of(const fs::path& root) {
-  static const std::regex kInclude("#\\s*include \"((?:sim|render|experiments)/[^\"]+)/[^/\"]+\"");
+  static const std::regex kInclude(
+      "#\\s*include \"((?:sim|render|experiments|python)(?:/[^\"/]+)*)/[^/\"]+\"");
   Folders folders;
   for (const char* layer : kLayers) {
     if (!fs::exists(root / layer)) continue;
@@ -97,6 +99,9 @@ TEST(Includes, ThatRunBackAreFound) {
             (std::vector<std::string>{"sim/a -> sim/b", "sim/b -> sim/c", "sim/c -> sim/a"}));
   write("sim/c/c.cpp", "sim/identification/i.h");
   EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> sim/identification"});
+  write("experiments/a/a.cpp", "python/a.h");
+  EXPECT_EQ(arrows_back(folders_of(root)).front(), "experiments/a -> python");
+  write("experiments/a/a.cpp", "sim/a/a.h");
   write("sim/c/c.cpp", "render/a/a.h");
   EXPECT_EQ(arrows_back(folders_of(root)), std::vector<std::string>{"sim/c -> render/a"});
 }

@@ -32,7 +32,7 @@ std::vector<Quotation> quotations_of(const std::string& page) {
 
 TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
   const fs::path root = HYSTERON_SOURCE_FOLDER;
-  int laws = 0, experiments = 0, obstacles = 0;
+  int laws = 0, experiments = 0, obstacles = 0, others = 0;
   for (const auto& page : fs::directory_iterator(root / "docs")) {
     if (page.path().extension() != ".md") continue;
     for (const Quotation& quotation : quotations_of(whole_file(page.path().string(), "reading quotations"))) {
@@ -41,11 +41,13 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
       laws += quotation.file.starts_with("tests/examples/law/");
       experiments += quotation.file.starts_with("tests/examples/experiment/");
       obstacles += quotation.file.starts_with("tests/examples/obstacle/");
+      others += std::regex_search(quotation.file, std::regex("^tests/examples/(hinge|consumer|python)/"));
     }
   }
   EXPECT_EQ(laws, 3) << "header, line, test";
   EXPECT_EQ(experiments, 3) << "source, its CMakeLists.txt, test";
   EXPECT_EQ(obstacles, 2) << "row, distance";
+  EXPECT_EQ(others, 5) << "hinge loop, program of a simulation, its CMakeLists.txt, two scripts of Python";
 }
 
 TEST(Quotations, WithoutAnEndOrWithOtherTextAreFound) {

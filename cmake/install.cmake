@@ -1,0 +1,28 @@
+# cmake --install: the program with its assets, and what find_package(hysteron) gives to other programs.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS hysteron)
+install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hysteron/assets)
+
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/hysteron)  # below it as in this tree: "sim/time/simulation.h"
+install(DIRECTORY sim render DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
+install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/sim DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+
+set(libraries laws base cgal sim reference identification render)
+if(HYSTERON_HAS_CUDA)
+  list(APPEND libraries gpu)
+endif()
+set(targets)
+foreach(library ${libraries})
+  set_target_properties(hysteron_${library} PROPERTIES EXPORT_NAME ${library})
+  list(APPEND targets hysteron_${library})
+endforeach()
+install(TARGETS ${targets} EXPORT hysteron ARCHIVE INCLUDES DESTINATION ${headers})
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hysteron)
+install(EXPORT hysteron NAMESPACE hysteron:: FILE hysteronTargets.cmake DESTINATION ${package})
+configure_package_config_file(cmake/hysteronConfig.cmake.in ${PROJECT_BINARY_DIR}/hysteronConfig.cmake
+                              INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hysteronConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hysteronConfig.cmake ${PROJECT_BINARY_DIR}/hysteronConfigVersion.cmake
+        DESTINATION ${package})

@@ -1,0 +1,135 @@
+#include "python/fabric.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "python/module.h"
+#include "sim/base/error.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/keys.h"
+#include "sim/scene/scene_reader.h"
+
+namespace hysteron::python {
+namespace {
+
+constexpr const char* kOrigin = "Fabric";  // of messages
+constexpr const char* kPrefix = "fabric.";
+
+// The key fabric.* of that attribute; null if there is none.
+const BoundKey* find(const Keys& keys, const std::string& name) {
+  const auto path_of = [](const BoundKey& key) { return key.description.path; };
+  std::vector<std::string> all;
+  std::transform(keys.begin(), keys.end(), std::back_inserter(all), path_of);
+  const std::string path = key_named(kPrefix + name, all);
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const auto& k) { return path_of(k) == path; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+py::dict provenance_of(const Provenance& from) {
+  py::dict entry;
+  entry["source"] = from.source;
+  entry["confidence"] = from.confidence;
+  entry["standard_error"] = from.standard_error;
+  return entry;
+}
+
+}  // namespace
+
+FabricValue::FabricValue(const std::string& name_or_file, const py::dict& keys) {
+  set_key(scene_, "fabric", name_or_file, kOrigin);
+  for (const auto& [name, value] : keys) set(py::str(name), value);
+  checked();
+}
+
+const Fabric& FabricValue::checked() const {
+  check_scene(scene_);
+  return scene_.fabric;
+}
+
+py::object FabricValue::get(const std::string& name) const {
+  Scene copy = scene_;
+  const Keys keys = bind_scene(copy);
+  const BoundKey* key = find(keys, name);
+  if (!key) throw py::attribute_error("a fabric has no key \"" + name + "\"");
+  return to_python(key->field);
+}
+
+void FabricValue::set(const std::string& name, py::handle value) {
+  const Keys keys = bind_scene(scene_);
+  const BoundKey* key = find(keys, name);
+  if (!key) find_key(keys, kPrefix + name, kOrigin);  // refuses it, with the nearest name
+  set_key(scene_, *key, to_value(value, key->description.path), kOrigin);
+}
+
+py::list FabricValue::names() {
+  py::list names;
+  for (const KeyDescription& key : scene_keys()) {
+    if (!key.path.starts_with(kPrefix)) continue;
+    std::string name = key.path.substr(std::string(kPrefix).size());
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+    names.append(name);
+  }
+  return names;
+}
+
+py::dict FabricValue::provenance() const {
+  py::dict all;
+  for (const auto& [key, from] : fabric().provenance) all[py::str(key)] = provenance_of(from);
+  return all;
+}
+
+py::dict FabricValue::published() const {
+  py::dict all;
+  for (const auto& [name, number] : fabric().published) {
+    py::dict entry = provenance_of(number.provenance);
+    entry["value"] = number.value;
+    entry["unit"] = number.unit;
+    all[py::str(name)] = entry;
+  }
+  return all;
+}
+
+Fabric fabric_of(py::handle fabric) {
+  if (py::isinstance<FabricValue>(fabric)) return fabric.cast<const FabricValue&>().checked();
+  return FabricValue(py::str(fabric), {}).fabric();
+}
+
+void bind_fabric(py::module_& module) {
+  py::class_<FabricValue>(
+      module, "Fabric",
+      R"(Physics of a cloth: every key fabric.* of scene files as an attribute, in SI units.
+
+Fabric("cotton-broad", k0=60) is a fabric of assets/fabrics (or a fabric file) with another k0; names have
+underscores where keys have hyphens and dots (weft_bending, bending_stops_thresholds).
+b1, b2: bending rigidity at first bending and once friction has saturated [N m]; k0: curvature where it has
+[1/m]; density [kg/m^2]; thickness [m]; warp, weft, shear, coupling: membrane stiffness [N/m]; damping [s].)")
+      .def(py::init(
+               [](py::object fabric, const py::kwargs& keys) { return FabricValue(py::str(fabric), keys); }),
+           py::arg("fabric") = "cotton-broad")
+      .def("__getattr__", &FabricValue::get)
+      .def("__setattr__", &FabricValue::set)
+      .def("__dir__",
+           [](py::object self) {
+             const py::object object = py::module_::import("builtins").attr("object");
+             return py::list(object.attr("__dir__")(self)) + FabricValue::names();
+           })
+      .def("__repr__", [](const FabricValue& f) { return "Fabric(\"" + f.fabric().name + "\")"; })
+      .def("provenance", &FabricValue::provenance,
+           "Source, confidence and standard error (or None) of each number, by its key.")
+      .def("published", &FabricValue::published,
+           "What sources print besides (B, 2HB, drape-coefficient, ...): value, unit and source, by name.")
+      .def(
+          "friction_moment", [](const FabricValue& f) { return f.fabric().virgin_curve().friction_moment(); },
+          "M0 = HB, half the width of the moment-curvature loop [N].")
+      .def(
+          "copy", [](const FabricValue& f) { return f; }, "Another one with the same numbers.");
+  module.def(
+      "fabrics", [] { return list_assets("fabrics"); }, "Names of the fabrics that come with hysteron.");
+  module.def(
+      "scenes", [] { return list_assets("scenes"); }, "Names of the scenes that come with hysteron.");
+}
+
+}  // namespace hysteron::python

@@ -1,0 +1,23 @@
+#include "python/module.h"
+
+#include "experiments/workbench/app/run.h"
+#include "sim/scene/assets.h"
+
+namespace hysteron::python {
+
+PYBIND11_MODULE(_hysteron, module) {
+  module.doc() = "The compiled part of hysteron; use the package `hysteron`.";
+  const std::string version = experiments::program_version();
+  module.attr("__version__") = version.substr(0, version.find(' '));
+  module.attr("build") = version;
+  module.def("_set_assets_place", [](const std::string& folder) { set_assets_place(folder); });
+  bind_errors();
+  bind_fabric(module);
+  bind_law(module);
+  bind_scene(module);
+  bind_simulation(module);
+  bind_pictures(module);
+  bind_fit(module);
+}
+
+}  // namespace hysteron::python

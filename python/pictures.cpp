@@ -1,0 +1,123 @@
+// Pictures as arrays: of a simulation, and how far two differ.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "experiments/diff/diff.h"
+#include "python/module.h"
+#include "python/simulation.h"
+#include "sim/base/error.h"
+
+namespace hysteron::python {
+namespace {
+
+py::array_t<std::uint8_t> array_of(const render::Image& image) {
+  return py::array_t<std::uint8_t>(
+      {static_cast<py::ssize_t>(image.height()), static_cast<py::ssize_t>(image.width()),
+       static_cast<py::ssize_t>(image.channels())},
+      image.pixels().data());
+}
+
+// An array (H, W, 3 or 4) of bytes, or a PNG file.
+render::Image image_of(py::handle picture, const std::string& what) {
+  if (!py::isinstance<py::array>(picture)) return render::read_png(std::string(py::str(picture)));
+  using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+  const auto array = py::reinterpret_borrow<py::array>(picture);
+  if (!py::isinstance<py::array_t<std::uint8_t>>(array) || array.ndim() != 3 ||
+      (array.shape(2) != 3 && array.shape(2) != 4))
+    throw Error::request(what +
+                         " must be an array of bytes (uint8) of shape (H, W, 3) or (H, W, 4), or a PNG file")
+        .of(what, py::str(array.attr("shape")));
+  const Bytes bytes(array);
+  render::Image image(static_cast<int>(bytes.shape(1)), static_cast<int>(bytes.shape(0)),
+                      static_cast<int>(bytes.shape(2)));
+  std::copy(bytes.data(), bytes.data() + bytes.size(), image.pixels().begin());
+  return image;
+}
+
+py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::string& map) {
+  experiments::DiffFlags flags;
+  flags.pixels_per_degree = pixels_per_degree;
+  flags.map = map;
+  if (map != "steps" && map != "flip")
+    throw Error::request("map = " + map + " must be steps | flip").of("map", map);
+  experiments::Comparison found;
+  render::Image of_a = image_of(a, "a"), of_b = image_of(b, "b");
+  unlocked([&] { found = compare_pictures(std::move(of_a), std::move(of_b), flags); });
+  py::dict result;
+  for (const experiments::Measure& measure : experiments::all_measures())
+    result[measure.name] = found.measures.*measure.value;
+  result["heat"] = array_of(found.heat);
+  return result;
+}
+
+// The size as a text, for the table of options.
+std::string size_text(const std::pair<int, int>& size) {
+  return std::to_string(size.first) + "x" + std::to_string(size.second);
+}
+
+void set_options(experiments::Options& options, const py::kwargs& given) {
+  static const std::vector<std::string> kNames = {
+      "look", "light", "background", "renderer", "curvature-range", "camera.direction", "camera.fov"};
+  const Keys keys = bind_options(options);
+  for (const auto& [name, value] : given) {
+    const std::string path = key_named(py::str(name), kNames);
+    if (std::find(kNames.begin(), kNames.end(), path) == kNames.end())
+      throw Error::request("render has no argument \"" + path + "\"; there are: size, bounds, caption, " +
+                           join(kNames, ", "))
+          .of(path, "");
+    assign(find_key(keys, path, "render"), to_value(value, path), "render");
+  }
+}
+
+std::optional<render::Box> box_of(const std::optional<std::pair<Numbers, Numbers>>& bounds) {
+  if (!bounds) return {};
+  const auto corner = [](const Numbers& at) -> Eigen::Vector3f {
+    if (at.size() != 3)
+      throw Error::request("bounds must be two corners of three numbers [m]").of("bounds", "");
+    return Eigen::Map<const Eigen::Vector3d>(at.data()).cast<float>();
+  };
+  return render::Box{corner(bounds->first), corner(bounds->second)};
+}
+
+py::array_t<std::uint8_t> render_simulation(SimulationValue& sim, std::pair<int, int> size,
+                                            const std::optional<std::pair<Numbers, Numbers>>& bounds,
+                                            const std::string& caption, const py::kwargs& options) {
+  PictureChoice choice;
+  choice.options.size = size_text(size);
+  choice.bounds = box_of(bounds);
+  choice.caption = caption;
+  set_options(choice.options, options);
+  check_options(choice.options);
+  return array_of(sim.picture(choice));
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+  module.def("render", &render_simulation, py::arg("simulation"), py::arg("size") = std::make_pair(640, 480),
+             py::arg("bounds") = py::none(), py::arg("caption") = "",
+             R"(A picture of a simulation as it is now: uint8, shape (height, width, 3), rows from the top.
+
+size: (width, height) in pixels.  bounds: (low, high), two corners [m] that the picture frames; none: the
+cloth as it is now, so that sequences need their own.  caption: letters, with a scale and the colour bar.
+Further arguments are the program's: look ("cloth", "curvature", "residual", "friction", "wireframe",
+"silhouette"), light, background ("transparent" makes (height, width, 4)), curvature_range [1/m],
+camera_direction, camera_fov [degree], renderer.  MachineError where no OpenGL is to be had.)");
+  module.def(
+      "png",
+      [](py::object picture) {
+        const std::vector<std::uint8_t> file = render::encode_png(image_of(picture, "picture"));
+        return py::bytes(reinterpret_cast<const char*>(file.data()), file.size());
+      },
+      py::arg("picture"), "A picture, uint8 of shape (H, W, 3) or (H, W, 4), as the bytes of a PNG file.");
+  module.def("diff", &diff, py::arg("a"), py::arg("b"),
+             py::arg("pixels_per_degree") = render::kPixelsPerDegree, py::arg("map") = "steps",
+             R"(How far two pictures of one size differ, as the program's `diff` measures it.
+
+a, b: uint8 arrays of shape (H, W, 3) or (H, W, 4), or PNG files.  Returns a dict of mean_abs, rmse [8-bit
+steps], psnr_db, ssim, flip, pixels_over_8_percent, and heat, a picture of where they differ (map: "steps" or
+"flip"), uint8 of shape (H, W, 3).)");
+}
+
+}  // namespace hysteron::python

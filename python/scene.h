@@ -1,0 +1,12 @@
+// A scene as Python has it.
+#pragma once
+
+#include "python/values.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::python {
+
+// Error::request unless it can be simulated.
+const Scene& checked(const Scene& scene);
+
+}  // namespace hysteron::python
