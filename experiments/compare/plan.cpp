@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
 #include "sim/base/error.h"
 
@@ -55,8 +56,9 @@ struct ColumnFabric {
 
 ColumnFabric fabric_of(const CommandLine& line) {
   Setup setup{default_scene(), {}};
+  setup.own_tables = {"metric"};
   const std::string file = last_text(line.flags, "scene", "");
-  if (!file.empty()) apply_scene_file(setup.scene, file, {});
+  if (!file.empty()) apply_scene(setup, line.experiment, file, {});
   std::vector<Flag> of_fabric;
   for (const Flag& flag : line.flags)
     if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
@@ -116,7 +118,7 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   inner.names.clear();
   const std::string what = line.names.front();
   inner.experiment =
-      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "swing";
+      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "run";
   std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) inner.flags.push_back({"scene", what});
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
