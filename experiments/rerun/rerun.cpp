@@ -42,6 +42,14 @@ std::string folder_for(const RecordedRun& run) {
   return "out/rerun-" + (name.empty() ? run.manifest.experiment : name);
 }
 
+// Without a simulation there are no threads, and of some experiments no pictures.
+bool takes(const Experiment& experiment, const std::string& key) {
+  if (experiment.simulates) return true;
+  const std::vector<KeyDescription> own =
+      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
+  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+}
+
 // "state 70f23134675a1e81, as recorded"
 void say_outcome(const Manifest& before, const fs::path& folder) {
   const std::optional<Manifest> now = manifest_or_none(folder / "manifest.json");
@@ -60,11 +68,13 @@ int run_rerun(const CommandLine& line) {
   if (last_text(line.flags, "no-errors", "") == "true")
     std::erase_if(repeated.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   const std::string out = last_text(line.flags, "out", folder_for(run));
+  const Experiment& experiment = experiment_named(repeated.experiment);
   for (const Flag& flag : line.flags)
-    if (flag.path != "out" && flag.path != "no-errors") repeated.flags.push_back(flag);
+    if (flag.path != "out" && flag.path != "no-errors" && takes(experiment, flag.path))
+      repeated.flags.push_back(flag);
   repeated.flags.push_back({"out", out});
   repeated.command = command_of(repeated);
-  const int exit_code = experiment_named(repeated.experiment).run(repeated);
+  const int exit_code = experiment.run(repeated);
   if (last_text(line.flags, "quiet", "") != "true") say_outcome(run.manifest, out);
   return exit_code;
 }

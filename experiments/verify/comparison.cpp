@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 constexpr double kMostMean = 0.2, kMostOver8 = 0.3;  // as tests/golden/scenes.sh
 
 bool is_duration(const std::string& name) {
-  return name == "setup_seconds" || name.ends_with("_wall_seconds") || name.ends_with("ms_per_step");
+  return name.ends_with("setup_seconds") || name.ends_with("solve_s") || name.ends_with("computing_s") ||
+         name.ends_with("ms_per_step");
 }
 
 bool is_error(const std::string& name) {
@@ -44,7 +45,10 @@ void compare_metric(const std::string& name, const MetricValue& before, const Me
     return;
   }
   const double difference = now.number() - before.number();
-  std::string words = fmt::format("{} {:.6g} -> {:.6g}", name, before.number(), now.number());
+  constexpr double kSmall = 1e-4;  // below, the digits that are printed are the same
+  const double part = std::abs(difference) / std::max(std::abs(before.number()), std::abs(now.number()));
+  std::string words = part < kSmall ? fmt::format("{} by {:.1e} of itself", name, part)
+                                    : fmt::format("{} {:.6g} -> {:.6g}", name, before.number(), now.number());
   if (error > 0) words += fmt::format(" (stated error {:.2g})", error);
   (std::abs(difference) <= error ? comparison.within : comparison.beyond).push_back(words);
 }

@@ -16,16 +16,6 @@ Error malformed(const std::string& path, const std::string& what, const std::str
   return Error::request("scene." + path + " " + what + " (" + file + ")").of(path, "");
 }
 
-Value value_of(const Json& json, const std::string& path, const std::string& file) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number_integer()) return json.get<std::int64_t>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return json.get<std::string>();
-  if (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& x) { return x.is_number(); }))
-    return json.get<std::vector<double>>();
-  throw malformed(path, "is no value", file);
-}
-
 std::string text_of(const Json& json, const std::string& path, const std::string& file) {
   if (!json.is_string()) throw malformed(path, "must be a text", file);
   return json.get<std::string>();
@@ -59,7 +49,8 @@ class RecordedTree {
   void read_keys(const Json& value, const std::string& path) {
     if (path == "fabric.provenance") return read_provenance(value);
     if (path == "fabric.published") return read_published(value);
-    if (!value.is_object()) return assign(find_key(known_, path, file_), value_of(value, path, file_), file_);
+    if (!value.is_object())
+      return assign(find_key(known_, path, file_), recorded_value(value, path, file_), file_);
     for (const auto& [name, entry] : value.items()) read_keys(entry, path + "." + name);
   }
 
@@ -117,7 +108,7 @@ class RecordedTree {
     for (BoundKey& key : keys) key.description.path = path + "." + key.description.path;
     for (const auto& [name, value] : table.items()) {
       const std::string full = path + "." + name;
-      assign(find_key(keys, full, file_), value_of(value, full, file_), file_);
+      assign(find_key(keys, full, file_), recorded_value(value, full, file_), file_);
     }
   }
 
@@ -127,6 +118,16 @@ class RecordedTree {
 };
 
 }  // namespace
+
+Value recorded_value(const nlohmann::ordered_json& json, const std::string& path, const std::string& file) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  if (json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& x) { return x.is_number(); }))
+    return json.get<std::vector<double>>();
+  throw malformed(path, "is no value", file);
+}
 
 void apply_recorded_scene(Scene& scene, const nlohmann::ordered_json& tree, const std::string& file) {
   RecordedTree(scene, file).read(tree);

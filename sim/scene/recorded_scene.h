@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
@@ -13,5 +14,8 @@ namespace hysteron {
 // names it in messages.  Throws Error::request for keys that are not known, wrong types and values out of
 // range.
 void apply_recorded_scene(Scene& scene, const nlohmann::ordered_json& tree, const std::string& file);
+
+// A value of a key as assign() takes it.  Throws Error::request for what is none.
+Value recorded_value(const nlohmann::ordered_json& json, const std::string& path, const std::string& file);
 
 }  // namespace hysteron

@@ -72,17 +72,13 @@ class TomlWriter {
       if (std::holds_alternative<Parameters*>(key.field)) continue;
       const std::string value =
           path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : value_of(key.field);
-      prefix_ = own_.contains(path) ? "# " : "";
       line(path, value, key.description.unit, own_.contains(path) ? kOwn : origin(path));
     }
   }
 
   void parameters() {
-    for (const auto& [name, value] : scene_.param) {
-      prefix_ = own_.contains("param." + name) ? "# " : "";
+    for (const auto& [name, value] : scene_.param)
       line("param." + in_quotes(name), in_quotes(value), "", origin("param." + name));
-    }
-    prefix_.clear();
   }
 
   template <class Item>

@@ -14,8 +14,8 @@ struct FurtherKey {
   std::string path, value;
 };
 
-// Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment sets
-// itself whatever the file says; they, and tables that it adds, are commented out.
+// Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment has
+// set itself.  Tables that it has added are commented out: it will add them again.
 std::string toml_of(const Scene& scene, const std::set<std::string>& own = {},
                     const std::vector<FurtherKey>& others = {});
 

@@ -1,6 +1,5 @@
 #include "experiments/workbench/app/recorded_command.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/command_line.h"
@@ -45,29 +44,6 @@ CommandLine parsed(const RecordedRun& run) {
   return *line;
 }
 
-// A value as a flag has it.
-std::string flag_text(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  std::string text = value.dump();
-  std::replace(text.begin(), text.end(), ',', ' ');
-  return text;
-}
-
-bool is_flag(const Json& value) {
-  const bool is_list_of_tables = value.is_array() && !value.empty() && value[0].is_object();
-  return !is_list_of_tables && value != Json("");
-}
-
-void add_flags(const Json& keys, const std::string& path, std::vector<Flag>& flags) {
-  for (const auto& [name, value] : keys.items()) {
-    const std::string key = path.empty() ? name : path + "." + name;
-    if (value.is_object())
-      add_flags(value, key, flags);
-    else if (is_flag(value))
-      flags.push_back({key, flag_text(value)});
-  }
-}
-
 // The experiment's own scene in a file that is no longer there is the one that the manifest holds.
 void find_scene(CommandLine& line, const RecordedRun& run) {
   for (Flag& flag : line.flags) {
@@ -94,7 +70,6 @@ CommandLine line_that_repeats(const RecordedRun& run) {
     line.experiment = m.experiment;
     line.names.clear();
     line.flags.push_back({"scene", run.file.string()});
-    add_flags(*m.options, "", line.flags);
   } else {
     find_scene(line, run);
   }

@@ -67,6 +67,19 @@ std::vector<std::pair<std::string, Json>> leaves_of(const Json& tree) {
   return leaves;
 }
 
+// Of a list of tables, which the experiment reads itself.
+bool is_own_table(const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
+
+// As a file has it; a table in one line.
+std::string toml_of(const Json& value) {
+  if (!value.is_structured()) return value.dump();
+  std::vector<std::string> entries;
+  for (const auto& [name, entry] : value.items())
+    entries.push_back((value.is_object() ? name + " = " : "") + toml_of(entry));
+  const std::string inner = join(entries, ", ");
+  return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
+}
+
 }  // namespace
 
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra) {
@@ -78,6 +91,9 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
         .of("scene", name);
   apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
+  if (manifest.experiment != experiment || !manifest.options) return;
+  for (const auto& [path, value] : leaves_of(*manifest.options))
+    if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
 }
 
 std::string asked_text(const Scene& scene) { return to_json(scene).dump(); }
@@ -86,14 +102,27 @@ Json asked_patch(const Json& simulated, const std::string& asked) {
   return patch_between(simulated, Json::parse(asked));
 }
 
+// What was asked for, since the experiment will change it once more; but the time and the steps that it has
+// set, which it sets only where they are not given, and all hands and obstacles.
 void dump_scene(const Setup& setup) {
+  Scene scene = setup.scene;
+  apply_recorded_scene(scene, Json::parse(setup.asked), setup.options.dump_scene);
   std::set<std::string> own;
-  for (const auto& [path, value] : leaves_of(asked_patch(to_json(setup.scene), setup.asked)))
-    own.insert(path);
+  const auto keep = [&](const char* key, auto Scene::*member) {
+    if (scene.*member != setup.scene.*member) own.insert(key);
+    scene.*member = setup.scene.*member;
+  };
+  keep("seconds", &Scene::seconds);
+  keep("step", &Scene::step);
+  keep("integrator", &Scene::integrator);
+  keep("tolerance", &Scene::tolerance);
+  keep("newton-residual", &Scene::newton_residual);
+  scene.pin = setup.scene.pin;
+  scene.obstacle = setup.scene.obstacle;
   std::vector<FurtherKey> others;
   for (const auto& [path, value] : leaves_of(Json::parse(setup.choices)))
-    others.push_back({path, value.dump()});
-  write_text(setup.options.dump_scene, toml_of(setup.scene, own, others));
+    others.push_back({path, toml_of(value)});
+  write_text(setup.options.dump_scene, toml_of(scene, own, others));
 }
 
 }  // namespace hysteron::experiments

@@ -6,10 +6,11 @@
 
 namespace hysteron::experiments {
 
-// Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: as it was asked of
-// the experiment, if it is of this one, which will change it once more; else as it was simulated.  Programs
-// that did not note what was asked have noted which keys were given: of their manifests only these are
-// applied to the same experiment.  `extra` as in apply_scene_file.  Throws Error::request, Error::machine.
+// Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: if it is of this
+// experiment, as it was asked of it, since it will change it once more, with the keys `extra`; else as it was
+// simulated.  Programs that did not note what was asked have noted which keys were given: of their manifests
+// only these are applied to the same experiment.  `extra` as in apply_scene_file.  Throws Error::request,
+// Error::machine.
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
 
 // The scene as it was asked for, in JSON: what Setup::asked holds.

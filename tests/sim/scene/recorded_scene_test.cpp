@@ -97,15 +97,17 @@ TEST(SceneText, TellsTheOriginOfEachValue) {
     EXPECT_NE(text.find(line), text.npos) << line << text;
 }
 
-TEST(SceneText, CommentsOutWhatTheExperimentSetsItself) {
+TEST(SceneText, CommentsOutWhatTheExperimentAdds) {
   Scene scene = default_scene();
   scene.obstacle.emplace_back();  // without a place in a file
   scene.seconds = 3;
-  const TextFile file(toml_of(scene, {"seconds"}));
+  const std::string text = toml_of(scene, {"seconds"});
+  const TextFile file(text);
   Scene back = default_scene();
   apply_scene_file(back, file.path());
   EXPECT_TRUE(back.obstacle.empty());
-  EXPECT_EQ(back.seconds, default_scene().seconds);
+  EXPECT_EQ(back.seconds, 3);
+  EXPECT_NE(text.find("seconds = 3.0  # [s] the experiment's own\n"), text.npos) << text;
 }
 
 }  // namespace
