@@ -127,6 +127,8 @@ Line verified(const fs::path& folder, const fs::path& out, const VerifyChoice& c
   const Manifest now = read_manifest(out / "manifest.json");
   Comparison comparison = compare_runs(recorded, now);
   compare_pictures(pictures, folder, out, comparison);
+  if (!comparison.has_state && comparison.metrics + comparison.pictures == 0)
+    return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
   return {comparison.is_same() ? Outcome::same : Outcome::differs,
           words_of(comparison, reasons_between(recorded, now))};
 }
