@@ -1,6 +1,7 @@
 // What the pictures of any scene frame: all that its cloth passes through.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "experiments/workbench/app/experiment.h"
@@ -17,5 +18,7 @@ struct Framing {
 // Simulates the scene on a coarse mesh, or on its own where that is a file, and frames what its cloth passes
 // through at the instants of pictures.  Throws what make_cloth() and make_simulation() do.
 Framing framing_of(const Setup& setup);
+// Of the run that a line asks for; nothing where it draws no pictures or says itself what they frame.
+std::optional<Framing> framing_of_run(const CommandLine& line);
 
 }  // namespace hysteron::experiments

@@ -37,6 +37,8 @@ CommandLine with_scene(CommandLine line) {
   return line;
 }
 
+Setup set_up_run(const CommandLine& line) { return set_up(line, defaults(), {}, limit_to_quick); }
+
 std::string stem_of(const std::string& scene) {
   const std::filesystem::path path(scene);
   return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
@@ -87,9 +89,8 @@ void plot(Session& session, const RequestedMetric& metric) {
 int run_scene(const CommandLine& given) {
   const CommandLine line = with_scene(given);
   const std::string scene = last_text(line.flags, "scene", "");
-  Setup own = defaults();
-  own.options.out = "out/run-" + stem_of(scene);
-  Setup setup = set_up(line, own, {}, limit_to_quick);
+  Setup setup = set_up_run(line);
+  if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + stem_of(scene);
   const std::vector<MetricRequest> requests = metrics_in(scene);
   Json choices = Json::parse(setup.choices);
   if (!requests.empty()) choices["metric"] = to_json(requests);
@@ -111,6 +112,12 @@ int run_scene(const CommandLine& given) {
 }
 
 }  // namespace
+
+std::optional<Framing> framing_of_run(const CommandLine& line) {
+  const Setup setup = set_up_run(line);
+  if (setup.options.no_images || setup.options.explain || !setup.options.camera_box.empty()) return {};
+  return framing_of(setup);
+}
 
 Experiment run_scenes() {
   return {.name = "run",

@@ -122,6 +122,21 @@ seconds = 0.05
   EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
 }
 
+TEST_F(Scenes, AreComparedInOneFrame) {
+  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
+  const Outcome outcome =
+      program("compare " + (folder_.path() / "mine.toml").string() +
+              " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10 --out " +
+              out().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json linear = Json::parse(text_of(out() / "linear/manifest.json"));
+  const Json prandtl = Json::parse(text_of(out() / "prandtl/manifest.json"));
+  EXPECT_EQ(linear["experiment"], "run");
+  EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
+  EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
+  EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
+}
+
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
   const std::pair<const char*, const char*> kCases[] = {
       {"name = \"a b\"", "metric.name = \"a b\" must be small letters"},

@@ -78,8 +78,7 @@ TEST(Pattern, ThatIsNoFlatClothIsRefused) {
   const std::pair<const char*, const char*> kCases[] = {
       {"f 1 2 3\nf 1 3 4\n", "corners have none"},
       {"vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 3 3\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n", "along seams"},
-      {"vt 0 0\nvt 1 0\nvt 1 1\nvt 1 0.2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n",
-       "triangle 2 is turned over"}};
+      {"vt 0 0\nvt 1 0\nvt 1 1\nvt 1 0.2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "triangle 2 is turned over"}};
   for (const auto& [text, message] : kCases) {
     const TextFile file(square + text, ".obj");
     const Failure failure = failure_of([&, name = file.path()] { read_pattern(name, 0); });
