@@ -9,6 +9,7 @@
   entry(fold) \
   entry(crumple) \
   entry(swing) \
+  entry(run_scenes) \
   entry(compare) \
   entry(kes) \
   entry(fab) \
@@ -24,6 +25,8 @@
   entry(diff) \
   entry(report) \
   entry(figures) \
+  entry(rerun) \
+  entry(verify) \
   entry(list)
 // clang-format on
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <set>
 
+#include "experiments/run/framing.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
 #include "sim/base/error.h"
 
@@ -55,8 +58,10 @@ struct ColumnFabric {
 
 ColumnFabric fabric_of(const CommandLine& line) {
   Setup setup{default_scene(), {}};
+  setup.own_tables = {"metric"};
   const std::string file = last_text(line.flags, "scene", "");
-  if (!file.empty()) apply_scene_file(setup.scene, file, {});
+  // The fabric of a manifest is the same for every experiment.
+  if (!file.empty()) apply_scene(setup, "", file, bind_options(setup.options));
   std::vector<Flag> of_fabric;
   for (const Flag& flag : line.flags)
     if (flag.path.starts_with("fabric")) of_fabric.push_back(flag);
@@ -92,6 +97,21 @@ Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants
   return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
 }
 
+// Columns of a scene of one's own frame what any of them passes through.
+std::vector<Flag> shared_framing(const CommandLine& inner, const std::vector<Variant>& variants) {
+  std::optional<render::Box> box;
+  for (const Variant& variant : variants) {
+    if (inner.experiment != "run") return {};
+    const std::optional<Framing> framing = framing_of_run(with(inner, variant));
+    if (!framing) return {};
+    box = box ? box->merged(framing->box) : framing->box;
+  }
+  std::string corners;
+  for (const Eigen::Vector3f& corner : {box->low, box->high})
+    for (int k = 0; k < 3; ++k) corners += exactly(corner[k]) + " ";
+  return {{"camera.box", corners}};
+}
+
 // What the experiment is asked for beside what it would be asked for alone.
 std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
@@ -116,7 +136,7 @@ CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice
   inner.names.clear();
   const std::string what = line.names.front();
   inner.experiment =
-      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "swing";
+      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "run";
   std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) inner.flags.push_back({"scene", what});
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
@@ -139,6 +159,7 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
   }
   plan.laws = laws.size();
   const Flag range = shared_range(inner, variants);
+  const std::vector<Flag> framing = shared_framing(inner, variants);
   plan.varied = varied_of(variants);
   for (const Variant& variant : variants) {
     double scale = 1;
@@ -147,6 +168,7 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
     const std::string name = variant.name.empty() ? inner.experiment : variant.name;
     if (name == choice.to) plan.to = static_cast<int>(plan.columns.size());
     own.push_back(range);
+    own.insert(own.end(), framing.begin(), framing.end());
     for (const Flag& flag : asked_for_the_page(inner, choice, out, name == choice.to)) own.push_back(flag);
     plan.columns.push_back(column_of(name, inner, own, out));
     plan.scales.push_back(scale);

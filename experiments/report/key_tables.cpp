@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "experiments/run/metrics.h"
+#include "experiments/workbench/app/options.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/keys.h"
@@ -56,10 +58,14 @@ std::string key_tables() {
   Keyframe keyframe;
   Command command;
   Phase phase;
+  MetricRequest metric;
+  Options options;
   return section("Scene", bind_scene(scene)) + section("`[[pin]]`", bind_pin(pin)) +
          section("`[[obstacle]]`", bind_obstacle(obstacle)) +
          section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
-         section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) + "\n";
+         section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) +
+         section("`[[metric]]`", bind_metric(metric)) + section("Run and pictures", bind_options(options)) +
+         "\n";
 }
 
 std::vector<KeyPage> key_pages(const fs::path& folder) {

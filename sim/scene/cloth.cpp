@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/error.h"
+#include "sim/mesh/garment.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
@@ -19,6 +20,7 @@ ClothMesh one_rest_mesh(const Scene& scene) {
   const int triangles = scene.triangles / c.copies;
   if (is_obj(scene.mesh)) return read_obj(scene.mesh, c.weld);
   if (c.shape == "file") return read_obj(c.file, c.weld);
+  if (c.shape == "pattern") return read_pattern(c.file, c.weld);
   const MeshFamily family = mesh_family(scene.mesh);
   if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
   if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);

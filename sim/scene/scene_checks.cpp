@@ -43,8 +43,10 @@ void check_fabric(const Scene& scene) {
 bool is_obj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
 
 void check_mesh(const Scene& scene) {
-  if (scene.cloth.shape == "file" && scene.cloth.file.empty() && !is_obj(scene.mesh)) {
-    throw Error::request("cloth.shape = file (" + origin_of(scene, "cloth.shape") +
+  const std::string& shape = scene.cloth.shape;
+  const bool given = shape == "file" && is_obj(scene.mesh);
+  if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
+    throw Error::request("cloth.shape = " + shape + " (" + origin_of(scene, "cloth.shape") +
                          ") needs cloth.file, an OBJ");
   }
   if (is_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
@@ -57,7 +59,8 @@ void check_mesh(const Scene& scene) {
 // The triangles of a file are its own.
 void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
-  if (cloth.shape != "file" || cloth.file.empty() || !scene.origin.count("mesh")) return;
+  const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
+  if (!of_file || cloth.file.empty() || !scene.origin.count("mesh")) return;
   throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
                        ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
                        ") both define the triangles: leave one out");

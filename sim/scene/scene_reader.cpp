@@ -31,8 +31,8 @@ void flatten(const std::string& prefix, const TomlNode& table, std::vector<Setti
 
 class SceneFile {
  public:
-  SceneFile(Scene& scene, std::string file, const Keys& extra)
-      : scene_(scene), file_(std::move(file)), extra_(extra), known_(bind_scene(scene)) {
+  SceneFile(Scene& scene, std::string file, const Keys& extra, const std::vector<std::string>& left)
+      : scene_(scene), file_(std::move(file)), extra_(extra), left_(left), known_(bind_scene(scene)) {
     known_.insert(known_.end(), extra.begin(), extra.end());
   }
 
@@ -53,7 +53,11 @@ class SceneFile {
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
+    if (std::count(left_.begin(), left_.end(), setting.path)) return;
     const BoundKey& key = find_key(known_, setting.path, origin);
+    if (node.kind == TomlNode::Kind::array && node.children.empty() && key.description.type == "numbers")
+      return is_extra(setting.path) ? assign(key, Numbers(), origin)
+                                    : set_key(scene_, key, Numbers(), origin);
     if (node.kind == TomlNode::Kind::array) {
       throw Error::request(setting.path + " must be one value, not an array of tables (" + origin + ")");
     }
@@ -81,7 +85,8 @@ class SceneFile {
 
   // Files that a scene names may stand beside it.
   Value located(const std::string& path, const Value& value) const {
-    if (path != "cloth.file" && path != "mesh" && path != "fabric.name") return value;
+    if (path != "cloth.file" && path != "cloth.start" && path != "mesh" && path != "fabric.name")
+      return value;
     const auto* name = std::get_if<std::string>(&value);
     const fs::path beside = name && !name->empty() ? fs::path(file_).parent_path() / *name : fs::path();
     std::error_code ignored;
@@ -151,6 +156,7 @@ class SceneFile {
   Scene& scene_;
   std::string file_;
   const Keys& extra_;
+  const std::vector<std::string>& left_;
   Keys known_;
 };
 
@@ -165,13 +171,15 @@ Scene default_scene(const std::string& fabric) {
   return scene;
 }
 
-void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra) {
+void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra,
+                      const std::vector<std::string>& left) {
   const std::string file = find_asset("scenes", name_or_file, "--scene").string();
-  apply_scene_tree(scene, read_toml(file), file, extra);
+  apply_scene_tree(scene, read_toml(file), file, extra, left);
 }
 
-void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra) {
-  SceneFile(scene, source, extra).apply(root);
+void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra,
+                      const std::vector<std::string>& left) {
+  SceneFile(scene, source, extra, left).apply(root);
 }
 
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra) {

@@ -22,11 +22,14 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // Applies a scene file.  Naming a fabric starts it afresh, single fabric.* keys then override its numbers,
 // whatever their order in the file.  [[pin]] and [[obstacle]] replace those of the defaults, if there are any
 // in the file.  Keys in `extra` (an experiment's own, or the run's options) are allowed at the top level too.
+// Arrays of tables called as in `left` are left to the caller.
 // A cloth or mesh file is looked for from the working folder, then beside the scene file.
 // Throws Error::request (one line with file, line, key, value, unit, range), Error::machine if unreadable.
-void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {});
+void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {},
+                      const std::vector<std::string>& left = {});
 // The same from a tree that another program has made; `source` stands for the file in messages.
-void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra = {});
+void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& source, const Keys& extra = {},
+                      const std::vector<std::string>& left = {});
 
 // Applies flags; a fabric is loaded first.  `extra` as above.
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/base/error.h"
+#include "sim/mesh/garment.h"
 #include "sim/mesh/random_points.h"
 #include "sim/scene/shown_key.h"
 
@@ -136,6 +137,18 @@ void check_pleats(const Scene& scene) {
                          shown(scene, "cloth.radius", c.radius, "m"));
 }
 
+bool names_a_file(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
+
+void check_start_name(const Scene& scene) {
+  static const std::vector<std::string> kNames = {"rest", "knot", "pleats"};
+  const std::string& start = scene.cloth.start;
+  if (std::count(kNames.begin(), kNames.end(), start)) return;
+  const std::string nearest = nearest_name(start, kNames);
+  throw Error::request(shown(scene, "cloth.start", start, "") + " must be " + join(kNames, " | ") +
+                       " | FILE.obj" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+      .of("cloth.start", start);
+}
+
 }  // namespace
 
 double knot_length(double width, double radius) { return Knot(width, radius).length() + 2 * radius; }
@@ -146,8 +159,12 @@ void check_start_shape(const Scene& scene) {
     throw Error::request(shown(scene, "triangles", std::to_string(scene.triangles), "") +
                          " must be at least 2 for each of " +
                          shown(scene, "cloth.copies", std::to_string(c.copies), ""));
-  if (c.start == "rest") return;
-  const bool knot = c.start == "knot", of_file = scene.mesh.ends_with(".obj") || scene.mesh.ends_with(".OBJ");
+  if (c.copies > 1 && (names_a_file(c.start) || c.shape == "pattern"))
+    throw Error::request(shown(scene, "cloth.copies", std::to_string(c.copies), "") +
+                         " must be 1 where a file says where the cloth starts");
+  if (c.start == "rest" || names_a_file(c.start)) return;
+  check_start_name(scene);
+  const bool knot = c.start == "knot", of_file = names_a_file(scene.mesh);
   if (of_file || !(c.shape == "strip" || (!knot && c.shape == "square")))
     throw Error::request(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
                          (knot ? "" : " or square") + ", not " +
@@ -157,6 +174,8 @@ void check_start_shape(const Scene& scene) {
 
 std::vector<Vector3d> start_shape(const Scene& scene, const ClothMesh& mesh) {
   const ClothShape& c = scene.cloth;
+  if (names_a_file(c.start)) return read_start(c.start, c.weld, mesh);
+  if (c.shape == "pattern") return read_start(c.file, c.weld, mesh);
   std::vector<Vector3d> x = mesh.rest;
   const auto each_with = [&](const auto& place) {
     const std::size_t each = x.size() / c.copies;

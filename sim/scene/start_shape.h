@@ -13,7 +13,7 @@ double knot_length(double width, double radius);
 void check_start_shape(const Scene& scene);
 
 // Where the vertices of the mesh start before the scene places them: rest shape, knot or pleats, each copy
-// with a draw of its own of turn and offset.
+// with a draw of its own of turn and offset; or where a file has them.
 //
 // knot: its middle line winds twice around z on a torus, a trefoil cut open at its outermost point, and goes
 // on straight along -x and +x.  The strip is swept along its binormal, so that its middle line bends about

@@ -81,9 +81,9 @@ std::string quoted(const std::string& word) {
 }
 
 std::string shell_command(int count, const char* const* words) {
-  std::string text = std::filesystem::path(words[0]).filename().string();
-  for (int i = 1; i < count; ++i) text += " " + quoted(words[i]);
-  return text;
+  std::vector<std::string> all(words, words + count);
+  all[0] = std::filesystem::path(words[0]).filename().string();
+  return shell_text(all);
 }
 
 // CLI11 leaves what it does not know; say which flag that is, and what was meant.
@@ -133,6 +133,12 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 }
 
 }  // namespace
+
+std::string shell_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
 
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known) {

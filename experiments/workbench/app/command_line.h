@@ -12,4 +12,7 @@ namespace hysteron::experiments {
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known = experiments());
 
+// Words as a line that a shell takes apart into them again.
+std::string shell_text(const std::vector<std::string>& words);
+
 }  // namespace hysteron::experiments

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"
 #include "sim/bending/laws/law_parameters.h"
 
@@ -28,7 +29,7 @@ namespace {
 std::string choices_of(Keys keys) {
   static const std::set<std::string> kOthers = {"scene",       "out",        "quick",  "explain",
                                                 "quiet",       "json",       "errors", "errors.draws",
-                                                "errors.jobs", "checkpoint", "resume"};
+                                                "errors.jobs", "checkpoint", "resume", "dump-scene"};
   std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
   return to_json(keys).dump();
 }
@@ -40,7 +41,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
   setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
-  if (!setup.options.scene.empty()) apply_scene_file(setup.scene, setup.options.scene, extra);
+  if (!setup.options.scene.empty()) apply_scene(setup, line.experiment, setup.options.scene, extra);
   apply_flags(setup.scene, line.flags, extra);
   if (setup.options.quick && quick) {
     quick(setup);  // which may ask what the flags say
@@ -50,6 +51,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   check_options(setup.options);
   if (setup.options.errors) check_errors(line.experiment);
   setup.choices = choices_of(extra);
+  setup.asked = asked_text(setup.scene);
   if (setup.options.out.empty()) setup.options.out = "out/" + line.experiment;
   return setup;
 }

@@ -46,6 +46,9 @@ struct Setup {
   Scene scene;
   Options options;
   std::string choices = "{}";  // resolved keys of the run and its experiment that decide what it writes, JSON
+  std::string asked = "";      // the scene before the experiment changes it, JSON; empty: it is not changed
+  std::vector<std::string> own_tables =
+      {};  // arrays of tables of a scene file that the experiment reads itself
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

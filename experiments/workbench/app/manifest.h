@@ -152,6 +152,10 @@ struct Manifest {
   std::string experiment, command, started;
   std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written
   SceneRecord scene;                 // the same, as it is read
+  std::shared_ptr<const Json>
+      options;                        // resolved keys of a simulated run and its experiment; null: not noted
+  std::shared_ptr<const Json> asked;  // merge patch that turns `keys` into the scene before its experiment
+                                      // changed it; null: not noted
   std::optional<std::string> device, renderer, positions, precision, element, law;
   std::optional<std::int64_t> triangles, hinges, steps;
   std::optional<double> seconds_simulated;

@@ -274,6 +274,8 @@ Json to_json(const Manifest& m) {
   json["command"] = m.command;
   json["started"] = m.started;
   json["scene"] = *m.keys;
+  if (m.options) json["options"] = *m.options;
+  if (m.asked) json["asked"] = *m.asked;
   visit_results(m, [&](const char* key, const auto& value) { json[key] = to_json(value); });
   add_what_some_have(m, json);
   json["metrics"] = to_json(m.metrics);
@@ -293,6 +295,8 @@ Manifest manifest_of(const Json& json) {
   m.started = text_at(json, "started");
   m.scene = scene_of(at(json, "scene"));
   m.keys = std::make_shared<const Json>(at(json, "scene"));
+  if (at(json, "options").is_object()) m.options = std::make_shared<const Json>(json["options"]);
+  if (at(json, "asked").is_object()) m.asked = std::make_shared<const Json>(json["asked"]);
   visit_results(m, [&](const char* key, auto& value) { take(json, key, value); });
   take_what_some_have(json, m);
   m.metrics = metrics_of(at(json, "metrics"));

@@ -1,5 +1,7 @@
 #include "experiments/workbench/app/options.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <utility>
@@ -28,6 +30,9 @@ const KeyRow<Options> kRows[] = {
     {"background", at<&O::background>, "", any(), "studio | white | transparent", "behind the cloth; transparent: for figures, with the shadow on the ground and bars but without captions"},
     {"camera.direction", at<&O::camera_direction>, "", any(), "", "from the cloth to the eye, any length"},
     {"camera.fov", at<&O::camera_fov>, "degree", between(1, 120), "", "full vertical angle of view"},
+    {"camera.target", at<&O::camera_target>, "m", any(), "", "three numbers: what is in the middle of the picture; none: the middle of what moves"},
+    {"camera.distance", at<&O::camera_distance>, "m", at_least(0), "", "from the target to the eye; 0: as near as all that moves stays in the picture"},
+    {"camera.box", at<&O::camera_box>, "m", any(), "", "six numbers, lowest corner, then highest: what the picture frames in place of what moves"},
     {"export", at<&O::export_format>, "", any(), "none | ply | obj", "meshes, OUT/mesh/0000.obj ..."},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count the triangles that pass through each other at every recorded instant, by exact predicates; always on with self-contact"},
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number"},
@@ -36,6 +41,7 @@ const KeyRow<Options> kRows[] = {
     {"checkpoint", at<&O::checkpoint>, "s", at_least(0), "", "wall clock between two checkpoints: OUT/checkpoint, at a recorded instant, also on SIGINT and SIGTERM, which then end the run (exit code 3); 0: none"},
     {"resume", at<&O::resume>, "", any(), "", "go on from OUT/checkpoint with the same command, to the same bits on the same device; begins anew where there is none; a complete run is not repeated; of several laws, fabrics or integrators, and of compare: keep the columns that the same program has finished"},
     {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given take precedence"},
+    {"dump-scene", at<&O::dump_scene>, "", any(), "", "write the resolved scene to this TOML file, with where each value comes from, and stop"},
     {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
     {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
     {"json", at<&O::json>, "", any(), "", "print the manifest on stdout"},
@@ -65,6 +71,29 @@ void check_look(const std::string& look) {
   throw Error::request("look = " + look + " must be " + join(kLooks, " | ") +
                        (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
       .of("look", look);
+}
+
+// Of as many numbers as it takes, or none.
+void check_place(const Numbers& given, std::size_t wanted, const char* key) {
+  if (given.empty() || given.size() == wanted) return;
+  throw Error::request(
+      fmt::format("{} has {} numbers and must have {} [m] (--{})", key, given.size(), wanted, key))
+      .of(key, "");
+}
+
+void check_camera(const Options& options) {
+  if (options.camera_direction.isZero(0))
+    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
+        .of("camera.direction", "0, 0, 0");
+  check_place(options.camera_target, 3, "camera.target");
+  check_place(options.camera_box, 6, "camera.box");
+  const Numbers& box = options.camera_box;
+  for (std::size_t k = 0; k + 3 < box.size(); ++k)
+    if (!(box[k + 3] > box[k]))
+      throw Error::request(
+          fmt::format("camera.box reaches from {} to {} m along {} and must be ascending (--camera.box)",
+                      box[k], box[k + 3], "xyz"[k]))
+          .of("camera.box", "");
 }
 
 bool drawable(int side) { return side >= kSmallestSide && side <= kLargestSide; }
@@ -99,10 +128,7 @@ void check_options(const Options& options) {
                          "] pixels (--size)")
         .of("size", options.size);
   }
-  if (options.camera_direction.isZero(0)) {
-    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
-        .of("camera.direction", "0, 0, 0");
-  }
+  check_camera(options);
   if (options.looks().empty()) check_look("");
   for (const std::string& look : options.looks()) {
     check_look(look);

@@ -24,17 +24,21 @@ struct Options {
   std::string background = "studio";  // background studio | white | transparent
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
-  std::string export_format = "none";                // export     none | ply | obj: meshes in out/mesh
-  bool check_intersections = false;                  // check-intersections  at every instant that is recorded
-  bool errors = false;                               // errors       of headlines, by repeating the run
-  int errors_draws = 2;                              // errors.draws other meshes
-  int errors_jobs = 0;                               // errors.jobs  repeats at a time, 0: as many as fit
-  double checkpoint = 0;                             // checkpoint   [s] of wall clock between two; 0: none
-  bool resume = false;                               // resume       go on from OUT/checkpoint
-  bool quick = false;                                // quick      a small version of the same question
-  bool explain = false;                              // explain    print what the scene includes, and stop
-  bool quiet = false;                                // quiet      no progress on stderr
-  bool json = false;                                 // json       the manifest on stdout
+  Numbers camera_target;               // camera.target     [m] in the picture's middle; empty: found
+  double camera_distance = 0;          // camera.distance   [m] from there to the eye; 0: found
+  Numbers camera_box;                  // camera.box        [m] framed, low then high; empty: found
+  std::string export_format = "none";  // export     none | ply | obj: meshes in out/mesh
+  bool check_intersections = false;    // check-intersections  at every instant that is recorded
+  bool errors = false;                 // errors       of headlines, by repeating the run
+  int errors_draws = 2;                // errors.draws other meshes
+  int errors_jobs = 0;                 // errors.jobs  repeats at a time, 0: as many as fit
+  double checkpoint = 0;               // checkpoint   [s] of wall clock between two; 0: none
+  bool resume = false;                 // resume       go on from OUT/checkpoint
+  bool quick = false;                  // quick      a small version of the same question
+  std::string dump_scene;              // dump-scene write the resolved scene as TOML, and stop
+  bool explain = false;                // explain    print what the scene includes, and stop
+  bool quiet = false;                  // quiet      no progress on stderr
+  bool json = false;                   // json       the manifest on stdout
 
   int width() const;   // [pixels], of `size`
   int height() const;  // [pixels]
@@ -46,7 +50,8 @@ Keys bind_options(Options& options);
 Keys bind_output_options(Options& options);
 Keys with_output_options(Keys own, Options& options);
 
-// A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction: Error::request.
+// A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction, or with a target or a
+// box of too few numbers: Error::request.
 void check_options(const Options& options);
 
 }  // namespace hysteron::experiments

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/version.h"
 #include "render/plot.h"
 #include "sim/base/archive.h"
@@ -70,7 +71,11 @@ std::string program_version() {
 }
 
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
-    : Run(line, setup.options, to_json(setup.scene), kept) {}
+    : Run(line, setup.options, to_json(setup.scene), kept) {
+  manifest_.options = std::make_shared<const Json>(Json::parse(setup.choices));
+  if (!setup.asked.empty())
+    manifest_.asked = std::make_shared<const Json>(asked_patch(*manifest_.keys, setup.asked));
+}
 
 Run::Run(const CommandLine& line, const Options& options, const Json& keys,
          const std::vector<std::string>& kept)

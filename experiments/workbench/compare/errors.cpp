@@ -38,7 +38,9 @@ std::vector<Flag> drawn_number(const Scene& scene, int draw) {
   return {{"triangles", std::to_string(number)}};
 }
 
-bool from_a_file(const Scene& scene) { return scene.cloth.shape == "file" || scene.mesh.ends_with(".obj"); }
+bool from_a_file(const Scene& scene) {
+  return scene.cloth.shape == "file" || scene.cloth.shape == "pattern" || scene.mesh.ends_with(".obj");
+}
 
 SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
   std::vector<Flag> own = repeat.changes;

@@ -12,10 +12,32 @@ constexpr float kRakingRoom = 0.22f;                // in a dim room
 
 }  // namespace
 
+namespace {
+
+render::Box framed_box(const Options& options, render::Box box) {
+  if (!options.camera_box.empty()) {
+    const Eigen::Map<const Eigen::Vector3d> low(options.camera_box.data()), high(low.data() + 3);
+    box = {low.cast<float>(), high.cast<float>()};
+  }
+  if (options.camera_target.empty()) return box;
+  // As far to every side of the target as the box reaches from it.
+  const Eigen::Vector3f target =
+      Eigen::Map<const Eigen::Vector3d>(options.camera_target.data()).cast<float>();
+  const Eigen::Vector3f reach = (box.high - target).cwiseAbs().cwiseMax((target - box.low).cwiseAbs());
+  return {target - reach, target + reach};
+}
+
+}  // namespace
+
 render::Camera camera_of(const Options& options, const render::Box& bounds) {
   const float aspect = static_cast<float>(options.width()) / static_cast<float>(options.height());
-  return render::Camera::framing(bounds, options.camera_direction.cast<float>(),
-                                 static_cast<float>(options.camera_fov), aspect);
+  const Eigen::Vector3f direction = options.camera_direction.cast<float>();
+  const float fov = static_cast<float>(options.camera_fov);
+  const render::Box box = framed_box(options, bounds);
+  if (options.camera_distance == 0) return render::Camera::framing(box, direction, fov, aspect);
+  const Eigen::Vector3f eye =
+      box.center() + static_cast<float>(options.camera_distance) * direction.normalized();
+  return render::Camera::perspective(eye, box.center(), fov);
 }
 
 render::Look lit(render::Look look, const Options& options) {

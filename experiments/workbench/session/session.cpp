@@ -8,6 +8,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/compare/errors.h"
 #include "experiments/workbench/pages/closing_words.h"
@@ -103,6 +104,10 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
       recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
+    return;
+  }
+  if (!setup.options.dump_scene.empty()) {
+    dump_scene(setup);
     return;
   }
   if (setup.options.resume) look_back();

@@ -49,8 +49,11 @@ class Session {
   // Builds the cloth, unless the experiment brings its own, and the simulation; makes the run's folder.
   Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth = {});
 
-  // There is nothing to simulate: --explain, which is printed already, or --resume of a complete run.
-  bool is_over() const { return setup_.options.explain || is_complete_; }
+  // There is nothing to simulate: --explain or --dump-scene, which is done already, or --resume of a complete
+  // run.
+  bool is_over() const {
+    return setup_.options.explain || !setup_.options.dump_scene.empty() || is_complete_;
+  }
   Run& run() { return *run_; }
   const Cloth& cloth() const { return cloth_; }
   const Scene& scene() const { return setup_.scene; }

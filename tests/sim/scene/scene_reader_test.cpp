@@ -55,7 +55,7 @@ TEST(ShippedScenes, AreReadUnderTheNameThatIsListed) {
   EXPECT_FALSE(names.empty());
   for (const std::string& name : names) {
     Scene scene = default_scene();
-    EXPECT_NO_THROW(apply_scene_file(scene, name)) << name;
+    EXPECT_NO_THROW(apply_scene_file(scene, name, {}, {"metric"})) << name;
     EXPECT_EQ(scene.origin.begin()->second.find("assets/scenes/" + name), 0) << scene.origin.begin()->second;
   }
 }

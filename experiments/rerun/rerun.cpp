@@ -1,0 +1,92 @@
+// A run once more, exactly as its manifest has it.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/recorded_command.h"
+#include "experiments/workbench/app/run.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+struct RerunChoice {
+  bool no_errors = false;
+};
+const KeyRow<RerunChoice> kRows[] = {
+    {"no-errors", at<&RerunChoice::no_errors>, "", any(), "", "without the repeats of --errors"}};
+
+// Where it runs is not part of what it computes: on one device every number of threads has the same bits.
+std::vector<KeyDescription> device_keys() {
+  std::vector<KeyDescription> keys = scene_keys();
+  std::erase_if(keys,
+                [](const KeyDescription& key) { return key.path != "device" && key.path != "threads"; });
+  for (KeyDescription& key : keys) key.usual = "";
+  return keys;
+}
+
+std::vector<KeyDescription> own_keys() {
+  RerunChoice choice;
+  Options options;
+  std::vector<KeyDescription> keys = descriptions(with_output_options(bind(kRows, choice), options));
+  std::erase_if(keys, [](const KeyDescription& key) { return key.path == "quick"; });
+  for (const KeyDescription& key : device_keys()) keys.push_back(key);
+  return keys;
+}
+
+std::string folder_for(const RecordedRun& run) {
+  const std::string name = fs::absolute(run.file).lexically_normal().parent_path().filename().string();
+  return "out/rerun-" + (name.empty() ? run.manifest.experiment : name);
+}
+
+// Without a simulation there are no threads, and of some experiments no pictures.
+bool takes(const Experiment& experiment, const std::string& key) {
+  if (experiment.simulates) return true;
+  const std::vector<KeyDescription> own =
+      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
+  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+}
+
+// "state 70f23134675a1e81, as recorded"
+void say_outcome(const Manifest& before, const fs::path& folder) {
+  const std::optional<Manifest> now = manifest_or_none(folder / "manifest.json");
+  if (!now || !now->state_hash || !before.state_hash) return;
+  if (now->state_hash == before.state_hash)
+    std::cerr << "state " << *now->state_hash << ", as recorded" << std::endl;
+  else
+    std::cerr << "state " << *now->state_hash << " differs from the recorded " << *before.state_hash
+              << ": `hysteron verify` tells in what" << std::endl;
+}
+
+int run_rerun(const CommandLine& line) {
+  if (line.names.size() != 1) throw Error::request("needs one run: its folder or its manifest.json");
+  const RecordedRun run = recorded_run(line.names.front());
+  CommandLine repeated = line_that_repeats(run);
+  if (last_text(line.flags, "no-errors", "") == "true")
+    std::erase_if(repeated.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
+  const std::string out = last_text(line.flags, "out", folder_for(run));
+  const Experiment& experiment = experiment_named(repeated.experiment);
+  for (const Flag& flag : line.flags)
+    if (flag.path != "out" && flag.path != "no-errors" && takes(experiment, flag.path))
+      repeated.flags.push_back(flag);
+  repeated.flags.push_back({"out", out});
+  repeated.command = command_of(repeated);
+  const int exit_code = experiment.run(repeated);
+  if (last_text(line.flags, "quiet", "") != "true") say_outcome(run.manifest, out);
+  return exit_code;
+}
+
+}  // namespace
+
+Experiment rerun() {
+  return {.name = "rerun",
+          .question = "a run once more, exactly as its manifest has it",
+          .run = run_rerun,
+          .own_keys = own_keys,
+          .names = "DIR|manifest.json"};
+}
+
+}  // namespace hysteron::experiments

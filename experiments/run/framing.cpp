@@ -1,0 +1,69 @@
+#include "experiments/run/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "sim/base/error.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kTriangles = 400;
+// Of the box's diagonal: a fine mesh passes a little beside a coarse one.
+constexpr float kRoom = 0.03f;
+
+render::Box box_of(const std::vector<Eigen::Vector3d>& x) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : x) box.extend(p);
+  return {box.min().cast<float>(), box.max().cast<float>()};
+}
+
+render::Box with_room(render::Box box) {
+  const float room = kRoom * (box.high - box.low).norm();
+  box.low.array() -= room;
+  box.high.array() += room;
+  return box;
+}
+
+struct Trial {
+  explicit Trial(const Scene& scene) : cloth(make_cloth(scene)), simulation(make_simulation(scene, cloth)) {}
+  Cloth cloth;
+  std::unique_ptr<Simulation> simulation;
+};
+
+// On the scene's own mesh where a coarse one cannot start, as when pins select none of its vertices.
+std::unique_ptr<Trial> trial_of(const Scene& scene) {
+  if (scene.triangles <= kTriangles) return std::make_unique<Trial>(scene);
+  Scene coarse = scene;
+  coarse.triangles = kTriangles;
+  try {
+    return std::make_unique<Trial>(coarse);
+  } catch (const Error&) {
+    return std::make_unique<Trial>(scene);
+  }
+}
+
+}  // namespace
+
+Framing framing_of(const Setup& setup) {
+  const Scene& scene = setup.scene;
+  const auto trial = trial_of(scene);
+  Simulation& simulation = *trial->simulation;
+  Framing framing{box_of(trial->cloth.start), trial->cloth.mesh.faces()};
+  const int stride = std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * scene.step))));
+  const long steps = std::lround(scene.seconds / scene.step);
+  try {
+    while (simulation.steps() < steps) {
+      simulation.advance(static_cast<int>(std::min<long>(stride, steps - simulation.steps())));
+      framing.box = framing.box.merged(box_of(simulation.positions()));
+    }
+  } catch (const Error& error) {
+    framing.stopped = error.what();
+  }
+  framing.box = with_room(framing.box);
+  return framing;
+}
+
+}  // namespace hysteron::experiments

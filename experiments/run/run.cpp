@@ -1,0 +1,131 @@
+// A scene of one's own, as it stands: nothing is added to what its file says.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "experiments/run/framing.h"
+#include "experiments/run/metrics.h"
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/session/session.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Setup defaults() {
+  Setup setup;
+  setup.scene = default_scene();
+  setup.own_tables = {"metric"};
+  return setup;
+}
+
+void limit_to_quick(Setup& setup) {
+  setup.scene.triangles = std::min(setup.scene.triangles, 500);
+  setup.options.fps = std::min(setup.options.fps, 10.0);
+}
+
+// The scene as an argument is that of --scene.
+CommandLine with_scene(CommandLine line) {
+  if (line.names.size() > 1)
+    throw Error::request("takes one scene, not " + std::to_string(line.names.size()));
+  if (!line.names.empty()) line.flags.push_back({"scene", line.names.front()});
+  line.names.clear();
+  if (last_text(line.flags, "scene", "").empty())
+    throw Error::request(
+        "needs a scene: a TOML file, one of `hysteron list scenes`, or the manifest of a run");
+  return line;
+}
+
+Setup set_up_run(const CommandLine& line) { return set_up(line, defaults(), {}, limit_to_quick); }
+
+std::string stem_of(const std::string& scene) {
+  const std::filesystem::path path(scene);
+  return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
+}
+
+// The box that the options name, or that the cloth is found to pass through.
+render::Box bounds_of(const Session& session, const Setup& setup, Run& run) {
+  if (setup.options.no_images) return {};
+  if (const Numbers& box = setup.options.camera_box; !box.empty())
+    return render::box_of(std::vector<float>(box.begin(), box.end()));
+  const auto stage = run.stage("framing");
+  const Framing framing = framing_of(setup);
+  run.progress(fmt::format("pictures frame what a run of {} triangles passes through{}", framing.triangles,
+                           framing.stopped.empty() ? "" : ", which stopped: " + framing.stopped));
+  const render::Box start = render::box_of(flat_points(session.cloth().start));
+  return framing.box.merged(start);
+}
+
+Question question_of(Session& session, const Setup& setup, const std::vector<RequestedMetric>& metrics,
+                     std::vector<double>& last) {
+  Question question;
+  question.bounds = bounds_of(session, setup, session.run());
+  for (const RequestedMetric& metric : metrics) question.columns.push_back(metric.request().column());
+  question.measure = [&](const Snapshot& m) {
+    last.clear();
+    for (const RequestedMetric& metric : metrics) last.push_back(metric.value(session.simulation(), m.x));
+    return last;
+  };
+  question.progress = [&](const Snapshot& m) {
+    std::string text = fmt::format("t = {:.3f} s  {}", m.time, session.scene().phase_at(m.time));
+    for (std::size_t i = 0; i < metrics.size(); ++i)
+      text += fmt::format("  {} = {:.4g}", metrics[i].request().column(), last[i]);
+    return text;
+  };
+  question.visit = [](Archive&) {};  // the last values alone count
+  return question;
+}
+
+void plot(Session& session, const RequestedMetric& metric) {
+  const std::string& name = metric.request().name;
+  render::Plot plot{name + ", " + session.scene().fabric.name + ", law " + session.scene().law,
+                    {"time [s]"},
+                    {metric.request().column()}};
+  plot.series = {render::series_from_csv(session.run().path("metrics.csv"), "time", name, name)};
+  session.plot("plot_" + name, plot);
+}
+
+int run_scene(const CommandLine& given) {
+  const CommandLine line = with_scene(given);
+  const std::string scene = last_text(line.flags, "scene", "");
+  Setup setup = set_up_run(line);
+  if (last_text(line.flags, "out", "").empty()) setup.options.out = "out/run-" + stem_of(scene);
+  const std::vector<MetricRequest> requests = metrics_in(scene);
+  Json choices = Json::parse(setup.choices);
+  if (!requests.empty()) choices["metric"] = to_json(requests);
+  setup.choices = choices.dump();
+
+  Session session(line, setup);
+  if (session.is_over()) return 0;
+  std::vector<RequestedMetric> metrics;
+  for (const MetricRequest& request : requests)
+    metrics.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
+  std::vector<double> last;
+  session.simulate(question_of(session, setup, metrics, last));
+  for (std::size_t i = 0; i < metrics.size(); ++i)
+    session.run().metric(metrics[i].request().metric(), last[i]);
+  if (session.pictures())
+    for (const RequestedMetric& metric : metrics) plot(session, metric);
+  session.finish(stem_of(scene) + ": " + setup.scene.fabric.name + ", law " + setup.scene.law);
+  return 0;
+}
+
+}  // namespace
+
+std::optional<Framing> framing_of_run(const CommandLine& line) {
+  const Setup setup = set_up_run(line);
+  if (setup.options.no_images || setup.options.explain || !setup.options.camera_box.empty()) return {};
+  return framing_of(setup);
+}
+
+Experiment run_scenes() {
+  return {.name = "run",
+          .question = "a scene of one's own, as its file has it",
+          .run = run_scene,
+          .simulates = true,
+          .defaults = defaults,
+          .names = "SCENE"};
+}
+
+}  // namespace hysteron::experiments

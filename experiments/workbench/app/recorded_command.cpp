@@ -1,0 +1,87 @@
+#include "experiments/workbench/app/recorded_command.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/manifest_file.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// Words of a line that was quoted for a shell as command_line.h does: '...' and \'.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words;
+  std::string word;
+  bool inside = false, started = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (c == '\'') {
+      inside = !inside, started = true;
+    } else if (c == '\\' && !inside && i + 1 < command.size()) {
+      word += command[++i], started = true;
+    } else if (c == ' ' && !inside) {
+      if (started) words.push_back(word);
+      word.clear(), started = false;
+    } else {
+      word += c, started = true;
+    }
+  }
+  if (started) words.push_back(word);
+  return words;
+}
+
+CommandLine parsed(const RecordedRun& run) {
+  const std::vector<std::string> words = words_of(run.manifest.command);
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  if (words.size() < 2)
+    throw Error::request(run.file.string() + " holds no command that could be repeated").of("command", "");
+  const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
+  if (!line)
+    throw Error::request(run.file.string() + ": its command, \"" + run.manifest.command + "\", is no run");
+  return *line;
+}
+
+// The experiment's own scene in a file that is no longer there is the one that the manifest holds.
+void find_scene(CommandLine& line, const RecordedRun& run) {
+  for (Flag& flag : line.flags) {
+    if (flag.path != "scene" || !flag.text.ends_with(".toml") || fs::exists(flag.text)) continue;
+    flag.text = run.file.string();
+  }
+}
+
+}  // namespace
+
+RecordedRun recorded_run(const std::string& folder_or_manifest) {
+  std::error_code ignored;
+  fs::path file = folder_or_manifest;
+  if (fs::is_directory(file, ignored)) file /= "manifest.json";
+  return {file, read_manifest(file)};
+}
+
+CommandLine line_that_repeats(const RecordedRun& run) {
+  const Manifest& m = run.manifest;
+  CommandLine line = parsed(run);
+  std::erase_if(line.flags, [](const Flag& flag) { return flag.path == "out" || flag.path == "resume"; });
+  if (m.options && m.keys->contains("cloth")) {
+    std::erase_if(line.flags, [](const Flag& flag) { return !flag.path.starts_with("errors"); });
+    line.experiment = m.experiment;
+    line.names.clear();
+    line.flags.push_back({"scene", run.file.string()});
+  } else {
+    find_scene(line, run);
+  }
+  line.command = command_of(line);
+  return line;
+}
+
+std::string command_of(const CommandLine& line) {
+  std::vector<std::string> words = {"hysteron", line.experiment};
+  words.insert(words.end(), line.names.begin(), line.names.end());
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return shell_text(words);
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,27 @@
+// A run's manifest as a command line that repeats the run.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
+
+namespace hysteron::experiments {
+
+struct RecordedRun {
+  std::filesystem::path file;  // its manifest
+  Manifest manifest;
+};
+
+// Of a folder with a manifest, or of a manifest.  Throws Error::request, Error::machine.
+RecordedRun recorded_run(const std::string& folder_or_manifest);
+
+// The same experiment with the resolved scene and keys of the manifest, or, of runs that did not note their
+// keys, with the command that it holds; without a folder for the results.  Throws Error::request where that
+// command is not understood any more.
+CommandLine line_that_repeats(const RecordedRun& run);
+
+// As it is typed: "hysteron drape --scene=a.toml".
+std::string command_of(const CommandLine& line);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,128 @@
+#include "experiments/workbench/app/scene_source.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "experiments/workbench/app/manifest_file.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/scene/recorded_scene.h"
+#include "sim/scene/scene_text.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// What was given: keys and tables that have a place, and the fabric.
+Json given_in(const Json& scene, const Json& origin, const std::string& path = "") {
+  Json given = Json::object();
+  for (const auto& [name, value] : scene.items()) {
+    const std::string key = path.empty() ? name : path + "." + name;
+    if (key == "fabric" || key == "origin" || origin.contains(key) || origin.contains(key + "[0]"))
+      given[name] = value;
+    else if (value.is_object())
+      given[name] = given_in(value, origin, key);
+  }
+  return given;
+}
+
+Json patch_between(const Json& from, const Json& to) {
+  Json patch = Json::object();
+  for (const auto& [name, value] : to.items()) {
+    const bool known = from.contains(name);
+    if (known && from[name] == value) continue;
+    patch[name] =
+        known && from[name].is_object() && value.is_object() ? patch_between(from[name], value) : value;
+  }
+  for (const auto& [name, value] : from.items())
+    if (!to.contains(name)) patch[name] = nullptr;
+  return patch;
+}
+
+// The scene that this experiment is to start from.
+Json scene_for(const std::string& experiment, const Manifest& manifest) {
+  Json scene = *manifest.keys;
+  if (manifest.experiment != experiment) return scene;
+  if (!manifest.asked) return given_in(scene, scene.value("origin", Json::object()));
+  scene.merge_patch(*manifest.asked);
+  return scene;
+}
+
+// Paths of all values in a tree of objects; of a list its own.
+void collect_leaves(const Json& tree, const std::string& path,
+                    std::vector<std::pair<std::string, Json>>& leaves) {
+  for (const auto& [name, value] : tree.items()) {
+    const std::string key = path.empty() ? name : path + "." + name;
+    if (value.is_object())
+      collect_leaves(value, key, leaves);
+    else
+      leaves.emplace_back(key, value);
+  }
+}
+
+std::vector<std::pair<std::string, Json>> leaves_of(const Json& tree) {
+  std::vector<std::pair<std::string, Json>> leaves;
+  collect_leaves(tree, "", leaves);
+  return leaves;
+}
+
+// Of a list of tables, which the experiment reads itself.
+bool is_own_table(const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); }
+
+// As a file has it; a table in one line.
+std::string toml_of(const Json& value) {
+  if (!value.is_structured()) return value.dump();
+  std::vector<std::string> entries;
+  for (const auto& [name, entry] : value.items())
+    entries.push_back((value.is_object() ? name + " = " : "") + toml_of(entry));
+  const std::string inner = join(entries, ", ");
+  return value.is_object() ? "{" + inner + "}" : "[" + inner + "]";
+}
+
+}  // namespace
+
+void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra) {
+  if (!name.ends_with(".json")) return apply_scene_file(setup.scene, name, extra, setup.own_tables);
+  const Manifest manifest = read_manifest(name);
+  if (!manifest.keys->contains("cloth"))
+    throw Error::request(
+        name + " is of `" + manifest.experiment +
+        "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
+        .of("scene", name);
+  apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
+  if (manifest.experiment != experiment || !manifest.options) return;
+  for (const auto& [path, value] : leaves_of(*manifest.options))
+    if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);
+}
+
+std::string asked_text(const Scene& scene) { return to_json(scene).dump(); }
+
+Json asked_patch(const Json& simulated, const std::string& asked) {
+  return patch_between(simulated, Json::parse(asked));
+}
+
+// What was asked for, since the experiment will change it once more; but the time and the steps that it has
+// set, which it sets only where they are not given, and all hands and obstacles.
+void dump_scene(const Setup& setup) {
+  Scene scene = setup.scene;
+  apply_recorded_scene(scene, Json::parse(setup.asked), setup.options.dump_scene);
+  std::set<std::string> own;
+  const auto keep = [&](const char* key, auto Scene::*member) {
+    if (scene.*member != setup.scene.*member) own.insert(key);
+    scene.*member = setup.scene.*member;
+  };
+  keep("seconds", &Scene::seconds);
+  keep("step", &Scene::step);
+  keep("integrator", &Scene::integrator);
+  keep("tolerance", &Scene::tolerance);
+  keep("newton-residual", &Scene::newton_residual);
+  scene.pin = setup.scene.pin;
+  scene.obstacle = setup.scene.obstacle;
+  std::vector<FurtherKey> others;
+  for (const auto& [path, value] : leaves_of(Json::parse(setup.choices)))
+    others.push_back({path, toml_of(value)});
+  write_text(setup.options.dump_scene, toml_of(scene, own, others));
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,25 @@
+// Where a scene is read from: a file of one's own, a shipped one, or the manifest of an earlier run.
+#pragma once
+
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/app/manifest.h"
+
+namespace hysteron::experiments {
+
+// Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: if it is of this
+// experiment, as it was asked of it, since it will change it once more, with the keys `extra`; else as it was
+// simulated.  Programs that did not note what was asked have noted which keys were given: of their manifests
+// only these are applied to the same experiment.  `extra` as in apply_scene_file.  Throws Error::request,
+// Error::machine.
+void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
+
+// The scene as it was asked for, in JSON: what Setup::asked holds.
+std::string asked_text(const Scene& scene);
+// The merge patch that turns the scene as it was simulated into that.
+Json asked_patch(const Json& simulated, const std::string& asked);
+
+// Writes the scene of a set-up, with the keys of the run and its experiment, as the TOML file that
+// `--dump-scene` names.  Throws Error::machine.
+void dump_scene(const Setup& setup);
+
+}  // namespace hysteron::experiments

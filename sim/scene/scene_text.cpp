@@ -1,0 +1,151 @@
+#include "sim/scene/scene_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sim/scene/assets.h"
+
+namespace hysteron {
+namespace {
+
+constexpr const char* kOwn = "the experiment's own";
+
+// Such that it is a number of TOML, and an integer only where the key takes one.
+std::string toml_number(double x) {
+  const std::string text = number_text(x);
+  const bool is_real = text.find_first_of(".en") != text.npos;  // "1e-05", "inf"
+  return is_real ? text : text + ".0";
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string inner;
+  for (const char c : text) inner += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return '"' + inner + '"';
+}
+
+template <class Numbers>
+std::string list_of(const Numbers& numbers) {
+  std::vector<std::string> words;
+  for (const double x : numbers) words.push_back(toml_number(x));
+  return "[" + join(words, ", ") + "]";
+}
+
+std::string value_of(const Field& field) {
+  if (const auto* x = std::get_if<bool*>(&field)) return **x ? "true" : "false";
+  if (const auto* x = std::get_if<int*>(&field)) return std::to_string(**x);
+  if (const auto* x = std::get_if<unsigned*>(&field)) return std::to_string(**x);
+  if (const auto* x = std::get_if<double*>(&field)) return toml_number(**x);
+  if (const auto* x = std::get_if<Eigen::Vector3d*>(&field)) return list_of(**x);
+  if (const auto* x = std::get_if<Numbers*>(&field)) return list_of(**x);
+  if (const auto* x = std::get_if<NamedValue>(&field)) return in_quotes(x->name());
+  return in_quotes(*std::get<std::string*>(field));
+}
+
+// The file that a fabric of one's own stands in, as its numbers' places name it; else its name.
+std::string fabric_to_read(const Scene& scene) {
+  const std::vector<std::string> known = list_assets("fabrics");
+  if (std::count(known.begin(), known.end(), scene.fabric.name)) return scene.fabric.name;
+  for (const auto& [key, place] : scene.origin) {
+    const std::size_t end = place.find(".toml:");
+    if (key.starts_with("fabric.") && key != "fabric.name" && end != place.npos)
+      return place.substr(0, end) + ".toml";
+  }
+  return scene.fabric.name;
+}
+
+class TomlWriter {
+ public:
+  TomlWriter(const Scene& scene, const std::set<std::string>& own) : scene_(scene), own_(own) {}
+
+  // "fabric.k0 = 50.0  # [1/m] --fabric.k0"
+  void line(const std::string& path, const std::string& value, const std::string& unit,
+            const std::string& origin) {
+    text_ << prefix_ << path << " = " << value;
+    const std::string comment = (unit.empty() ? "" : "[" + unit + "] ") + origin;
+    text_ << (comment.empty() ? "" : "  # " + comment) << "\n";
+  }
+
+  void keys(const Keys& keys) {
+    for (const BoundKey& key : keys) {
+      const std::string& path = key.description.path;
+      if (std::holds_alternative<Parameters*>(key.field)) continue;
+      const std::string value =
+          path == "fabric.name" ? in_quotes(fabric_to_read(scene_)) : value_of(key.field);
+      line(path, value, key.description.unit, own_.contains(path) ? kOwn : origin(path));
+    }
+  }
+
+  void parameters() {
+    for (const auto& [name, value] : scene_.param)
+      line("param." + in_quotes(name), in_quotes(value), "", origin("param." + name));
+  }
+
+  template <class Item>
+  void tables(const char* name, std::vector<Item> items, Keys (*bind_one)(Item&)) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const std::string path = std::string(name) + "[" + std::to_string(i) + "]";
+      const auto found = scene_.origin.find(path);
+      prefix_ = found == scene_.origin.end() ? "# " : "";
+      text_ << "\n"
+            << prefix_ << "[[" << name << "]]  # " << (prefix_.empty() ? found->second.c_str() : kOwn)
+            << "\n";
+      for (const BoundKey& key : bind_one(items[i]))
+        line(key.description.path, value_of(key.field), key.description.unit,
+             place_of(path + "." + key.description.path));
+      if constexpr (requires { items[i].motion; }) keyframes(items[i].motion);
+    }
+    prefix_.clear();
+  }
+
+  std::string text() const { return text_.str(); }
+  void comment(const std::string& words) { text_ << "# " << words << "\n"; }
+  void gap() { text_ << "\n"; }
+
+ private:
+  void keyframes(const Motion& motion) {
+    if (motion.keys.empty()) return;
+    text_ << prefix_ << "keys = [\n";
+    for (Keyframe frame : motion.keys) {
+      std::vector<std::string> entries;
+      for (const BoundKey& key : bind_keyframe(frame))
+        entries.push_back(key.description.path + " = " + value_of(key.field));
+      text_ << prefix_ << "  {" << join(entries, ", ") << "},\n";
+    }
+    text_ << prefix_ << "]\n";
+  }
+
+  std::string place_of(const std::string& key) const {
+    const auto found = scene_.origin.find(key);
+    return found == scene_.origin.end() ? "" : found->second;
+  }
+  std::string origin(const std::string& key) const {
+    const std::string place = place_of(key);
+    return place.empty() ? "default" : place;
+  }
+
+  const Scene& scene_;
+  const std::set<std::string>& own_;
+  std::ostringstream text_;
+  std::string prefix_;
+};
+
+}  // namespace
+
+std::string toml_of(const Scene& scene, const std::set<std::string>& own,
+                    const std::vector<FurtherKey>& others) {
+  Scene copy = scene;
+  TomlWriter writer(scene, own);
+  writer.comment("A resolved scene: every key, its unit, and where its value comes from.");
+  writer.keys(bind_scene(copy));
+  writer.parameters();
+  if (!others.empty()) writer.gap();
+  for (const FurtherKey& key : others) writer.line(key.path, key.value, "", "");
+  writer.tables("phase", scene.phase, bind_phase);
+  writer.tables("pin", scene.pin, bind_pin);
+  writer.tables("obstacle", scene.obstacle, bind_obstacle);
+  writer.tables("command", scene.command, bind_command);
+  return writer.text();
+}
+
+}  // namespace hysteron

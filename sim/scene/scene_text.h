@@ -1,0 +1,22 @@
+// A resolved scene as a TOML file that reads back to it.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sim/scene/keys.h"
+
+namespace hysteron {
+
+// A key beside those of scenes, of a run or its experiment, and its value as TOML has it.
+struct FurtherKey {
+  std::string path, value;
+};
+
+// Every key with its unit and where its value comes from as a comment.  `own`: keys that the experiment has
+// set itself.  Tables that it has added are commented out: it will add them again.
+std::string toml_of(const Scene& scene, const std::set<std::string>& own = {},
+                    const std::vector<FurtherKey>& others = {});
+
+}  // namespace hysteron

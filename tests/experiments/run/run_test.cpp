@@ -1,0 +1,190 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/pictures/drawing.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Json = nlohmann::json;
+
+class Scenes : public testing::Test {
+ protected:
+  // Metrics of a run of this scene.
+  Json metrics_of(const std::string& scene, const std::string& flags = "--no-images") {
+    const Outcome outcome = run(scene, flags);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(text_of(out() / "manifest.json"))["metrics"];
+  }
+  Outcome run(const std::string& scene, const std::string& flags) {
+    std::ofstream(folder_.path() / "mine.toml") << scene;
+    return program("run " + (folder_.path() / "mine.toml").string() + " --quiet --threads 1 --device cpu " +
+                   flags + " --out " + out().string());
+  }
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+
+  Folder folder_;
+};
+
+const std::string kSquare = R"(
+mesh = "unionjack"
+triangles = 64
+step = 0.01
+seconds = 0.1
+[cloth]
+shape = "square"
+length = 0.2
+)";
+
+TEST_F(Scenes, FallFreelyAsImplicitEulerHasIt) {
+  constexpr double kRounding = 1e-9;
+  const Json metrics = metrics_of(kSquare + R"([[metric]]
+name = "corner"
+kind = "height"
+point = [0.2, 0.2, 0]
+[[metric]]
+name = "side"
+point = [0, 0, 0]
+to = [0.2, 0, 0]
+[[metric]]
+name = "flat"
+kind = "angle"
+high = [0.1, 0.2, 0]
+other-low = [0.1, 0, 0]
+[[metric]]
+name = "kept"
+kind = "residual-curvature"
+)");
+  const int n = 10;
+  EXPECT_NEAR(metrics["corner_m"], -9.81 * 0.01 * 0.01 * n * (n + 1) / 2, kRounding);
+  EXPECT_NEAR(metrics["side_m"], 0.2, kRounding);
+  EXPECT_NEAR(metrics["flat_deg"], 0, 1e-5);  // the angle of two directions is known to the root of rounding
+  EXPECT_NEAR(metrics["kept_per_m"], 0, kRounding);
+}
+
+TEST_F(Scenes, HangFromAHandThatCarriesTheirWeight) {
+  constexpr double kBalanced = 2e-6;  // newton-residual, of the load
+  const std::string scene = R"(integrator = "quasi-static"
+newton-residual = 1e-8
+)" + kSquare + R"(rotation = [90, 0, 0]
+[[pin]]
+low = [0, 0.19, -1]
+high = [0.2, 0.2, 1]
+[[metric]]
+name = "weight"
+kind = "force"
+direction = [0, 0, 1]
+[[metric]]
+name = "size"
+kind = "force"
+)";
+  const Json metrics = metrics_of(scene + "[fabric]\ndensity = 0.25\n");
+  const double weight = 0.25 * 0.2 * 0.2 * 9.81;
+  EXPECT_NEAR(metrics["weight_N"], weight, kBalanced * weight);
+  EXPECT_NEAR(metrics["size_N"], weight, kBalanced * weight);
+}
+
+TEST_F(Scenes, TurnAPartByTheAngleOfItsHand) {
+  constexpr double kRounding = 1e-9;
+  const Json metrics = metrics_of(R"(gravity = [0, 0, 0]
+)" + kSquare + R"([[pin]]
+low = [0, 0, -1]
+high = [0.05, 0.2, 1]
+[[pin]]
+low = [0.15, 0, -1]
+high = [0.2, 0.2, 1]
+axis = [0, 1, 0]
+center = [0.1, 0.1, 0]
+keys = [{time = 0}, {time = 0.1, angle = 40}]
+[[metric]]
+name = "fold"
+kind = "angle"
+high = [0.03, 0.2, 1]
+other-low = [0.17, 0, -1]
+)");
+  EXPECT_NEAR(metrics["fold_deg"], 40, kRounding * 40);
+}
+
+TEST_F(Scenes, ArePicturedWithTheirPhases) {
+  const std::string phases = R"([[phase]]
+name = "hang"
+seconds = 0.05
+[[phase]]
+name = "swing"
+seconds = 0.05
+)";
+  metrics_of(kSquare + phases, "--fps 20 --size 160x120");
+  const Json manifest = Json::parse(text_of(out() / "manifest.json"));
+  ASSERT_EQ(manifest["frames"]["moments"].size(), 3u);
+  EXPECT_EQ(manifest["frames"]["moments"][0]["phase"], "hang");
+  EXPECT_EQ(manifest["frames"]["moments"][2]["phase"], "swing");
+  EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
+}
+
+TEST_F(Scenes, AreComparedInOneFrame) {
+  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
+  const Outcome outcome =
+      program("compare " + (folder_.path() / "mine.toml").string() +
+              " --laws linear,prandtl --quiet --threads 1 --device cpu --size 160x120 --fps 10 --out " +
+              out().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Json linear = Json::parse(text_of(out() / "linear/manifest.json"));
+  const Json prandtl = Json::parse(text_of(out() / "prandtl/manifest.json"));
+  EXPECT_EQ(linear["experiment"], "run");
+  EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
+  EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
+  EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
+}
+
+TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
+  const std::pair<const char*, const char*> kCases[] = {
+      {"name = \"a b\"", "metric.name = \"a b\" must be small letters"},
+      {"name = \"time\"", "a column of this name already"},
+      {"name = \"a\"\nknid = \"height\"", "unknown key metric.knid"},
+      {"name = \"a\"\nkind = \"heigth\"", "did you mean height?"},
+      {"name = \"a\"", "the same vertex is nearest"},
+      {"name = \"a\"\nkind = \"angle\"\nlow = [9, 9, 9]", "no element of the cloth"},
+      {"name = \"a\"\nkind = \"force\"", "hand = 1 must be <= 0"}};
+  for (const auto& [metric, message] : kCases) {
+    const Outcome outcome = run(kSquare + "[[metric]]\n" + metric + "\n", "--no-images");
+    EXPECT_EQ(outcome.exit_code, 2) << metric;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("mine.toml:"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Camera, StandsAtItsDistanceFromTheTarget) {
+  Options options;
+  options.camera_direction = {0, -2, 0};
+  options.camera_target = {0.1, 0.2, 0.3};
+  options.camera_distance = 1.5;
+  const render::Camera camera = camera_of(options, {{0, 0, 0}, {1, 1, 1}});
+  EXPECT_LT((camera.eye() - Eigen::Vector3f(0.1f, -1.3f, 0.3f)).norm(), 1e-6);
+  EXPECT_LT((camera.forward() - Eigen::Vector3f(0, 1, 0)).norm(), 1e-6);
+}
+
+TEST(Camera, KeepsABoxWholeAroundItsTarget) {
+  Options options;
+  const render::Box box{{0, 0, 0}, {1, 1, 1}};
+  options.camera_target = {0.5, 0.5, 0.5};
+  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), box).eye());
+  options.camera_target = {0.5, 0.5, 0};
+  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
+  options.camera_target.clear();
+  options.camera_box = {0, 0, -1, 1, 1, 1};
+  EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
+}
+
+TEST(Camera, RefusesPlacesOfTheWrongSize) {
+  Options options;
+  options.camera_target = {1, 2};
+  EXPECT_THROW(check_options(options), Error);
+  options.camera_target.clear();
+  options.camera_box = {0, 0, 0, 1, 0, 1};
+  EXPECT_THROW(check_options(options), Error);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
