@@ -10,6 +10,7 @@
   entry(crumple) \
   entry(swing) \
   entry(compare) \
+  entry(sweep) \
   entry(kes) \
   entry(fab) \
   entry(cantilever) \
