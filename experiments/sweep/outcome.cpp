@@ -12,7 +12,8 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kOutcome = "outcome.json";
-constexpr int kNotRun = -1;  // exit code
+// Exit codes.
+constexpr int kNotRun = -1, kRefused = 2, kCouldNotGoOn = 3;
 
 }  // namespace
 
@@ -25,6 +26,10 @@ void write_outcome(const SweepColumn& run) {
   write_text(run.folder / kOutcome, outcome.dump(2) + "\n");
 }
 
+bool is_settled(const SweepColumn& run) {
+  return run.exit_code == kRefused || run.exit_code == kCouldNotGoOn;
+}
+
 void recall_outcome(SweepColumn& run) {
   if (recall(run)) return;
   const Json outcome = json_or_none(run.folder / kOutcome);
@@ -33,7 +38,6 @@ void recall_outcome(SweepColumn& run) {
   run.exit_code = known ? outcome["exit_code"].get<int>() : kNotRun;
   run.stopped = known ? outcome["stopped"].get<std::string>() : "";
   if (run.stopped.empty()) run.stopped = "not run", run.exit_code = kNotRun;
-  constexpr int kCouldNotGoOn = 3;  // keeps what it has found
   if (run.exit_code == kCouldNotGoOn) run.manifest = manifest_or_none(run.folder / "manifest.json");
 }
 

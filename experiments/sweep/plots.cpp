@@ -204,7 +204,9 @@ class StudyPlots {
       run_.progress(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
       return;
     }
-    const Groups columns = grouped(all(), {x}), rows = grouped(all(), {y});
+    const Groups columns = grouped(all(), {x});
+    Groups rows = grouped(all(), {y});
+    if (!axis(y).numeric) std::reverse(rows.begin(), rows.end());  // names are read from above
     std::vector<std::vector<std::vector<double>>> means;
     for (const auto& [title, which] : maps) {
       means.emplace_back();

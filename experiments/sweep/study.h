@@ -28,8 +28,9 @@ struct StudyRun {
   std::vector<std::string> values;  // one of each axis
 };
 
-// What a scheduler is told of a run.
-struct RunResources {
+// What a scheduler is told of a job.
+struct JobResources {
+  int runs = 1;  // one after the other
   int cores = 1;
   int memory = 1000;  // [MB]
   int gpus = 0;
@@ -42,7 +43,7 @@ struct Study {
   std::vector<Flag> shared;  // keys that all runs have in common
   std::vector<StudyAxis> axes;
   std::vector<std::string> metrics;  // that pages show; empty: the experiment's headlines
-  RunResources resources;
+  JobResources resources;
   std::vector<StudyRun> runs;
 };
 

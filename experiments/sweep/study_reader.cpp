@@ -308,7 +308,7 @@ class StudyFile {
     std::size_t next = 0;
     for (StudyAxis& axis : study_.axes) {
       if (!axis.sampled) continue;
-      const auto [low, high] = std::minmax(*number_in(axis.values[0]), *number_in(axis.values[1]));
+      const auto [low, high] = std::minmax({*number_in(axis.values[0]), *number_in(axis.values[1])});
       const bool whole = known_key(axis.key, {}).type == "integer";
       axis.values.clear();
       for (const double part : drawn[next])
@@ -329,12 +329,13 @@ class StudyFile {
   }
 
   void read_resources(const TomlNode& node) {
-    refuse_unknown(node, {"cores", "memory", "gpus", "minutes"}, "resources.");
-    RunResources& r = study_.resources;
+    refuse_unknown(node, {"runs", "cores", "memory", "gpus", "minutes"}, "resources.");
+    JobResources& r = study_.resources;
     const auto read = [&](const char* key, int& number, double low, double high) {
       if (const TomlNode* given = node.find(key))
         number = integer(*given, std::string("resources.") + key, low, high);
     };
+    read("runs", r.runs, 1, kMostValues);
     read("cores", r.cores, 1, 1024);
     read("memory", r.memory, 1, 1e8);
     read("gpus", r.gpus, 0, 64);

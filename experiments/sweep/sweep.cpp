@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -16,9 +18,12 @@
 #include "experiments/sweep/tables.h"
 #include "experiments/sweep/workflow.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
+#include "sim/base/number_in.h"
+#include "sim/scene/assets.h"
 #include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
@@ -31,7 +36,7 @@ struct SweepChoice {
   int threads = 1;
   bool resume = false;
   bool collect = false;
-  std::string only, snakemake;
+  std::string only, part, snakemake;
 };
 using S = SweepChoice;
 // clang-format off
@@ -41,6 +46,7 @@ const KeyRow<S> kRows[] = {
     {"resume", at<&S::resume>, "", any(), "", "go on with a study: runs that the same program has finished are kept, interrupted ones go on from their checkpoints"},
     {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there"},
     {"only", at<&S::only>, "", any(), "", "the run of this name alone, without table and page; a finished one is kept"},
+    {"part", at<&S::part>, "", any(), "", "K/N: only the K-th of N equal parts of the runs, without table and page; finished ones are kept"},
     {"snakemake", at<&S::snakemake>, "", any(), "", "folder: write the study as a Snakemake workflow there, and run nothing"},
 };
 // clang-format on
@@ -65,6 +71,17 @@ std::vector<SweepColumn> columns_of(const Study& study, const std::filesystem::p
   return columns;
 }
 
+// What the manifest keeps of the study, whose file may be changed.
+Json keys_of(const Study& study) {
+  Json shared = Json::array(), axes = Json::array();
+  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
+  for (const StudyAxis& axis : study.axes) axes.push_back({{"key", axis.key}, {"values", axis.values}});
+  return {{"study", asset_name(study.file)},
+          {"experiment", study.experiment},
+          {"shared", shared},
+          {"axes", axes}};
+}
+
 bool may_use_gpu(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
   if (!experiment.simulates) return false;
@@ -75,7 +92,7 @@ bool may_use_gpu(const CommandLine& line) {
 SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {
   SweepJobs jobs;
   jobs.threads = choice.threads;
-  jobs.resume = choice.resume || !choice.only.empty();
+  jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
   jobs.checkpoints = jobs.resume;
   jobs.gpu =
       std::any_of(runs.begin(), runs.end(), [](const SweepColumn& run) { return may_use_gpu(run.line); });
@@ -184,19 +201,47 @@ void refuse_failed(const Run& run, const std::vector<SweepColumn>& runs) {
                                (run.folder() / "table.csv").string(), first.name, first.stopped));
 }
 
-int run_alone(std::vector<SweepColumn> runs, const SweepChoice& choice) {
-  std::erase_if(runs, [&](const SweepColumn& column) { return column.name != choice.only; });
-  if (runs.empty())
-    throw Error::request("no run is called " + choice.only + " (--only)").of("only", choice.only);
+// The runs that --only or --part names.
+std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const SweepChoice& choice) {
+  std::vector<SweepColumn> some;
+  if (!choice.only.empty()) {
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
+                 [&](const SweepColumn& column) { return column.name == choice.only; });
+    if (some.empty())
+      throw Error::request("no run is called " + choice.only + " (--only)").of("only", choice.only);
+    return some;
+  }
+  const std::size_t slash = std::min(choice.part.find('/'), choice.part.size());
+  const double k = number_in(choice.part.substr(0, slash)).value_or(0);
+  const double n = number_in(choice.part.substr(std::min(slash + 1, choice.part.size()))).value_or(0);
+  const auto all = static_cast<double>(runs.size());
+  if (!(k >= 1 && k <= n && n <= all) || k != std::floor(k) || n != std::floor(n))
+    throw Error::request(fmt::format("part = {} must be K/N with integers 1 <= K <= N <= {} (--part)",
+                                     choice.part, runs.size()))
+        .of("part", choice.part);
+  const auto end = [&](double part) {
+    return runs.begin() + static_cast<std::ptrdiff_t>(std::ceil(all * part / n));
+  };
+  return {end(k - 1), end(k)};
+}
+
+// Without the study's own files, beside others that do so.  A run that is refused or cannot go on has an
+// outcome that another attempt would not change; one whose machine fails has none.
+int run_some(std::vector<SweepColumn> runs, const SweepChoice& choice, bool quiet) {
+  for (const SweepColumn& column : runs)
+    if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
-      runs, jobs_of(choice, runs), [](const SweepColumn& column) { write_outcome(column); },
+      runs, jobs_of(choice, runs),
+      [&](const SweepColumn& column) {
+        if (column.exit_code == 0 || is_settled(column)) write_outcome(column);
+        if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
+      },
       [](const std::string&) {});
-  const SweepColumn& ended = runs.front();
-  if (ended.stopped.empty()) return 0;
-  const std::string message = ended.name + ": " + ended.stopped;
-  throw ended.exit_code == 2 ? Error::request(message)
-  : ended.exit_code == 3     ? Error::run(message)
-                             : Error::machine(message);
+  const auto failed = std::find_if(runs.begin(), runs.end(), [](const SweepColumn& column) {
+    return !column.stopped.empty() && !is_settled(column);
+  });
+  if (failed != runs.end()) throw Error::machine(failed->name + ": " + failed->stopped);
+  return 0;
 }
 
 int run_sweep(const CommandLine& line) {
@@ -208,8 +253,9 @@ int run_sweep(const CommandLine& line) {
   if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
   std::vector<SweepColumn> runs = columns_of(study, options.out);
   if (!choice.snakemake.empty()) return write_workflow(choice.snakemake, study, options.out), 0;
-  if (!choice.only.empty()) return run_alone(std::move(runs), choice);
-  Run run(line, options, {{"study", study.file}, {"experiment", study.experiment}});
+  if (!choice.only.empty() || !choice.part.empty())
+    return run_some(chosen(runs, choice), choice, options.quiet);
+  Run run(line, options, keys_of(study));
   run.path("table.csv");
   if (choice.collect)
     collect(run, runs);

@@ -26,19 +26,19 @@ void write_workflow(const fs::path& folder, const Study& study, const fs::path& 
   const fs::path shipped = assets_folder() / "snakemake";
   for (const char* name : {"Snakefile", "slurm/config.yaml"})
     write_text(folder / name, whole_file(shipped / name, "cannot read " + (shipped / name).string()));
-  std::string names;
-  for (const StudyRun& run : study.runs) names += run.name + "\n";
-  write_text(folder / "runs.txt", names);
+  const auto all = static_cast<int>(study.runs.size());
+  const int jobs = (all + study.resources.runs - 1) / study.resources.runs;
   const Json config = {{"hysteron", fs::read_symlink("/proc/self/exe").string()},
                        {"working_folder", fs::current_path().string()},
                        {"study", fs::absolute(study.file).string()},
                        {"out", fs::absolute(out).lexically_normal().string()},
+                       {"jobs", jobs},
                        {"cores", study.resources.cores},
                        {"memory_mb", study.resources.memory},
                        {"gpus", study.resources.gpus},
                        {"minutes", study.resources.minutes}};
   write_text(folder / "config.json", config.dump(2) + "\n");
-  std::cout << study.runs.size() << " runs, a job each: cd " << folder.string()
+  std::cout << all << " runs in " << jobs << " jobs: cd " << folder.string()
             << " && snakemake --cores all --keep-going --rerun-incomplete, or snakemake --profile slurm\n";
 }
 

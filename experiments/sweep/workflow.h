@@ -1,4 +1,4 @@
-// A study as a Snakemake workflow: a job for each run, and one that makes the table.
+// A study as a Snakemake workflow: a job for each run or for a few, and one that makes the table.
 #pragma once
 
 #include <filesystem>
