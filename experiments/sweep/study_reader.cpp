@@ -33,9 +33,11 @@ std::vector<KeyDescription> keys_of(const Experiment& experiment) {
   return keys;
 }
 
-// It writes a folder with a manifest, and flags alone say what.
+// It writes a folder with a manifest, and flags alone say what; one whose argument is a scene takes it as
+// --scene, too.
 bool can_be_repeated(const Experiment& experiment) {
-  if (!experiment.run || *experiment.names || std::string(experiment.name) == "sweep") return false;
+  const bool by_flags = !*experiment.names || (experiment.simulates && experiment.defaults);
+  if (!experiment.run || !by_flags) return false;
   const std::vector<KeyDescription> keys = keys_of(experiment);
   const auto takes = [&](const char* path) {
     return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });

@@ -111,7 +111,8 @@ std::string report_page(const fs::path& folder, PageForm form) {
       {"Sequence", player(folder, "", kMostFrames, form)},
       {"Time series", series_charts(folder, true)},
       {"Energy", energy_table(manifest)},
-      {"Fabric", fabric_table(manifest.scene.fabric)},
+      {"Study", study ? study_keys(manifest) : ""},
+      {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)},
       {"Run", run_table(manifest)}};
   std::string all;
   for (const auto& [title, html] : sections) all += html_section(title, html);

@@ -1,6 +1,7 @@
 #include "experiments/workbench/pages/study_tables.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
@@ -38,7 +39,33 @@ std::string shown_table(TextTable table) {
   return (common.empty() ? "" : html_about("In all rows " + common)) + html_of(table);
 }
 
+// "1, 2, 3"; of many the first few and the last.
+std::string listed_values(const Json& values) {
+  constexpr std::size_t kMost = 16;
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values.size() > kMost && i >= kMost / 2 && i + 1 < values.size()) continue;
+    const bool gap = values.size() > kMost && i + 1 == values.size();
+    text += (i ? gap ? ", ..., " : ", " : "") + values[i].get<std::string>();
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string study_keys(const Manifest& manifest) {
+  if (!manifest.keys) return "";
+  const Json& keys = *manifest.keys;
+  std::vector<std::vector<std::string>> rows = {{"experiment", keys.value("experiment", "")}};
+  for (const Json& flag : keys.value("shared", Json::array())) {
+    const std::string text = flag.get<std::string>();
+    const std::size_t equals = text.find('=');
+    rows.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  for (const Json& axis : keys.value("axes", Json::array()))
+    rows.push_back({"axis " + axis.value("key", ""), listed_values(axis.value("values", Json::array()))});
+  return html_table({"", ""}, rows, {});
+}
 
 std::string study_means(const fs::path& folder) {
   const TextTable means = table_in(folder / "means.csv");

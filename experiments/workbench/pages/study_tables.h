@@ -4,8 +4,12 @@
 #include <filesystem>
 #include <string>
 
+#include "experiments/workbench/app/manifest.h"
+
 namespace hysteron::experiments {
 
+// What the study asked for, by the manifest: the keys that its runs share, and the axes.
+std::string study_keys(const Manifest& manifest);
 // means.csv; "" where there is none.
 std::string study_means(const std::filesystem::path& folder);
 // Of table.csv: the runs that are not complete, and why; "" if all are.
