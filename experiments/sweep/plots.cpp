@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/sweep/tables.h"
+#include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "render/color_map.h"
 #include "render/heat_map.h"
@@ -26,6 +27,22 @@ std::string hex(const render::Rgb8& color) {
   return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
 }
 
+// A metric as plots show it: "tip drop over length", "lost to friction in bending [mJ]".
+struct ShownMetric {
+  std::string name, words, label;
+  double scale = 1;
+};
+
+ShownMetric shown_metric(const std::string& experiment, const std::string& metric) {
+  for (const Headline& headline : headlines_of(experiment).all) {
+    const std::string unit = headline.unit, words = headline.words;
+    if (headline.metric == metric)
+      return {metric, words, words + (unit.empty() ? "" : " [" + unit + "]"), headline.scale};
+  }
+  const NamedUnit parts = split_unit(metric);
+  return {metric, parts.name, parts.text()};
+}
+
 // The runs by their values along some axes, "dahl, 0.1", in the order of the study.
 using Groups = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
 
@@ -36,7 +53,7 @@ class StudyPlots {
       if (!is_seed(study.axes[a]) && study.axes[a].values.size() > 1) free_.push_back(a);
   }
 
-  void draw(const std::string& metric, const std::vector<double>& numbers) {
+  void draw(const ShownMetric& metric, const std::vector<double>& numbers) {
     for (const std::size_t x : free_)
       if (study_.axes[x].numeric) draw_curves(metric, numbers, x);
     draw_map(metric, numbers);
@@ -109,23 +126,22 @@ class StudyPlots {
     return best;
   }
 
-  void draw_curves(const std::string& metric, const std::vector<double>& numbers, std::size_t x) {
+  void draw_curves(const ShownMetric& metric, const std::vector<double>& numbers, std::size_t x) {
     const std::vector<std::size_t> color = colored_by(x);
     std::vector<std::size_t> others;
     for (const std::size_t a : free_)
       if (a != x && !axis(a).sampled && !std::count(color.begin(), color.end(), a)) others.push_back(a);
     const Groups panels = grouped(all(), others);
-    const std::string name = "plot_" + metric + "-" + axis(x).key, y = split_unit(metric).text();
+    const std::string name = "plot_" + metric.name + "-" + axis(x).key;
     if (panels.size() > kMostPanels) {
       run_.progress(fmt::format("{}: {} panels are too many to be drawn", name, panels.size()));
       return;
     }
-    render::Panels page{
-        fmt::format("{}: {} over {}", study_.experiment, split_unit(metric).name, axis(x).key),
-        "dots: runs" + std::string(axis(x).sampled ? "" : "; lines: means"),
-        {label(axis(x)), axis(x).logarithmic},
-        {y},
-        {}};
+    render::Panels page{fmt::format("{}: {} over {}", study_.experiment, metric.words, axis(x).key),
+                        "dots: runs" + std::string(axis(x).sampled ? "" : "; lines: means"),
+                        {label(axis(x)), axis(x).logarithmic},
+                        {metric.label},
+                        {}};
     const Groups colors = grouped(all(), color);
     for (std::size_t c = 0; !color.empty() && c < colors.size(); ++c)
       page.subtitle += fmt::format("; {}: {}", kColorNames[c], colors[c].first);
@@ -154,14 +170,12 @@ class StudyPlots {
     run_.plot(name, plot);
   }
 
-  void draw_bars(const std::string& metric, const std::vector<double>& numbers) {
+  void draw_bars(const ShownMetric& metric, const std::vector<double>& numbers) {
     if (free_.empty() || free_.size() > 2) return;
     const Groups categories = grouped(all(), {free_.back()});
     const Groups series =
         grouped(all(), free_.size() > 1 ? std::vector{free_.front()} : std::vector<std::size_t>{});
-    render::Plot plot{study_.experiment + ": " + split_unit(metric).name,
-                      {axis(free_.back()).key},
-                      {split_unit(metric).text()}};
+    render::Plot plot{study_.experiment + ": " + metric.words, {axis(free_.back()).key}, {metric.label}};
     std::vector<std::string> labels;
     std::vector<std::vector<double>> values;
     for (const auto& category : categories) plot.x.categories.push_back(category.first);
@@ -172,7 +186,7 @@ class StudyPlots {
         values.back().push_back(mean(numbers, common(which, all_of_it)));
     }
     plot.series = render::grouped_bars(labels, values, plot.bar_width);
-    run_.plot("plot_" + metric + "-" + axis(free_.back()).key, plot);
+    run_.plot("plot_" + metric.name + "-" + axis(free_.back()).key, plot);
   }
 
   static std::vector<std::size_t> common(const std::vector<std::size_t>& a,
@@ -190,7 +204,7 @@ class StudyPlots {
     return count ? sum / count : NAN;
   }
 
-  void draw_map(const std::string& metric, const std::vector<double>& numbers) {
+  void draw_map(const ShownMetric& metric, const std::vector<double>& numbers) {
     std::vector<std::size_t> grid = free_;
     std::erase_if(grid, [&](std::size_t a) { return axis(a).sampled; });
     if (grid.size() < 2) return;
@@ -199,7 +213,7 @@ class StudyPlots {
     });
     const std::size_t x = grid[0], y = grid[1];
     const Groups maps = grouped(all(), {grid.begin() + 2, grid.end()});
-    const std::string name = "plot_" + metric + "-map";
+    const std::string name = "plot_" + metric.name + "-map";
     if (maps.size() > kMostPanels) {
       run_.progress(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
       return;
@@ -222,9 +236,9 @@ class StudyPlots {
     run_.plot(name, [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
   }
 
-  render::HeatMaps map_page(const std::string& metric, std::size_t x, std::size_t y, const Groups& columns,
+  render::HeatMaps map_page(const ShownMetric& metric, std::size_t x, std::size_t y, const Groups& columns,
                             const Groups& rows) const {
-    render::HeatMaps page{study_.experiment + ": " + split_unit(metric).text(),
+    render::HeatMaps page{study_.experiment + ": " + metric.label,
                           "Number: mean of the runs.",
                           {label(axis(x)), {}},
                           {label(axis(y)), {}},
@@ -277,7 +291,12 @@ class StudyPlots {
 void plot_study(Run& run, const Study& study, const std::vector<SweepColumn>& runs,
                 const std::vector<std::string>& metrics) {
   StudyPlots plots(run, study);
-  for (const std::string& metric : metrics) plots.draw(metric, numbers_of(runs, metric));
+  for (const std::string& name : metrics) {
+    const ShownMetric metric = shown_metric(study.experiment, name);
+    std::vector<double> numbers = numbers_of(runs, name);
+    for (double& number : numbers) number *= metric.scale;
+    plots.draw(metric, numbers);
+  }
 }
 
 }  // namespace hysteron::experiments

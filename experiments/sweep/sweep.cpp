@@ -113,7 +113,7 @@ class Progress {
     ++(column.kept ? kept_ : done_);
     if (column.kept) return;
     if (!column.stopped.empty()) ++failed_;
-    if (column.manifest) own_seconds_ += column.manifest->total_seconds();
+    own_seconds_ += column.seconds;
     const long all = static_cast<long>(all_ - kept_);
     run_.progress(fmt::format("{}/{}  {}: {}{}", done_ + kept_, all_, column.name, outcome_of(column),
                               time_left(static_cast<long>(done_), all, seconds(), false)));

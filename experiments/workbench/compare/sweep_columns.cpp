@@ -76,7 +76,9 @@ std::string reason_of(const ProcessResult& result) {
 void run_column(SweepColumn& column, const SweepJobs& jobs, int threads, int gpu) {
   std::error_code ignored;
   fs::remove(column.folder / kAsked, ignored);
+  const auto start = std::chrono::steady_clock::now();
   const ProcessResult result = run_process(command_of(column, jobs, threads, gpu), "");
+  column.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   column.manifest = manifest_or_none(column.folder / "manifest.json");
   column.exit_code = result.exit_code;
   if (!result.started) throw Error::machine("cannot start the run " + column.name);

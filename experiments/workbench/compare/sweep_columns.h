@@ -20,6 +20,7 @@ struct SweepColumn {
   bool kept = false;      // from an earlier comparison
   std::string stopped{};  // why it could not go on; empty: complete
   int exit_code = 0;
+  double seconds = 0;  // of wall clock that its process took
   std::optional<Manifest> manifest{};
 
   Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
