@@ -11,6 +11,7 @@
   entry(swing) \
   entry(run_scenes) \
   entry(compare) \
+  entry(sweep) \
   entry(kes) \
   entry(fab) \
   entry(cantilever) \

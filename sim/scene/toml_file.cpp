@@ -39,12 +39,24 @@ namespace {
 
 constexpr std::size_t kMostTomlBytes = std::size_t{16} << 20;
 
-TomlNode convert(const std::string& file, const std::string& key, const toml::node& source);
+// What is read, and what may stand in it.
+struct Source {
+  const std::string& file;
+  TomlLists lists;
+};
+
+TomlNode convert(const Source& from, const std::string& key, const toml::node& source);
 
 int line_of(const toml::node& source) { return static_cast<int>(source.source().begin.line); }
 
 bool all_numbers(const toml::array& array) {
   return std::all_of(array.begin(), array.end(), [](const toml::node& x) { return x.is_number(); });
+}
+
+bool is_list(const toml::array& array) {
+  const auto all = [&](bool (*is)(const toml::node&)) { return std::all_of(array.begin(), array.end(), is); };
+  return all([](const toml::node& x) { return x.is_string(); }) ||
+         all([](const toml::node& x) { return x.is_boolean(); });
 }
 
 // Keys and texts stand in messages of one line, in captions and in names of files.
@@ -67,7 +79,7 @@ Value convert_value(const std::string& file, const std::string& key, const toml:
                        "); allowed are true, false, numbers, texts, arrays of numbers, tables");
 }
 
-TomlNode convert_array(const std::string& file, const std::string& key, const toml::array& source) {
+TomlNode convert_array(const Source& from, const std::string& key, const toml::array& source) {
   TomlNode node{TomlNode::Kind::array, key, line_of(source), {}, {}};
   if (all_numbers(source) && !source.empty()) {
     node.kind = TomlNode::Kind::value;
@@ -76,20 +88,21 @@ TomlNode convert_array(const std::string& file, const std::string& key, const to
     node.value = numbers;
     return node;
   }
+  const bool list = from.lists == TomlLists::allowed && is_list(source);
   for (const toml::node& element : source) {
-    if (!element.is_table()) convert_value(file, key, source);
-    node.children.push_back(convert(file, "", element));
+    if (!list && !element.is_table()) convert_value(from.file, key, source);
+    node.children.push_back(convert(from, "", element));
   }
   return node;
 }
 
-TomlNode convert(const std::string& file, const std::string& key, const toml::node& source) {
-  if (const auto* array = source.as_array()) return convert_array(file, key, *array);
+TomlNode convert(const Source& from, const std::string& key, const toml::node& source) {
+  if (const auto* array = source.as_array()) return convert_array(from, key, *array);
   TomlNode node{TomlNode::Kind::table, key, line_of(source), {}, {}};
   if (const auto* table = source.as_table()) {
     for (const auto& [name, child] : *table) {
-      refuse_control_characters(std::string(name.str()), file, line_of(child));
-      node.children.push_back(convert(file, std::string(name.str()), child));
+      refuse_control_characters(std::string(name.str()), from.file, line_of(child));
+      node.children.push_back(convert(from, std::string(name.str()), child));
     }
     // The library sorts by name; messages should come in reading order.
     std::stable_sort(node.children.begin(), node.children.end(),
@@ -97,7 +110,7 @@ TomlNode convert(const std::string& file, const std::string& key, const toml::no
     return node;
   }
   node.kind = TomlNode::Kind::value;
-  node.value = convert_value(file, key, source);
+  node.value = convert_value(from.file, key, source);
   return node;
 }
 
@@ -135,12 +148,12 @@ const TomlNode* TomlNode::find(const std::string& name) const {
   return nullptr;
 }
 
-TomlNode read_toml(const std::string& file) {
+TomlNode read_toml(const std::string& file, TomlLists lists) {
   const std::string text = whole_file(file, "cannot read " + file, kMostTomlBytes);
   if (const int line = line_of_a_long_key(text))
     throw malformed("a key has more than " + std::to_string(kMostKeyParts) + " parts", file, line);
   try {
-    return convert(file, "", parse(text, file));
+    return convert({file, lists}, "", parse(text, file));
   } catch (const toml::parse_error& error) {
     std::string why(error.description());
     std::replace(why.begin(), why.end(), '\n', ' ');

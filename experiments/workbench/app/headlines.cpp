@@ -50,6 +50,9 @@ const Headlines kAll[] = {
      .all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}", 1, kNoErrors},
              {"node_count", "folds", "", "{:.0f}", 1, kNoErrors},
              {"bending_length_m", "bending length", "mm", "{:.2f}", kMilli, kNoErrors}}},
+    {.experiment = "sweep",
+     .all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
+             {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}},
     {.experiment = "render",
      .all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}},
 };

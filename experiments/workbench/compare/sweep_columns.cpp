@@ -43,11 +43,6 @@ Json asked(const SweepColumn& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
 }
 
-bool is_finished(const SweepColumn& column) {
-  const std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
-  return manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
-}
-
 // The name of the GPU with that number among those that this process itself is allowed.
 std::string visible_gpu(int gpu) {
   const char* allowed = std::getenv("CUDA_VISIBLE_DEVICES");
@@ -55,15 +50,19 @@ std::string visible_gpu(int gpu) {
   return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
 }
 
-std::vector<std::string> command_of(const SweepColumn& column, int threads, int gpu) {
+std::vector<std::string> command_of(const SweepColumn& column, const SweepJobs& jobs, int threads, int gpu) {
   std::vector<std::string> words = {"env"};
   if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
-  words.push_back("LP_NUM_THREADS=" + std::to_string(threads));  // Mesa's own threads
+  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // Eigen's and Mesa's own threads
+    words.push_back(others + std::to_string(threads));
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   for (const std::string& word : words_of(column.line)) words.push_back(word);
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
-  words.push_back("--threads=" + std::to_string(threads));
+  if (experiment_named(column.line.experiment).simulates)
+    words.push_back("--threads=" + std::to_string(threads));
+  if (jobs.checkpoints && last_text(column.line.flags, "checkpoint", "0") != "0")
+    words.push_back("--resume=true");
   return words;
 }
 
@@ -74,14 +73,16 @@ std::string reason_of(const ProcessResult& result) {
                               : "ended with exit code " + std::to_string(result.exit_code);
 }
 
-void run_column(SweepColumn& column, int threads, int gpu, bool go_on) {
+void run_column(SweepColumn& column, const SweepJobs& jobs, int threads, int gpu) {
   std::error_code ignored;
   fs::remove(column.folder / kAsked, ignored);
-  const ProcessResult result = run_process(command_of(column, threads, gpu), "");
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessResult result = run_process(command_of(column, jobs, threads, gpu), "");
+  column.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   column.manifest = manifest_or_none(column.folder / "manifest.json");
   column.exit_code = result.exit_code;
   if (!result.started) throw Error::machine("cannot start the run " + column.name);
-  if (go_on && result.exit_code != 0 && result.exit_code != 3) {
+  if (jobs.go_on && result.exit_code != 0 && result.exit_code != 3) {
     column.manifest.reset();  // of an earlier run
     column.stopped = reason_of(result);
     return;
@@ -192,6 +193,13 @@ void explain_columns(const std::vector<SweepColumn>& columns) {
   }
 }
 
+bool recall(SweepColumn& column) {
+  std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
+  column.kept = manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
+  if (column.kept) column.manifest = std::move(manifest);
+  return column.kept;
+}
+
 std::string outcome_of(const SweepColumn& column) {
   return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;
 }
@@ -204,7 +212,7 @@ std::string progress_in(const fs::path& folder) {
 }
 
 void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
-                 const std::function<void(const SweepColumn&)>& said,
+                 const std::function<void(SweepColumn&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   std::string reason;
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
@@ -223,19 +231,14 @@ void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
   const auto watched = [&](std::size_t i, int its_threads) {
     watch.begin(i);
     const int gpu = queue.take();
-    run_column(columns[i], its_threads, gpu, jobs.go_on);
+    run_column(columns[i], jobs, its_threads, gpu);
     queue.give_back(gpu);
     watch.end(i);
   };
   const auto finish = [&](std::size_t i, int its_threads) {
-    SweepColumn& column = columns[i];
-    column.kept = jobs.resume && is_finished(column);
-    if (column.kept)
-      column.manifest = manifest_or_none(column.folder / "manifest.json");
-    else
-      watched(i, its_threads);
+    if (!jobs.resume || !recall(columns[i])) watched(i, its_threads);
     const std::lock_guard lock(one_at_a_time);
-    said(column);
+    said(columns[i]);
   };
   if (jobs.first >= 0) finish(static_cast<std::size_t>(jobs.first), jobs.threads > 0 ? jobs.threads : cores);
   in_parallel(columns.size(), at_once, [&](std::size_t i) {

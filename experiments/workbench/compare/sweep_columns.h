@@ -20,6 +20,7 @@ struct SweepColumn {
   bool kept = false;      // from an earlier comparison
   std::string stopped{};  // why it could not go on; empty: complete
   int exit_code = 0;
+  double seconds = 0;  // of wall clock that its process took
   std::optional<Manifest> manifest{};
 
   Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
@@ -36,11 +37,16 @@ struct SweepJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
-  bool gpu = true;     // may be used
-  int first = -1;      // a column that the others need: it ends before they start; -1: none
-  int cores = 0;       // that they share; 0: all
-  bool go_on = false;  // a run that is wrong or fails is only marked as stopped
+  bool gpu = true;           // may be used
+  int first = -1;            // a column that the others need: it ends before they start; -1: none
+  int cores = 0;             // that they share; 0: all
+  bool go_on = false;        // a run that is wrong or fails is only marked as stopped
+  bool checkpoints = false;  // a run that was interrupted goes on from its own, if it takes any
 };
+
+// Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
+// not.
+bool recall(SweepColumn& column);
 
 // "kept", "done", or why it stopped.
 std::string outcome_of(const SweepColumn& column);
@@ -52,7 +58,7 @@ std::string progress_in(const std::filesystem::path& folder);
 // where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::request and
 // Error::machine if one of them is wrong or fails, unless the jobs go on.
 void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
-                 const std::function<void(const SweepColumn&)>& said,
+                 const std::function<void(SweepColumn&)>& said,
                  const std::function<void(const std::string&)>& progress);
 
 }  // namespace hysteron::experiments

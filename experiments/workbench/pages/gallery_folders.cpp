@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOrder[] = {"compare", "drape",   "swing",    "crease",     "fold",
                                   "crumple", "render",  "kes",      "cantilever", "buckle",
                                   "law",     "figures", "fit",      "accuracy",   "stability",
-                                  "bench",   "speed",   "validate", "scenes"};
+                                  "bench",   "speed",   "validate", "sweep",      "scenes"};
 
 std::ptrdiff_t place_of(const std::string& experiment) {
   return std::find(std::begin(kOrder), std::end(kOrder), experiment) - std::begin(kOrder);

@@ -6,6 +6,7 @@
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
+#include "experiments/workbench/pages/study_tables.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -98,14 +99,20 @@ Manifest manifest_in(const fs::path& folder) {
 std::string report_page(const fs::path& folder, PageForm form) {
   const Manifest manifest = manifest_in(folder);
   const Metrics& metrics = manifest.metrics;
+  const bool study = manifest.experiment == "sweep";
+  if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
   const std::pair<const char*, std::string> sections[] = {
       {"Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)},
+      {"Not complete", study ? study_failures(folder) : ""},
       {"Pictures", pictures(folder, form)},
       {"Plots", plots(folder, form)},
+      {"Means", study ? study_means(folder) : ""},
+      {"Runs", study ? study_runs(folder) : ""},
       {"Sequence", player(folder, "", kMostFrames, form)},
       {"Time series", series_charts(folder, true)},
       {"Energy", energy_table(manifest)},
-      {"Fabric", fabric_table(manifest.scene.fabric)},
+      {"Study", study ? study_keys(manifest) : ""},
+      {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)},
       {"Run", run_table(manifest)}};
   std::string all;
   for (const auto& [title, html] : sections) all += html_section(title, html);

@@ -1,0 +1,302 @@
+#include "experiments/sweep/plots.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/sweep/tables.h"
+#include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "render/color_map.h"
+#include "render/heat_map.h"
+#include "render/panels.h"
+#include "render/plot.h"
+#include "sim/base/number_in.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr std::size_t kMostPanels = 24;
+const char* const kColorNames[render::kMethodColors] = {"blue",     "vermilion", "green", "pink",
+                                                        "sky blue", "orange",    "black"};
+
+std::string hex(const render::Rgb8& color) {
+  return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
+}
+
+// A metric as plots show it: "tip drop over length", "lost to friction in bending [mJ]".
+struct ShownMetric {
+  std::string name, words, label;
+  double scale = 1;
+};
+
+ShownMetric shown_metric(const std::string& experiment, const std::string& metric) {
+  for (const Headline& headline : headlines_of(experiment).all) {
+    const std::string unit = headline.unit, words = headline.words;
+    if (headline.metric == metric)
+      return {metric, words, words + (unit.empty() ? "" : " [" + unit + "]"), headline.scale};
+  }
+  const NamedUnit parts = split_unit(metric);
+  return {metric, parts.name, parts.text()};
+}
+
+// The runs by their values along some axes, "dahl, 0.1", in the order of the study.
+using Groups = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
+
+class StudyPlots {
+ public:
+  StudyPlots(Run& run, const Study& study) : run_(run), study_(study) {
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      if (!is_seed(study.axes[a]) && study.axes[a].values.size() > 1) free_.push_back(a);
+  }
+
+  void draw(const ShownMetric& metric, const std::vector<double>& numbers) {
+    for (const std::size_t x : free_)
+      if (study_.axes[x].numeric) draw_curves(metric, numbers, x);
+    draw_map(metric, numbers);
+    if (std::none_of(free_.begin(), free_.end(), [&](std::size_t a) { return study_.axes[a].numeric; }))
+      draw_bars(metric, numbers);
+  }
+
+ private:
+  const StudyAxis& axis(std::size_t a) const { return study_.axes[a]; }
+  std::string label(const StudyAxis& axis) const {
+    return axis.key + (axis.unit.empty() ? "" : " [" + axis.unit + "]");
+  }
+  std::string shown_value(std::size_t a, std::size_t run) const {
+    const std::string& text = study_.runs[run].values[a];
+    return axis(a).numeric ? text : std::filesystem::path(text).stem().string();
+  }
+
+  Groups grouped(const std::vector<std::size_t>& which, const std::vector<std::size_t>& axes) const {
+    Groups groups;
+    std::map<std::string, std::size_t> places;
+    for (const std::size_t r : which) {
+      std::string name;
+      for (const std::size_t a : axes)
+        name += (name.empty() ? "" : ", ") + (axis(a).numeric ? axis(a).key + " " : "") + shown_value(a, r);
+      const auto [place, is_new] = places.emplace(name, groups.size());
+      if (is_new) groups.push_back({name, {}});
+      groups[place->second].second.push_back(r);
+    }
+    return groups;
+  }
+
+  std::vector<std::size_t> all() const {
+    std::vector<std::size_t> every(study_.runs.size());
+    for (std::size_t r = 0; r < every.size(); ++r) every[r] = r;
+    return every;
+  }
+
+  double x_of(std::size_t a, std::size_t run) const { return *number_in(study_.runs[run].values[a]); }
+
+  // Dots for the runs and, on a grid, a line through their means at each value.
+  void add_series(std::vector<render::Series>& series, const std::string& name, std::size_t color,
+                  const std::vector<std::size_t>& which, std::size_t x,
+                  const std::vector<double>& numbers) const {
+    render::Series dots{name, {}, {}, render::Series::Style::points, hex(render::method_color(color))};
+    std::map<double, std::pair<double, int>> sums;
+    for (const std::size_t r : which) {
+      if (std::isnan(numbers[r])) continue;
+      dots.x.push_back(x_of(x, r));
+      dots.y.push_back(numbers[r]);
+      auto& [sum, count] = sums[dots.x.back()];
+      sum += numbers[r], ++count;
+    }
+    if (dots.x.empty()) return;
+    if (!axis(x).sampled) {
+      render::Series line{"", {}, {}, render::Series::Style::line, dots.color};
+      for (const auto& [at, sum] : sums) line.x.push_back(at), line.y.push_back(sum.first / sum.second);
+      series.push_back(std::move(line));
+    }
+    series.push_back(std::move(dots));
+  }
+
+  // The axis with the most values that still have colours of their own, texts first; none: `free_.size()`.
+  std::vector<std::size_t> colored_by(std::size_t x) const {
+    std::vector<std::size_t> best;
+    for (const std::size_t a : free_) {
+      const std::size_t size = axis(a).values.size();
+      if (a == x || axis(a).sampled || size > render::kMethodColors) continue;
+      if (best.empty() || (axis(best[0]).numeric && !axis(a).numeric)) best = {a};
+    }
+    return best;
+  }
+
+  void draw_curves(const ShownMetric& metric, const std::vector<double>& numbers, std::size_t x) {
+    const std::vector<std::size_t> color = colored_by(x);
+    std::vector<std::size_t> others;
+    for (const std::size_t a : free_)
+      if (a != x && !axis(a).sampled && !std::count(color.begin(), color.end(), a)) others.push_back(a);
+    const Groups panels = grouped(all(), others);
+    const std::string name = "plot_" + metric.name + "-" + axis(x).key;
+    if (panels.size() > kMostPanels) {
+      run_.progress(fmt::format("{}: {} panels are too many to be drawn", name, panels.size()));
+      return;
+    }
+    render::Panels page{fmt::format("{}: {} over {}", study_.experiment, metric.words, axis(x).key),
+                        "dots: runs" + std::string(axis(x).sampled ? "" : "; lines: means"),
+                        {label(axis(x)), axis(x).logarithmic},
+                        {metric.label},
+                        {}};
+    const Groups colors = grouped(all(), color);
+    for (std::size_t c = 0; !color.empty() && c < colors.size(); ++c)
+      page.subtitle += fmt::format("; {}: {}", kColorNames[c], colors[c].first);
+    for (const auto& [title, which] : panels) {
+      render::Panel panel{title, {}};
+      for (const auto& [value, of_value] : grouped(which, color))
+        add_series(panel.series, value, place_of(colors, value), of_value, x, numbers);
+      if (!panel.series.empty()) page.panels.push_back(std::move(panel));
+    }
+    if (page.panels.empty()) return;
+    if (page.panels.size() == 1) return draw_one(name, page);
+    page.columns = static_cast<int>(std::min<std::size_t>(page.panels.size(), 3));
+    run_.plot(name, [&](const std::filesystem::path& base) { render::write_panels(base, page); });
+  }
+
+  static std::size_t place_of(const Groups& groups, const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.first == name; }) -
+        groups.begin());
+  }
+
+  // A plot's key names the colours.
+  void draw_one(const std::string& name, const render::Panels& page) {
+    render::Plot plot{page.title, page.x, page.y};
+    plot.series = page.panels.front().series;
+    run_.plot(name, plot);
+  }
+
+  void draw_bars(const ShownMetric& metric, const std::vector<double>& numbers) {
+    if (free_.empty() || free_.size() > 2) return;
+    const Groups categories = grouped(all(), {free_.back()});
+    const Groups series =
+        grouped(all(), free_.size() > 1 ? std::vector{free_.front()} : std::vector<std::size_t>{});
+    render::Plot plot{study_.experiment + ": " + metric.words, {axis(free_.back()).key}, {metric.label}};
+    std::vector<std::string> labels;
+    std::vector<std::vector<double>> values;
+    for (const auto& category : categories) plot.x.categories.push_back(category.first);
+    for (const auto& [name, which] : series) {
+      labels.push_back(name);
+      values.emplace_back();
+      for (const auto& [category, all_of_it] : categories)
+        values.back().push_back(mean(numbers, common(which, all_of_it)));
+    }
+    plot.series = render::grouped_bars(labels, values, plot.bar_width);
+    run_.plot("plot_" + metric.name + "-" + axis(free_.back()).key, plot);
+  }
+
+  static std::vector<std::size_t> common(const std::vector<std::size_t>& a,
+                                         const std::vector<std::size_t>& b) {
+    std::vector<std::size_t> both;
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    return both;
+  }
+
+  static double mean(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
+    double sum = 0;
+    int count = 0;
+    for (const std::size_t r : which)
+      if (!std::isnan(numbers[r])) sum += numbers[r], ++count;
+    return count ? sum / count : NAN;
+  }
+
+  void draw_map(const ShownMetric& metric, const std::vector<double>& numbers) {
+    std::vector<std::size_t> grid = free_;
+    std::erase_if(grid, [&](std::size_t a) { return axis(a).sampled; });
+    if (grid.size() < 2) return;
+    std::stable_sort(grid.begin(), grid.end(), [&](std::size_t a, std::size_t b) {
+      return axis(a).values.size() > axis(b).values.size();
+    });
+    const std::size_t x = grid[0], y = grid[1];
+    const Groups maps = grouped(all(), {grid.begin() + 2, grid.end()});
+    const std::string name = "plot_" + metric.name + "-map";
+    if (maps.size() > kMostPanels) {
+      run_.progress(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
+      return;
+    }
+    const Groups columns = grouped(all(), {x});
+    Groups rows = grouped(all(), {y});
+    if (!axis(y).numeric) std::reverse(rows.begin(), rows.end());  // names are read from above
+    std::vector<std::vector<std::vector<double>>> means;
+    for (const auto& [title, which] : maps) {
+      means.emplace_back();
+      for (const auto& row : rows) {
+        means.back().emplace_back();
+        for (const auto& column : columns)
+          means.back().back().push_back(mean(numbers, common(common(which, row.second), column.second)));
+      }
+    }
+    render::HeatMaps page = map_page(metric, x, y, columns, rows);
+    color_cells(page, maps, means);
+    if (page.kinds.empty()) return;
+    run_.plot(name, [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
+  }
+
+  render::HeatMaps map_page(const ShownMetric& metric, std::size_t x, std::size_t y, const Groups& columns,
+                            const Groups& rows) const {
+    render::HeatMaps page{study_.experiment + ": " + metric.label,
+                          "Number: mean of the runs.",
+                          {label(axis(x)), {}},
+                          {label(axis(y)), {}},
+                          {},
+                          {}};
+    for (const auto& column : columns) page.x.ticks.push_back(shown_value(x, column.second.front()));
+    for (const auto& row : rows) page.y.ticks.push_back(shown_value(y, row.second.front()));
+    page.cell_width = 70;
+    return page;
+  }
+
+  // Equal parts of the range of all maps; light colours, so that numbers can be read on them.
+  static void color_cells(render::HeatMaps& page, const Groups& maps,
+                          const std::vector<std::vector<std::vector<double>>>& means) {
+    constexpr int kParts = 5;
+    constexpr float kDarkest = 0.55f;
+    double low = INFINITY, high = -INFINITY;
+    for (const auto& map : means)
+      for (const auto& row : map)
+        for (const double x : row)
+          if (!std::isnan(x)) low = std::min(low, x), high = std::max(high, x);
+    if (!(low <= high)) return;
+    const double part = (high - low) / kParts;
+    for (int k = 0; k < kParts; ++k)
+      page.kinds.push_back(
+          {fmt::format("{:.3g} to {:.3g}", low + k * part, low + (k + 1) * part),
+           hex(render::map_color8(render::ColorMap::sequential,
+                                  kDarkest + (1 - kDarkest) * static_cast<float>(k) / (kParts - 1)))});
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+      render::HeatMap map{maps[m].first, {}};
+      for (const auto& row : means[m]) {
+        map.rows.emplace_back();
+        for (const double x : row) {
+          const int kind = part > 0 ? std::min(kParts - 1, static_cast<int>((x - low) / part)) : 0;
+          map.rows.back().push_back(std::isnan(x) ? render::HeatMapCell{}
+                                                  : render::HeatMapCell{kind, fmt::format("{:.3g}", x)});
+        }
+      }
+      page.maps.push_back(std::move(map));
+    }
+  }
+
+  Run& run_;
+  const Study& study_;
+  std::vector<std::size_t> free_;  // axes with several values, without that of repeated draws
+};
+
+}  // namespace
+
+void plot_study(Run& run, const Study& study, const std::vector<SweepColumn>& runs,
+                const std::vector<std::string>& metrics) {
+  StudyPlots plots(run, study);
+  for (const std::string& name : metrics) {
+    const ShownMetric metric = shown_metric(study.experiment, name);
+    std::vector<double> numbers = numbers_of(runs, name);
+    for (double& number : numbers) number *= metric.scale;
+    plots.draw(metric, numbers);
+  }
+}
+
+}  // namespace hysteron::experiments

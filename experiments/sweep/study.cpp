@@ -1,0 +1,115 @@
+#include "experiments/sweep/study.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "experiments/workbench/compare/variants.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr std::size_t kLongestName =
+    200;  // file systems take 255 bytes; files beside the folder may add some
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// "k0" of "fabric.k0", unless another axis ends so.
+std::string short_name(const std::vector<StudyAxis>& axes, const StudyAxis& axis) {
+  const std::string last = last_part(axis.key);
+  const auto shared = std::count_if(axes.begin(), axes.end(),
+                                    [&](const StudyAxis& other) { return last_part(other.key) == last; });
+  return shared > 1 ? axis.key : last;
+}
+
+// A value as part of a file's name; other characters than these mean something to shells.
+std::string plain(const std::string& value) {
+  std::string name = column_name(value);
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) &&
+        std::string_view("._+-").find(c) == std::string_view::npos)
+      c = '-';
+  return name;
+}
+
+// `number` with as many digits as `most` has.
+std::string padded(std::size_t number, std::size_t most) {
+  const std::string digits = std::to_string(number);
+  return std::string(std::to_string(most).size() - digits.size(), '0') + digits;
+}
+
+// What runs are combined of: one axis, or all that are sampled.
+struct Part {
+  std::vector<std::size_t> axes;
+  std::size_t size;
+};
+
+std::vector<Part> parts_of(const std::vector<StudyAxis>& axes) {
+  std::vector<Part> parts;
+  std::size_t sample = axes.size();  // its part
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    if (axes[a].sampled && sample < axes.size()) {
+      parts[sample].axes.push_back(a);
+      continue;
+    }
+    if (axes[a].sampled) sample = parts.size();
+    parts.push_back({{a}, axes[a].values.size()});
+  }
+  return parts;
+}
+
+void name_runs(const std::vector<StudyAxis>& axes, const std::vector<Part>& parts,
+               std::vector<StudyRun>& runs) {
+  std::set<std::string> taken;
+  bool too_long = false;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::string& name = runs[r].name;
+    std::size_t stride = runs.size();
+    for (const Part& part : parts) {
+      stride /= part.size;
+      const StudyAxis& axis = axes[part.axes.front()];
+      const std::string value = axis.sampled
+                                    ? "sample=" + padded(r / stride % part.size + 1, part.size)
+                                    : short_name(axes, axis) + "=" + plain(runs[r].values[part.axes[0]]);
+      name += (name.empty() ? "" : ",") + value;
+    }
+    const std::string stem = name;
+    for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);
+    too_long = too_long || name.size() > kLongestName;
+  }
+  if (!too_long) return;
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r].name = "run=" + padded(r + 1, runs.size());
+}
+
+}  // namespace
+
+bool is_seed(const StudyAxis& axis) { return axis.key == kSeedKey; }
+
+std::vector<StudyRun> runs_of(const std::vector<StudyAxis>& axes) {
+  const std::vector<Part> parts = parts_of(axes);
+  std::size_t count = 1;
+  for (const Part& part : parts) count *= part.size;
+  std::vector<StudyRun> runs(count, {"", std::vector<std::string>(axes.size())});
+  for (std::size_t r = 0; r < count; ++r) {
+    std::size_t stride = count;
+    for (const Part& part : parts) {
+      stride /= part.size;
+      for (const std::size_t a : part.axes) runs[r].values[a] = axes[a].values[r / stride % part.size];
+    }
+  }
+  name_runs(axes, parts, runs);
+  return runs;
+}
+
+CommandLine line_of(const Study& study, const StudyRun& run) {
+  CommandLine line{study.experiment, "hysteron " + study.experiment, study.shared, {}};
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const std::string& key = study.axes[a].key;
+    const bool parameter = key.starts_with("param.");
+    line.flags.push_back(parameter ? Flag{"param", key.substr(6) + "=" + run.values[a]}
+                                   : Flag{key, run.values[a]});
+  }
+  return line;
+}
+
+}  // namespace hysteron::experiments

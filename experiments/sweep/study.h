@@ -1,0 +1,61 @@
+// A study: one experiment, what all of its runs are asked for, and the axes along which they differ.
+//
+//   study file -> axes -> runs, every combination of their values -> a folder each, OUT/runs/NAME/
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+struct StudyAxis {
+  std::string key;                  // of a scene or the experiment: "fabric.k0", "param.stack"
+  std::string unit;                 // of its values, "" for texts
+  std::vector<std::string> values;  // as flags take them, in the order in which they are run
+  bool numeric = false;             // all of them are numbers
+  bool logarithmic = false;         // in plots
+  bool sampled = false;             // together with the other axes that are, not on a grid
+};
+
+// The axis of repeated draws.
+inline constexpr const char* kSeedKey = "seed";
+bool is_seed(const StudyAxis& axis);
+
+struct StudyRun {
+  std::string name;                 // of its folder: "k0=12.5,law=dahl,seed=3"
+  std::vector<std::string> values;  // one of each axis
+};
+
+// What a scheduler is told of a job.
+struct JobResources {
+  int runs = 1;  // one after the other
+  int cores = 1;
+  int memory = 1000;  // [MB]
+  int gpus = 0;
+  int minutes = 60;  // of wall clock
+};
+
+struct Study {
+  std::string file;
+  std::string experiment;
+  std::vector<Flag> shared;  // keys that all runs have in common
+  std::vector<StudyAxis> axes;
+  std::vector<std::string> metrics;  // that pages show; empty: the experiment's headlines
+  JobResources resources;
+  std::vector<StudyRun> runs;
+};
+
+// Of a file or of assets/studies.  Throws Error::machine if it cannot be read, Error::request with file,
+// line, key and what is allowed for everything that a run would refuse of a single key.
+Study read_study(const std::string& name_or_file);
+
+// Every combination of the axes' values, the last axis first; sampled axes go together.  Names are those of
+// files everywhere and differ from each other.
+std::vector<StudyRun> runs_of(const std::vector<StudyAxis>& axes);
+
+// What the run is asked for.
+CommandLine line_of(const Study& study, const StudyRun& run);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,371 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "experiments/sweep/latin_hypercube.h"
+#include "experiments/sweep/study.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/toml_file.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double kMostValues = 100000, kMostRuns = 1e6;
+constexpr int kDigits = 6;  // of values that a range or a sample gives: they stand in names and tables
+
+// Of those that a study leaves to `sweep` itself.
+const std::set<std::string> kOfTheSweep = {"out", "quiet", "json", "resume", "threads", "explain"};
+
+std::vector<KeyDescription> keys_of(const Experiment& experiment) {
+  std::vector<KeyDescription> keys;
+  if (experiment.own_keys) keys = experiment.own_keys();
+  if (!experiment.simulates) return keys;
+  Options options;
+  Scene scene;
+  for (const Keys& general : {bind_options(options), bind_scene(scene)})
+    for (const KeyDescription& key : descriptions(general)) keys.push_back(key);
+  return keys;
+}
+
+// It writes a folder with a manifest, and flags alone say what; one whose argument is a scene takes it as
+// --scene, too.
+bool can_be_repeated(const Experiment& experiment) {
+  const bool by_flags = !*experiment.names || (experiment.simulates && experiment.defaults);
+  if (!experiment.run || !by_flags) return false;
+  const std::vector<KeyDescription> keys = keys_of(experiment);
+  const auto takes = [&](const char* path) {
+    return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
+  };
+  return takes("out") && takes("quiet");
+}
+
+// A place for a value of each type, which is only checked.
+struct Scratch {
+  bool flag = false;
+  int integer = 0;
+  double number = 0;
+  Eigen::Vector3d vector;
+  std::string text;
+  Parameters parameters;
+  Numbers numbers;
+
+  Field field(const std::string& type) {
+    if (type == "flag") return &flag;
+    if (type == "integer") return &integer;
+    if (type == "number") return &number;
+    if (type == "vector") return &vector;
+    if (type == "name=value") return &parameters;
+    if (type == "numbers") return &numbers;
+    return &text;
+  }
+};
+
+// As a flag takes it: integers without an exponent.
+std::string flag_text(double x) {
+  constexpr double kExact = 1e15;
+  return x == std::floor(x) && std::abs(x) < kExact ? fmt::format("{:.0f}", x) : number_text(x);
+}
+
+std::string flag_text(const Value& value) {
+  if (const auto* x = std::get_if<bool>(&value)) return *x ? "true" : "false";
+  if (const auto* x = std::get_if<std::int64_t>(&value)) return std::to_string(*x);
+  if (const auto* x = std::get_if<double>(&value)) return flag_text(*x);
+  if (const auto* x = std::get_if<std::string>(&value)) return *x;
+  std::vector<std::string> words;
+  for (double x : std::get<std::vector<double>>(value)) words.push_back(number_text(x));
+  return join(words, " ");
+}
+
+class StudyFile {
+ public:
+  explicit StudyFile(const std::string& file) : file_(file) { study_.file = file; }
+
+  Study read(const TomlNode& root) {
+    refuse_unknown(root, {"experiment", "scene", "axis", "sample", "seeds", "metrics", "resources"}, "");
+    choose_experiment(root);
+    if (const TomlNode* scene = root.find("scene")) read_scene("", table(*scene));
+    if (const TomlNode* axes = root.find("axis")) read_axes(*axes);
+    read_sample(root.find("sample"));
+    if (const TomlNode* seeds = root.find("seeds")) add_seeds(*seeds);
+    if (const TomlNode* metrics = root.find("metrics")) study_.metrics = texts(*metrics);
+    if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
+    if (study_.axes.empty())
+      throw Error::request("a study needs an [[axis]] or seeds (" + file_ + ")").of("axis", "");
+    check_number_of_runs();
+    study_.runs = runs_of(study_.axes);
+    return std::move(study_);
+  }
+
+ private:
+  std::string at(const TomlNode& node) const { return place(file_, node); }
+
+  Error refusal(const TomlNode& node, const std::string& what) const {
+    return Error::request(what).from(at(node));
+  }
+
+  void refuse_unknown(const TomlNode& of, const std::vector<std::string>& known,
+                      const std::string& prefix) const {
+    for (const TomlNode& child : of.children) {
+      if (std::count(known.begin(), known.end(), child.key)) continue;
+      const std::string nearest = nearest_name(child.key, known);
+      throw refusal(child, "unknown key " + prefix + child.key + "; " +
+                               (nearest.empty() ? "there are: " + join(known, ", ")
+                                                : "did you mean " + prefix + nearest + "?"))
+          .of(prefix + child.key, "");
+    }
+  }
+
+  const TomlNode& table(const TomlNode& node) const {
+    if (node.kind != TomlNode::Kind::table)
+      throw refusal(node, node.key + " must be a table, [" + node.key + "]");
+    return node;
+  }
+
+  std::string text(const TomlNode& of, const char* key, const std::string& name) const {
+    const TomlNode* node = of.find(key);
+    const auto* text = node ? std::get_if<std::string>(&node->value) : nullptr;
+    if (!text || text->empty()) throw refusal(node ? *node : of, name + " must be a text");
+    return *text;
+  }
+
+  // One value as flags take it; files that stand beside the study are found there.
+  std::string one_value(const TomlNode& node, const std::string& name) const {
+    if (node.kind != TomlNode::Kind::value) throw refusal(node, name + " must be one value");
+    const std::string text = flag_text(node.value);
+    const fs::path beside = fs::path(file_).parent_path() / text;
+    std::error_code ignored;
+    const bool names_a_file = fs::path(text).has_extension() && !fs::exists(text, ignored);
+    return names_a_file && fs::is_regular_file(beside, ignored) ? beside.string() : text;
+  }
+
+  std::vector<std::string> texts(const TomlNode& node) const {
+    std::vector<std::string> values;
+    if (const auto* numbers = std::get_if<std::vector<double>>(&node.value);
+        node.kind == TomlNode::Kind::value && numbers) {
+      for (double x : *numbers) values.push_back(flag_text(x));
+    } else if (node.kind == TomlNode::Kind::array) {
+      for (const TomlNode& child : node.children) values.push_back(one_value(child, node.key));
+    }
+    if (values.empty()) throw refusal(node, node.key + " must be a list of numbers or texts");
+    return values;
+  }
+
+  int integer(const TomlNode& node, const std::string& name, double low, double high) const {
+    const KeyDescription key{name, "integer", "", between(low, high), {}, {}, "", ""};
+    int number = 0;
+    assign({key, &number}, node.kind == TomlNode::Kind::value ? node.value : Value(std::string("a table")),
+           at(node));
+    return number;
+  }
+
+  void choose_experiment(const TomlNode& root) {
+    study_.experiment = text(root, "experiment", "experiment");
+    std::vector<std::string> known;
+    for (const Experiment& e : experiments())
+      if (can_be_repeated(e)) known.push_back(e.name);
+    if (!std::count(known.begin(), known.end(), study_.experiment))
+      throw refusal(*root.find("experiment"),
+                    "experiment = " + study_.experiment + " must be " + join(known, " | "))
+          .of("experiment", study_.experiment);
+    for (const KeyDescription& key : keys_of(experiment_named(study_.experiment)))
+      keys_.push_back({key, Field{}});
+  }
+
+  // As flags are called.
+  static std::string flag_of(const std::string& key) { return key == "fabric.name" ? "fabric" : key; }
+
+  // A key of the experiment by its name in the study, "param.stack" being of key "param".
+  const KeyDescription& known_key(const std::string& key, const TomlNode& node) const {
+    if (kOfTheSweep.contains(key))
+      throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").of(key, "");
+    if (key.starts_with("param.")) return find_key(keys_, "param", at(node)).description;
+    return find_key(keys_, key == "fabric" ? "fabric.name" : key, at(node)).description;
+  }
+
+  void check_value(const std::string& key, const KeyDescription& description, const std::string& value,
+                   const TomlNode& node) const {
+    Scratch scratch;
+    const std::string text = key.starts_with("param.") ? key.substr(6) + "=" + value : value;
+    assign({description, scratch.field(description.type)}, parse_text(description, text), at(node));
+    if (description.path == "fabric.name") find_asset("fabrics", value, key + ", " + at(node));
+    if (key == "scene") find_asset("scenes", value, key + ", " + at(node));
+    const std::vector<std::string> laws = law_names();
+    if (key == "law" && !std::count(laws.begin(), laws.end(), value))
+      throw refusal(node, "law = " + value + " must be " + join(laws, " | ")).of(key, value);
+  }
+
+  void read_scene(const std::string& prefix, const TomlNode& of) {
+    for (const TomlNode& child : of.children) {
+      const std::string key = flag_of(prefix + child.key);
+      if (child.kind == TomlNode::Kind::table) {
+        read_scene(key + ".", child);
+        continue;
+      }
+      const KeyDescription& description = known_key(key, child);
+      const std::string value = one_value(child, key);
+      check_value(key, description, value, child);
+      const bool parameter = key.starts_with("param.");
+      study_.shared.push_back(parameter ? Flag{"param", key.substr(6) + "=" + value} : Flag{key, value});
+      set_.insert(key);
+    }
+  }
+
+  void read_axes(const TomlNode& axes) {
+    if (axes.kind != TomlNode::Kind::array) throw refusal(axes, "axis must be an array of tables, [[axis]]");
+    for (const TomlNode& node : axes.children) {
+      table(node);
+      refuse_unknown(node, {"key", "values", "linear", "log"}, "axis.");
+      read_axis(flag_of(text(node, "key", "axis.key")), node);
+    }
+  }
+
+  void read_axis(const std::string& key, const TomlNode& node) {
+    const KeyDescription& description = known_key(key, *node.find("key"));
+    if (!set_.insert(key).second)
+      throw refusal(node, key + " is set twice: an axis varies what nothing else sets").of(key, "");
+    if (node.children.size() != 2)
+      throw refusal(node, "the axis " + key + " must have one of values, linear, log").of(key, "");
+    const TomlNode& given = node.children[node.children[0].key == "key" ? 1 : 0];
+    StudyAxis axis{key, description.unit, {}, false, given.key == "log", false};
+    if (given.key == "values")
+      axis.values = texts(given);
+    else
+      read_range(axis, given);
+    for (const std::string& value : axis.values) check_value(key, description, value, given);
+    for (std::size_t i = 1; i < axis.values.size(); ++i)
+      if (std::count(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(i),
+                     axis.values[i]))
+        throw refusal(given, key + " = " + axis.values[i] + " stands twice among the values").of(key, "");
+    axis.numeric = std::all_of(axis.values.begin(), axis.values.end(),
+                               [](const std::string& value) { return number_in(value).has_value(); });
+    if (!axis.numeric) axis.unit.clear();
+    study_.axes.push_back(std::move(axis));
+  }
+
+  // [from, to, n], or [from, to] where it is sampled: its ends are then checked as its values.
+  void read_range(StudyAxis& axis, const TomlNode& given) {
+    const std::string name = axis.key + ": " + given.key;
+    const auto* range = std::get_if<std::vector<double>>(&given.value);
+    if (given.kind != TomlNode::Kind::value || !range || range->size() < 2 || range->size() > 3)
+      throw refusal(given, name + " must be [from, to, n], or [from, to] of an axis that [sample] draws");
+    const double from = (*range)[0], to = (*range)[1];
+    if (!std::isfinite(from) || !std::isfinite(to) || from == to)
+      throw refusal(given, name + " must lead from one finite number to another");
+    if (axis.logarithmic && (from <= 0 || to <= 0))
+      throw refusal(given, fmt::format("{} = [{:g}, {:g}] must have ends > 0", name, from, to));
+    axis.sampled = range->size() == 2;
+    if (axis.sampled) {
+      axis.values = {flag_text(from), flag_text(to)};
+      return;
+    }
+    const double n = (*range)[2];
+    if (!(n >= 2 && n <= kMostValues) || n != std::floor(n))
+      throw refusal(given,
+                    fmt::format("{}: n = {:g} must be an integer in [2, {:.0f}]", name, n, kMostValues));
+    for (int i = 0; i < n; ++i) axis.values.push_back(between_ends(axis, from, to, i / (n - 1)));
+  }
+
+  // The number at `part` of the way, rounded as it is shown; the ends are exact.
+  std::string between_ends(const StudyAxis& axis, double from, double to, double part) const {
+    if (part == 0) return flag_text(from);
+    if (part == 1) return flag_text(to);
+    const double x = axis.logarithmic ? from * std::pow(to / from, part) : from + (to - from) * part;
+    return flag_text(*number_in(fmt::format("{:.{}g}", x, kDigits)));
+  }
+
+  // Each integer has a part of the range of its own, the last one too.
+  std::string integer_between(const StudyAxis& axis, double low, double high, double part) const {
+    return flag_text(std::min(high, std::floor(*number_in(between_ends(axis, low, high + 1, part)))));
+  }
+
+  void read_sample(const TomlNode* node) {
+    const auto is_sampled = [](const StudyAxis& axis) { return axis.sampled; };
+    const auto sampled = std::count_if(study_.axes.begin(), study_.axes.end(), is_sampled);
+    if (!node && sampled == 0) return;
+    if (!node)
+      throw Error::request(std::find_if(study_.axes.begin(), study_.axes.end(), is_sampled)->key +
+                           " has a range without n, which needs [sample] with method and n (" + file_ + ")");
+    table(*node);
+    refuse_unknown(*node, {"method", "n", "seed"}, "sample.");
+    if (const std::string method = text(*node, "method", "sample.method"); method != "latin")
+      throw refusal(*node->find("method"), "sample.method = " + method + " must be latin")
+          .of("method", method);
+    if (!node->find("n")) throw refusal(*node, "sample.n must be given: how often is drawn");
+    if (sampled == 0)
+      throw refusal(*node, "[sample] needs an axis with a range without n: linear = [from, to]");
+    const int n = integer(*node->find("n"), "sample.n", 1, kMostValues);
+    const TomlNode* seed = node->find("seed");
+    draw(static_cast<std::size_t>(sampled), static_cast<std::size_t>(n),
+         seed ? integer(*seed, "sample.seed", 0, std::numeric_limits<int>::max()) : 1);
+  }
+
+  void draw(std::size_t sampled, std::size_t n, int seed) {
+    const auto drawn = latin_hypercube(sampled, n, static_cast<std::uint64_t>(seed));
+    std::size_t next = 0;
+    for (StudyAxis& axis : study_.axes) {
+      if (!axis.sampled) continue;
+      const auto [low, high] = std::minmax({*number_in(axis.values[0]), *number_in(axis.values[1])});
+      const bool whole = known_key(axis.key, {}).type == "integer";
+      axis.values.clear();
+      for (const double part : drawn[next])
+        axis.values.push_back(whole ? integer_between(axis, low, high, part)
+                                    : between_ends(axis, low, high, part));
+      ++next;
+    }
+  }
+
+  void add_seeds(const TomlNode& node) {
+    const int n = integer(node, "seeds", 1, kMostValues);
+    known_key(kSeedKey, node);
+    if (set_.contains(kSeedKey))
+      throw refusal(node, "seeds repeats runs with seed = 1, 2, ...: seed is set already");
+    StudyAxis axis{kSeedKey, "", {}, true, false, false};
+    for (int i = 1; i <= n; ++i) axis.values.push_back(std::to_string(i));
+    study_.axes.push_back(std::move(axis));
+  }
+
+  void read_resources(const TomlNode& node) {
+    refuse_unknown(node, {"runs", "cores", "memory", "gpus", "minutes"}, "resources.");
+    JobResources& r = study_.resources;
+    const auto read = [&](const char* key, int& number, double low, double high) {
+      if (const TomlNode* given = node.find(key))
+        number = integer(*given, std::string("resources.") + key, low, high);
+    };
+    read("runs", r.runs, 1, kMostValues);
+    read("cores", r.cores, 1, 1024);
+    read("memory", r.memory, 1, 1e8);
+    read("gpus", r.gpus, 0, 64);
+    read("minutes", r.minutes, 1, 1e6);
+  }
+
+  void check_number_of_runs() const {
+    double runs = 1;
+    bool sample = false;
+    for (const StudyAxis& axis : study_.axes) {
+      if (!axis.sampled || !sample) runs *= static_cast<double>(axis.values.size());
+      sample = sample || axis.sampled;
+    }
+    if (runs > kMostRuns)
+      throw Error::request(fmt::format("{:g} runs must be <= {:.0f} ({})", runs, kMostRuns, file_));
+  }
+
+  std::string file_;
+  Study study_;
+  Keys keys_;                  // without fields
+  std::set<std::string> set_;  // by [scene] or an axis
+};
+
+}  // namespace
+
+Study read_study(const std::string& name_or_file) {
+  const std::string file = find_asset("studies", name_or_file, "sweep").string();
+  return StudyFile(file).read(read_toml(file, TomlLists::allowed));
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,279 @@
+// One experiment over the axes of a study: a run for each combination of their values, a process and a folder
+// each, and one table, curves, maps and a page of all.
+//
+//   study file -> OUT/runs/NAME/ -> OUT/table.csv, OUT/means.csv -> plots -> OUT/report.html
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "experiments/sweep/outcome.h"
+#include "experiments/sweep/plots.h"
+#include "experiments/sweep/study.h"
+#include "experiments/sweep/tables.h"
+#include "experiments/sweep/workflow.h"
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/app/run_folder.h"
+#include "experiments/workbench/app/time_left.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+#include "sim/scene/assets.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct SweepChoice {
+  int jobs = 0;
+  int threads = 1;
+  bool resume = false;
+  bool collect = false;
+  std::string only, part, snakemake;
+};
+using S = SweepChoice;
+// clang-format off
+const KeyRow<S> kRows[] = {
+    {"jobs", at<&S::jobs>, "", between(0, 1024), "", "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
+    {"threads", at<&S::threads>, "", between(1, 1024), "", "of each run on the CPU"},
+    {"resume", at<&S::resume>, "", any(), "", "go on with a study: runs that the same program has finished are kept, interrupted ones go on from their checkpoints"},
+    {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there"},
+    {"only", at<&S::only>, "", any(), "", "the run of this name alone, without table and page; a finished one is kept"},
+    {"part", at<&S::part>, "", any(), "", "K/N: only the K-th of N equal parts of the runs, without table and page; finished ones are kept"},
+    {"snakemake", at<&S::snakemake>, "", any(), "", "folder: write the study as a Snakemake workflow there, and run nothing"},
+};
+// clang-format on
+
+Keys keys_of(SweepChoice& choice, Options& options) {
+  Keys keys = with_output_options(bind(kRows, choice), options);
+  std::erase_if(keys, [](const BoundKey& key) { return key.description.path == "quick"; });
+  return keys;
+}
+
+std::vector<KeyDescription> own_keys() {
+  SweepChoice choice;
+  Options options;
+  return descriptions(keys_of(choice, options));
+}
+
+std::vector<SweepColumn> columns_of(const Study& study, const std::filesystem::path& out) {
+  std::vector<SweepColumn> columns;
+  columns.reserve(study.runs.size());
+  for (const StudyRun& run : study.runs)
+    columns.push_back(column_of(run.name, line_of(study, run), {}, out / "runs"));
+  return columns;
+}
+
+// What the manifest keeps of the study, whose file may be changed.
+Json keys_of(const Study& study) {
+  Json shared = Json::array(), axes = Json::array();
+  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
+  for (const StudyAxis& axis : study.axes) axes.push_back({{"key", axis.key}, {"values", axis.values}});
+  return {{"study", asset_name(study.file)},
+          {"experiment", study.experiment},
+          {"shared", shared},
+          {"axes", axes}};
+}
+
+bool may_use_gpu(const CommandLine& line) {
+  const Experiment& experiment = experiment_named(line.experiment);
+  if (!experiment.simulates) return false;
+  const bool cpu = experiment.defaults && experiment.defaults().scene.device == DeviceChoice::cpu;
+  return last_text(line.flags, "device", cpu ? "cpu" : "auto") != "cpu";
+}
+
+SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {
+  SweepJobs jobs;
+  jobs.threads = choice.threads;
+  jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
+  jobs.checkpoints = jobs.resume;
+  jobs.gpu =
+      std::any_of(runs.begin(), runs.end(), [](const SweepColumn& run) { return may_use_gpu(run.line); });
+  jobs.go_on = true;
+  std::string reason;
+  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  jobs.at_once = choice.jobs > 0 ? choice.jobs : gpus > 0 ? gpus : std::max(1, cores / choice.threads);
+  return jobs;
+}
+
+// What the study says as its runs end, and what it counts.
+class Progress {
+ public:
+  Progress(const Run& run, std::size_t all) : run_(run), all_(all) {}
+
+  void ended(const SweepColumn& column) {
+    ++(column.kept ? kept_ : done_);
+    if (column.kept) return;
+    if (!column.stopped.empty()) ++failed_;
+    own_seconds_ += column.seconds;
+    const long all = static_cast<long>(all_ - kept_);
+    run_.progress(fmt::format("{}/{}  {}: {}{}", done_ + kept_, all_, column.name, outcome_of(column),
+                              time_left(static_cast<long>(done_), all, seconds(), false)));
+  }
+
+  // How far long runs are, every now and then.
+  void running(const std::string& line) {
+    constexpr double kPatience = 30;  // [s]
+    if (seconds() - said_ < kPatience) return;
+    said_ = seconds();
+    run_.progress("running: " + line);
+  }
+
+  // `at_once` ideal cores would have taken the runs' own time over their number.
+  void note(Run& run, int at_once) const {
+    run.metric("runs_count", all_);
+    run.metric("kept_count", kept_);
+    run.metric("failed_count", failed_);
+    run.metric("runs_wall_s", own_seconds_);
+    if (own_seconds_ > 0) run.metric("overhead_percent", 100 * (at_once * took_ / own_seconds_ - 1));
+  }
+  void stop() { took_ = seconds(); }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  const Run& run_;
+  std::size_t all_, done_ = 0, kept_ = 0, failed_ = 0;
+  double own_seconds_ = 0, took_ = 0, said_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+// A table needs no more of a manifest than what it found: a hundred thousand of them have to fit.
+void forget_the_scene(SweepColumn& column) {
+  if (!column.manifest) return;
+  column.manifest->keys.reset();
+  column.manifest->scene = {};
+  column.manifest->own.clear();
+}
+
+void run_all(Run& run, std::vector<SweepColumn>& runs, const SweepJobs& jobs) {
+  const auto stage = run.stage("runs");
+  Progress progress(run, runs.size());
+  run_columns(
+      runs, jobs,
+      [&](SweepColumn& column) {
+        if (!column.kept) write_outcome(column);
+        progress.ended(column);
+        forget_the_scene(column);
+      },
+      [&](const std::string& line) { progress.running(line); });
+  progress.stop();
+  progress.note(run, std::min(jobs.at_once, static_cast<int>(runs.size())));
+}
+
+void collect(Run& run, std::vector<SweepColumn>& runs) {
+  std::size_t failed = 0;
+  for (SweepColumn& column : runs) {
+    recall_outcome(column);
+    forget_the_scene(column);
+    if (!column.stopped.empty()) ++failed;
+  }
+  run.metric("runs_count", runs.size());
+  run.metric("failed_count", failed);
+}
+
+void write_results(Run& run, const Study& study, const std::vector<SweepColumn>& runs, bool with_plots) {
+  write_table(run.path("table.csv"), table_of_runs(study, runs));
+  const std::vector<std::string> metrics = metrics_shown(study, runs);
+  const bool repeated = std::any_of(study.axes.begin(), study.axes.end(), is_seed);
+  if (repeated && !metrics.empty()) write_table(run.path("means.csv"), table_of_means(study, runs, metrics));
+  if (with_plots) plot_study(run, study, runs, metrics);
+  run.path("report.html");
+  run.finish();
+  write_report(run.folder());
+}
+
+// The study cannot be said to be done where runs are missing: exit code 3, with the first reason.
+void refuse_failed(const Run& run, const std::vector<SweepColumn>& runs) {
+  const auto failed = [](const SweepColumn& column) { return !column.stopped.empty(); };
+  const auto count = std::count_if(runs.begin(), runs.end(), failed);
+  if (count == 0) return;
+  const SweepColumn& first = *std::find_if(runs.begin(), runs.end(), failed);
+  throw Error::run(fmt::format("{} of {} runs are not complete ({}), the first {}: {}", count, runs.size(),
+                               (run.folder() / "table.csv").string(), first.name, first.stopped));
+}
+
+// The runs that --only or --part names.
+std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const SweepChoice& choice) {
+  std::vector<SweepColumn> some;
+  if (!choice.only.empty()) {
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
+                 [&](const SweepColumn& column) { return column.name == choice.only; });
+    if (some.empty())
+      throw Error::request("no run is called " + choice.only + " (--only)").of("only", choice.only);
+    return some;
+  }
+  const std::size_t slash = std::min(choice.part.find('/'), choice.part.size());
+  const double k = number_in(choice.part.substr(0, slash)).value_or(0);
+  const double n = number_in(choice.part.substr(std::min(slash + 1, choice.part.size()))).value_or(0);
+  const auto all = static_cast<double>(runs.size());
+  if (!(k >= 1 && k <= n && n <= all) || k != std::floor(k) || n != std::floor(n))
+    throw Error::request(fmt::format("part = {} must be K/N with integers 1 <= K <= N <= {} (--part)",
+                                     choice.part, runs.size()))
+        .of("part", choice.part);
+  const auto end = [&](double part) {
+    return runs.begin() + static_cast<std::ptrdiff_t>(std::ceil(all * part / n));
+  };
+  return {end(k - 1), end(k)};
+}
+
+// Without the study's own files, beside others that do so.  A run that is refused or cannot go on has an
+// outcome that another attempt would not change; one whose machine fails has none.
+int run_some(std::vector<SweepColumn> runs, const SweepChoice& choice, bool quiet) {
+  for (const SweepColumn& column : runs)
+    if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
+  run_columns(
+      runs, jobs_of(choice, runs),
+      [&](const SweepColumn& column) {
+        if (column.exit_code == 0 || is_settled(column)) write_outcome(column);
+        if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
+      },
+      [](const std::string&) {});
+  const auto failed = std::find_if(runs.begin(), runs.end(), [](const SweepColumn& column) {
+    return !column.stopped.empty() && !is_settled(column);
+  });
+  if (failed != runs.end()) throw Error::machine(failed->name + ": " + failed->stopped);
+  return 0;
+}
+
+int run_sweep(const CommandLine& line) {
+  if (line.names.size() != 1) throw Error::request("needs one study: a file, or a name in assets/studies");
+  SweepChoice choice;
+  Options options;
+  set_keys(line, keys_of(choice, options));
+  const Study study = read_study(line.names[0]);
+  if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
+  std::vector<SweepColumn> runs = columns_of(study, options.out);
+  if (!choice.snakemake.empty()) return write_workflow(choice.snakemake, study, options.out), 0;
+  if (!choice.only.empty() || !choice.part.empty())
+    return run_some(chosen(runs, choice), choice, options.quiet);
+  Run run(line, options, keys_of(study));
+  run.path("table.csv");
+  if (choice.collect)
+    collect(run, runs);
+  else
+    run_all(run, runs, jobs_of(choice, runs));
+  write_results(run, study, runs, !options.no_images);
+  refuse_failed(run, runs);
+  return 0;
+}
+
+}  // namespace
+
+Experiment sweep() {
+  return {.name = "sweep",
+          .question = "an experiment over the axes of a study: one table, curves, maps",
+          .run = run_sweep,
+          .own_keys = own_keys,
+          .names = "STUDY"};
+}
+
+}  // namespace hysteron::experiments

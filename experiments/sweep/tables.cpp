@@ -1,0 +1,143 @@
+#include "experiments/sweep/tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "experiments/workbench/app/headlines.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Numbers, truths and texts as a field of a table; "" for others.
+std::string field_of(const MetricValue& value) {
+  if (value.is_number()) return number_text(value.number());
+  if (value.is_text()) return value.text();
+  return value.is(true) ? "1" : value.is(false) ? "0" : "";
+}
+
+std::vector<std::string> metrics_of_any(const std::vector<SweepColumn>& runs) {
+  std::vector<std::string> names;
+  for (const SweepColumn& run : runs)
+    for (const auto& [name, value] : run.metrics())
+      if (!field_of(value).empty() && !std::count(names.begin(), names.end(), name)) names.push_back(name);
+  return names;
+}
+
+bool differs(const std::vector<SweepColumn>& runs, const std::string& metric) {
+  std::vector<double> known = numbers_of(runs, metric);
+  std::erase_if(known, [](double x) { return std::isnan(x); });
+  return !known.empty() && std::any_of(known.begin(), known.end(), [&](double x) { return x != known[0]; });
+}
+
+// Mean and its standard error of the numbers that are known.
+struct Mean {
+  int count = 0;
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();
+};
+
+Mean mean_of(const std::vector<double>& numbers, const std::vector<std::size_t>& which) {
+  Mean mean;
+  double sum = 0, squares = 0;
+  for (const std::size_t r : which)
+    if (!std::isnan(numbers[r])) sum += numbers[r], ++mean.count;
+  if (mean.count == 0) return mean;
+  mean.value = sum / mean.count;
+  for (const std::size_t r : which)
+    if (!std::isnan(numbers[r])) squares += (numbers[r] - mean.value) * (numbers[r] - mean.value);
+  if (mean.count > 1) mean.error = std::sqrt(squares / (mean.count - 1) / mean.count);
+  return mean;
+}
+
+// Numbers of the runs by their values but for the seed, in the order of the first.
+std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points_of(const Study& study) {
+  std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> points;
+  std::map<std::vector<std::string>, std::size_t> places;
+  for (std::size_t r = 0; r < study.runs.size(); ++r) {
+    std::vector<std::string> values;
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      if (!is_seed(study.axes[a])) values.push_back(study.runs[r].values[a]);
+    const auto [place, is_new] = places.emplace(values, points.size());
+    if (is_new) points.push_back({values, {}});
+    points[place->second].second.push_back(r);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<double> numbers_of(const std::vector<SweepColumn>& runs, const std::string& metric) {
+  std::vector<double> numbers;
+  for (const SweepColumn& run : runs) numbers.push_back(run.metrics().number(metric));
+  return numbers;
+}
+
+std::vector<std::string> metrics_shown(const Study& study, const std::vector<SweepColumn>& runs) {
+  constexpr std::size_t kFew = 4;
+  const std::vector<std::string> known = metrics_of_any(runs);
+  std::vector<std::string> wanted = study.metrics;
+  if (wanted.empty()) wanted = headlines_of(study.experiment).with_errors();
+  std::erase_if(wanted,
+                [&](const std::string& name) { return !std::count(known.begin(), known.end(), name); });
+  if (!wanted.empty()) return wanted;
+  for (const std::string& name : known)
+    if (wanted.size() < kFew && differs(runs, name)) wanted.push_back(name);
+  return wanted;
+}
+
+TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs) {
+  const std::vector<std::string> metrics = metrics_of_any(runs);
+  TextTable table;
+  table.head = {"run"};
+  for (const StudyAxis& axis : study.axes) table.head.push_back(axis.key);
+  table.head.insert(table.head.end(), metrics.begin(), metrics.end());
+  table.head.insert(table.head.end(), {"wall_s", "state_hash", "exit_code", "stopped"});
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::optional<Manifest>& manifest = runs[r].manifest;
+    const Metrics found = runs[r].metrics();
+    std::vector<std::string>& row = table.rows.emplace_back(1, study.runs[r].name);
+    row.insert(row.end(), study.runs[r].values.begin(), study.runs[r].values.end());
+    for (const std::string& metric : metrics) row.push_back(field_of(found[metric]));
+    row.push_back(manifest ? number_text(manifest->total_seconds()) : "");
+    row.push_back(manifest ? manifest->state_hash.value_or("") : "");
+    row.push_back(std::to_string(runs[r].exit_code));
+    row.push_back(runs[r].stopped);
+  }
+  return table;
+}
+
+TextTable table_of_means(const Study& study, const std::vector<SweepColumn>& runs,
+                         const std::vector<std::string>& metrics) {
+  TextTable table;
+  for (const StudyAxis& axis : study.axes)
+    if (!is_seed(axis)) table.head.push_back(axis.key);
+  table.head.push_back("draws");
+  std::vector<std::vector<double>> numbers;
+  for (const std::string& metric : metrics) {
+    table.head.insert(table.head.end(), {metric + "_mean", metric + "_stderr"});
+    numbers.push_back(numbers_of(runs, metric));
+  }
+  for (const auto& [values, which] : points_of(study)) {
+    std::vector<std::string>& row = table.rows.emplace_back(values);
+    row.push_back(std::to_string(which.size()));
+    for (const std::vector<double>& of_metric : numbers) {
+      const Mean mean = mean_of(of_metric, which);
+      row.push_back(std::isnan(mean.value) ? "" : number_text(mean.value));
+      row.push_back(std::isnan(mean.error) ? "" : number_text(mean.error));
+    }
+  }
+  return table;
+}
+
+void write_table(const std::filesystem::path& file, const TextTable& table) {
+  const auto fields = [](const std::vector<std::string>& row) {
+    return std::vector<CsvField>(row.begin(), row.end());
+  };
+  CsvFile csv(file, fields(table.head));
+  for (const auto& row : table.rows) csv.row(fields(row));
+  csv.commit();
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,114 @@
+// Studies as a script meets them, of runs that take a fiftieth of a second.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sim/base/atomic_file.h"
+#include "sim/base/csv.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kStudy =
+    "experiment = \"kes\"\n[scene]\nno-images = true\nlaw = \"bilinear\"\n"
+    "[[axis]]\nkey = \"fabric.k0\"\nvalues = [40, 80]\n[[axis]]\nkey = \"fabric.b2\"\nvalues = [1e-6, "
+    "2e-6]\n";
+
+class Sweep : public testing::Test {
+ protected:
+  Sweep() { write(kStudy); }
+  void write(const std::string& text) { write_text(study_, text); }
+  Outcome run(const std::string& options, const std::string& out = "out") const {
+    return program("sweep " + study_.string() + " --no-images --jobs 2 --out " +
+                   (folder_.path() / out).string() + " " + options);
+  }
+  TextTable table(const std::string& out = "out") const {
+    return read_words(folder_.path() / out / "table.csv");
+  }
+  nlohmann::json manifest(const fs::path& in) const {
+    return nlohmann::json::parse(text_of(folder_.path() / in / "manifest.json"));
+  }
+  // Runs that are repeated take another time.
+  static TextTable without_time(TextTable table) {
+    const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
+    table.head.erase(table.head.begin() + at);
+    for (auto& row : table.rows) row.erase(row.begin() + at);
+    return table;
+  }
+  static void expect_same(const TextTable& a, const TextTable& b) {
+    EXPECT_EQ(a.head, b.head);
+    EXPECT_EQ(a.rows, b.rows);
+  }
+
+  Folder folder_;
+  fs::path study_ = folder_.path() / "s.toml";
+};
+
+TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolder) {
+  ASSERT_EQ(run("").exit_code, 0);
+  const TextTable found = table();
+  ASSERT_EQ(found.rows.size(), 4u);
+  const std::vector<std::string> first(found.head.begin(), found.head.begin() + 3);
+  EXPECT_EQ(first, (std::vector<std::string>{"run", "fabric.k0", "fabric.b2"}));
+  const auto column = std::find(found.head.begin(), found.head.end(), "2HB_N") - found.head.begin();
+  ASSERT_LT(column, std::ssize(found.head));
+  for (const auto& row : found.rows) {
+    const auto of_run = manifest(fs::path("out/runs") / row[0]);
+    EXPECT_EQ(of_run["metrics"]["2HB_N"].get<double>(), std::stod(row[static_cast<std::size_t>(column)]));
+    EXPECT_EQ(of_run["scene"]["fabric"]["k0"].get<double>(), std::stod(row[1]));
+  }
+  EXPECT_NE(found.rows[0][static_cast<std::size_t>(column)], found.rows[3][static_cast<std::size_t>(column)]);
+}
+
+TEST_F(Sweep, GoesOnToTheSameTableAndRepeatsNothingThatIsFinished) {
+  ASSERT_EQ(run("").exit_code, 0);
+  const TextTable whole = table();
+  fs::remove_all(folder_.path() / "out/runs" / whole.rows[1][0]);
+  fs::remove(folder_.path() / "out/table.csv");
+  ASSERT_EQ(run("--resume").exit_code, 0);
+  EXPECT_EQ(manifest("out")["metrics"]["kept_count"], 3);
+  expect_same(without_time(table()), without_time(whole));
+  EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
+}
+
+TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
+  std::string text = kStudy;
+  text.replace(text.find("2e-6"), 4, "1.0 ");  // a rigidity above b1
+  write(text);
+  const Outcome outcome = run("");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("2 of 4 runs are not complete"), std::string::npos) << outcome.err;
+  const TextTable found = table();
+  for (std::size_t r = 0; r < 4; ++r) {
+    const bool fails = r % 2 == 1;
+    EXPECT_EQ(found.rows[r].back().empty(), !fails);
+    EXPECT_EQ(found.rows[r][found.rows[r].size() - 2], fails ? "2" : "0");
+  }
+  EXPECT_NE(text_of(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
+}
+
+TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
+  ASSERT_EQ(run("", "whole").exit_code, 0);
+  EXPECT_EQ(run("--collect").exit_code, 3) << "nothing has run";
+  for (const char* part : {"--part 3/3", "--part 1/3", "--part 2/3"}) EXPECT_EQ(run(part).exit_code, 0);
+  EXPECT_EQ(run("--only k0=80,b2=2e-06").exit_code, 0);
+  EXPECT_EQ(run("--collect").exit_code, 0);
+  expect_same(without_time(table()), without_time(table("whole")));
+  EXPECT_EQ(run("--part 5/4").exit_code, 2);
+  EXPECT_EQ(run("--only k0=81").exit_code, 2);
+}
+
+TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
+  const fs::path flow = folder_.path() / "flow";
+  ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+  const auto config = nlohmann::json::parse(text_of(flow / "config.json"));
+  EXPECT_EQ(config["jobs"], 4);
+  EXPECT_EQ(config["study"], study_.string());
+  EXPECT_EQ(config["out"], (folder_.path() / "out").string());
+  for (const char* file : {"Snakefile", "slurm/config.yaml"}) EXPECT_TRUE(fs::exists(flow / file)) << file;
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
