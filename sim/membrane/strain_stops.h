@@ -36,23 +36,28 @@ struct StrainStops {
   int faces;
 
   HYST_HD Real& slip_of(int face, int j) const { return slip[slot_index(face, j, begin[3], faces)]; }
+  // Without branches, which would be guessed wrongly where some stops hold and some slip.
   HYST_HD static Real clipped(Real offset, Real limit) {
-    return offset > limit ? limit : offset < -limit ? -limit : offset;
+    const Real below = offset < limit ? offset : limit;
+    return below > -limit ? below : -limit;
   }
 
   HYST_HD StopsReply<Real> reply(int face, const Vec3<Real>& strain) const {
     StopsReply<Real> sum;
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3; ++c) {
+      Real stress = 0, tangent = 0;
       for (int j = begin[c]; j < begin[c + 1]; ++j) {
         const StrainStop<Real> of = stop[j];
         const Real offset = strain[c] - slip_of(face, j), held = clipped(offset, of.limit);
-        sum.stress[c] += of.stiffness * held;
-        sum.stored += of.stiffness * held * held / 2;
-        if (held == offset)
-          sum.tangent[c] += of.stiffness;
-        else
-          sum.lost += of.stiffness * held * (offset - held);
+        const Real force = of.stiffness * held;
+        stress += force;
+        tangent += held == offset ? of.stiffness : Real(0);
+        sum.stored += force * held / 2;
+        sum.lost += force * (offset - held);
       }
+      sum.stress[c] = stress;
+      sum.tangent[c] = tangent;
+    }
     return sum;
   }
 
