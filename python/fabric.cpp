@@ -57,6 +57,10 @@ py::object FabricValue::get(const std::string& name) const {
 }
 
 void FabricValue::set(const std::string& name, py::handle value) {
+  if (name == "name") {  // which as a key would load another fabric
+    scene_.fabric.name = py::str(value);
+    return;
+  }
   const Keys keys = bind_scene(scene_);
   const BoundKey* key = find(keys, name);
   if (!key) find_key(keys, kPrefix + name, kOrigin);  // refuses it, with the nearest name

@@ -130,6 +130,11 @@ class Refusals(unittest.TestCase):
         with self.assertRaises(AttributeError):
             fabric().colour
 
+    def test_are_none_of_another_name_for_a_fabric(self):
+        renamed = fabric()
+        renamed.name = "mine"
+        self.assertEqual((renamed.name, renamed.b1), ("mine", B1))
+
     def test_curvatures_of_another_shape(self):
         with self.assertRaisesRegex(hysteron.Error, r"must be \(3,\)"):
             exact().step(exact().rest(3), np.zeros(2))
