@@ -283,7 +283,7 @@ int bench_parts(const CommandLine& line, const Setup& setup, BenchOptions own) {
       fmt::print("{:7.2f} {:8.0f} {:6.1f} {:7.1f} {:14.0f} {} {}\n", row.number("ms_per_step"),
                  row.number("launches_per_step"), row.number("newton_iterations_per_step"),
                  row.number("solver_iterations_per_step"), row.number("bytes_per_triangle"), name,
-                 row["without"].text());
+                 row["stopped"].text().empty() ? row["without"].text() : row["stopped"].text());
       std::fflush(stdout);
     }
   write_table(run, rows);

@@ -4,12 +4,27 @@
 #include <chrono>
 #include <cmath>
 
+#include "sim/base/error.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
 
-Metrics row_of(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
+Metrics stopped(const HardScene& of, const std::string& without, const std::string& why) {
+  return {{"scene", of.name},
+          {"without", without},
+          {"triangles", of.cloth.mesh.faces()},
+          {"device", ""},
+          {"bytes_per_triangle", NAN},
+          {"launches_per_step", NAN},
+          {"synchronizations_per_step", NAN},
+          {"newton_iterations_per_step", NAN},
+          {"solver_iterations_per_step", NAN},
+          {"ms_per_step", NAN},
+          {"stopped", why}};
+}
+
+Metrics timed(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
   const auto simulation = make_simulation(scene, of.cloth);
   simulation->advance(std::max(1, static_cast<int>(std::lround(after / scene.step))));
   const DeviceCounts work_before = simulation->device_work();
@@ -31,7 +46,17 @@ Metrics row_of(const HardScene& of, const Scene& scene, const std::string& witho
           {"synchronizations_per_step", per_step(work.synchronizations)},
           {"newton_iterations_per_step", per_step(solved.newton - solved_before.newton)},
           {"solver_iterations_per_step", per_step(solved.linear - solved_before.linear)},
-          {"ms_per_step", 1e3 * taken.count() / steps}};
+          {"ms_per_step", 1e3 * taken.count() / steps},
+          {"stopped", ""}};
+}
+
+Metrics row_of(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
+  try {
+    return timed(of, scene, without, after, steps);
+  } catch (const Error& error) {
+    if (error.exit_code() != 3) throw;  // not of the run, but of the machine or the request
+    return stopped(of, without, error.what());
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<Omission> omissions();
 
 // A row for the scene as it is and one for each part that it has, without that part: memory and, per step,
 // launches, waits, iterations and time.  Each simulates `after` seconds from the start, then as many steps
-// (at least one) as are timed.  Throws what simulations throw.
+// (at least one) as are timed.  Where one stops, its row says why, and its numbers are not known.
 std::vector<Metrics> cost_of_parts(const HardScene& scene, double after, int steps);
 
 }  // namespace hysteron::experiments

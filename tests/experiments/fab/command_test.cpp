@@ -7,6 +7,7 @@
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/csv.h"
 #include "sim/reference/fab_loops.h"
+#include "sim/scene/assets.h"
 #include "tests/experiments/folder.h"
 #include "tests/sim/base/refusal.h"
 
@@ -59,12 +60,9 @@ TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
 
 TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   const fs::path file = folder_.path() / "stops.toml";
-  std::ofstream(file)
-      << "name = \"stops\"\n[parameters]\n"
-         "b2 = {value = 3e-6, unit = \"N m\", source = \"test\", confidence = \"given\"}\n"
-         "density = {value = 0.2, unit = \"kg/m^2\", source = \"test\", confidence = \"given\"}\n"
-         "[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n"
-         "[bending.stops.weft]\nthresholds = [10, 50]\nstiffnesses = [4e-6, 1e-6]\n";
+  std::ofstream(file) << std::ifstream(find_asset("fabrics", "cotton-broad", "test")).rdbuf()
+                      << "\n[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n"
+                         "[bending.stops.weft]\nthresholds = [10, 50]\nstiffnesses = [4e-6, 1e-6]\n";
   const std::vector<Flag> along_warp = {{"fabric", file.string()}, {"no-images", "true"}};
   std::vector<Flag> along_weft = along_warp, along_bias = along_warp;
   along_weft.push_back({"fab.direction", "W"});
