@@ -89,7 +89,7 @@ void Session::visit(Archive& archive, const Question& question, Record& series) 
   archive(resumed_at_);
   archive(folded_);
   archive(intersections_);
-  archive(meshes_);
+  meshes_.visit(archive);
   recoveries_.visit(archive);
   series.visit(archive);
   if (pictures_) pictures_->visit(archive, *run_);

@@ -16,7 +16,6 @@
 #include "experiments/workbench/pages/simulated_run.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/laws/recovery.h"
-#include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/intersections.h"
 
 namespace hysteron::experiments {
@@ -226,20 +225,6 @@ void Session::note_integrator(const Ledger& ledger) {
                   100 * share, step, 100 * kMost));
 }
 
-void Session::export_mesh(int frame, const std::vector<Eigen::Vector3d>& x) {
-  const std::string& format = setup_.options.export_format;
-  if (format == "none") return;
-  const auto stage = run_->stage("io");
-  const std::string file = run_->path(fmt::format("mesh/{:04}.{}", frame, format)).string();
-  if (format == "obj") {
-    write_obj(file, cloth_.mesh, x);
-  } else {
-    const std::vector<float> k =
-        vertex_curvature(cloth_.mesh, simulation_->curvature(), simulation_->dimension());
-    write_ply(file, cloth_.mesh, x, {k.begin(), k.end()});
-  }
-}
-
 Snapshot Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                          double fastest, const std::string& left) {
   const Snapshot instant{simulation_->time(), x, fastest};
@@ -252,7 +237,7 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   watch_folds(x);
   recoveries_.see(*simulation_);
   watch_intersections(x);
-  if (pictured) export_mesh(meshes_++, x);
+  if (pictured) meshes_.write(*run_, setup_.options.export_format, cloth_, *simulation_, x);
   run_->progress(question.progress(instant) + left);
   if (question.settled) run_->metric("fastest_m_per_s", instant.fastest);
   return instant;

@@ -10,6 +10,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/pictures.h"
 #include "experiments/workbench/session/interrupts.h"
+#include "experiments/workbench/session/mesh_export.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "render/camera.h"
@@ -95,7 +96,6 @@ class Session {
   void note_deep_contact();
   void note_slack_hands();
   void note_convergence();
-  void export_mesh(int frame, const std::vector<Eigen::Vector3d>& x);
 
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   CommandLine line_;
@@ -105,7 +105,7 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
-  int meshes_ = 0;  // exported so far
+  MeshExport meshes_;
   Recoveries recoveries_;
   long intersections_ = 0;  // pairs of triangles, of all recorded instants
   double folded_ = 0;       // largest share of sharply folded edges

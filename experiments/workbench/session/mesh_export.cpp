@@ -1,0 +1,72 @@
+#include "experiments/workbench/session/mesh_export.h"
+
+#include <fmt/core.h>
+
+#include "experiments/workbench/pictures/ridge_metrics.h"
+#include "sim/bending/vertex_curvature.h"
+#include "sim/mesh/vtk.h"
+
+namespace hysteron::experiments {
+namespace {
+
+VtkField velocities(Simulation& simulation) {
+  VtkField field{"velocity", 3, {}};
+  for (const Eigen::Vector3d& v : simulation.velocities())
+    field.values.insert(field.values.end(), v.begin(), v.end());
+  return field;
+}
+
+// At a vertex the mean of the norms around it.
+VtkField mean_size(const char* name, const ClothMesh& mesh, const std::vector<double>& element,
+                   int dimension) {
+  const std::vector<float> mean = vertex_average(mesh, curvature_size(element, dimension), dimension);
+  return {name, 1, {mean.begin(), mean.end()}};
+}
+
+void write_fields(const std::string& file, const ClothMesh& mesh, Simulation& simulation,
+                  const std::vector<Eigen::Vector3d>& x) {
+  const int d = simulation.dimension();
+  const std::vector<double> curvature = simulation.curvature(), moment = simulation.moment(),
+                            residual = simulation.residual_curvature(), share = simulation.friction_share();
+  const std::vector<float> trace = vertex_curvature(mesh, curvature, d),
+                           mean = vertex_average(mesh, share, d);
+  std::vector<VtkField> of_faces;
+  if (d == 3)
+    of_faces = {{"curvature_tensor", d, curvature},
+                {"moment_tensor", d, moment},
+                {"residual_curvature_tensor", d, residual},
+                {"friction_share_of_face", 1, share}};
+  write_vtp(file, mesh, x,
+            {velocities(simulation),
+             {"curvature", 1, {trace.begin(), trace.end()}},
+             mean_size("moment", mesh, moment, d),
+             mean_size("residual_curvature", mesh, residual, d),
+             {"friction_share", 1, {mean.begin(), mean.end()}}},
+            of_faces);
+}
+
+}  // namespace
+
+void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
+                       const std::vector<Eigen::Vector3d>& x) {
+  if (format == "none") return;
+  const auto stage = run.stage("io");
+  const auto name = [&](std::size_t k) {
+    return fmt::format("{:04}.{}", k, format == "vtk" ? "vtp" : format);
+  };
+  const std::string file = run.path("mesh/" + name(times_.size())).string();
+  times_.push_back(simulation.time());
+  if (format == "obj") return write_obj(file, cloth.mesh, x);
+  if (format == "ply") {
+    const std::vector<float> k = vertex_curvature(cloth.mesh, simulation.curvature(), simulation.dimension());
+    return write_ply(file, cloth.mesh, x, {k.begin(), k.end()});
+  }
+  write_fields(file, cloth.mesh, simulation, x);
+  std::vector<std::pair<double, std::string>> instants;
+  for (std::size_t k = 0; k < times_.size(); ++k) instants.emplace_back(times_[k], name(k));
+  write_pvd(run.path("mesh/cloth.pvd").string(), instants);
+}
+
+void MeshExport::visit(Archive& archive) { archive(times_); }
+
+}  // namespace hysteron::experiments
