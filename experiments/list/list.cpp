@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "experiments/list/list_json.h"
 #include "experiments/workbench/app/experiment.h"
 #include "render/offscreen.h"
 #include "sim/base/error.h"
@@ -155,7 +156,18 @@ void list_devices() {
   }
 }
 
+struct ListFlags {
+  bool json = false;
+};
+// clang-format off
+const KeyRow<ListFlags> kRows[] = {
+    {"json", at<&ListFlags::json>, "", any(), "", "one JSON object on stdout: an array for each of the lists; of fabrics that are named, an array of those"},
+};
+// clang-format on
+
 int run_list(const CommandLine& line) {
+  ListFlags flags;
+  set_keys(line, bind(kRows, flags));
   const std::vector<std::pair<std::string, void (*)()>> parts = {{"fabrics", list_fabrics_table},
                                                                  {"laws", list_laws},
                                                                  {"scenes", list_scenes},
@@ -166,12 +178,23 @@ int run_list(const CommandLine& line) {
   const std::vector<std::string>& names = line.names;
   if (names.size() > 1 && names.front() == "fabrics" &&
       std::none_of(names.begin() + 1, names.end(), is_part)) {
-    for (auto name = names.begin() + 1; name != names.end(); ++name)
-      list_numbers(read_fabric(*name, "list fabrics"));
+    nlohmann::ordered_json fabrics = nlohmann::ordered_json::array();
+    for (auto name = names.begin() + 1; name != names.end(); ++name) {
+      const FabricFile file = read_fabric(*name, "list fabrics");
+      flags.json ? fabrics.push_back(json_of(file)) : list_numbers(file);
+    }
+    if (flags.json) std::cout << nlohmann::ordered_json{{"fabrics", fabrics}}.dump(2) << "\n";
     return 0;
   }
   for (const std::string& name : names)
     if (!is_part(name)) throw Error::request("\"" + name + "\" must be fabrics | laws | scenes | devices");
+  if (flags.json) {
+    nlohmann::ordered_json lists;
+    for (const auto& [name, print] : parts)
+      if (names.empty() || std::count(names.begin(), names.end(), name)) lists[name] = json_list(name);
+    std::cout << lists.dump(2) << "\n";
+    return 0;
+  }
   for (const auto& [name, print] : parts) {
     if (names.empty()) std::cout << (print == list_fabrics_table ? "" : "\n") << name << ":\n";
     if (names.empty() || std::count(names.begin(), names.end(), name)) print();
@@ -185,6 +208,7 @@ Experiment list() {
   return {.name = "list",
           .question = "what there is: fabrics, laws, scenes, devices",
           .run = run_list,
+          .own_keys = own_keys_of<kRows>,
           .names = "fabrics [NAME|FILE]...|laws|scenes|devices"};
 }
 

@@ -99,6 +99,19 @@ TEST(Program, ListsLawsScenesAndDevices) {
             "hysteron list: \"fabrcs\" must be fabrics | laws | scenes | devices\n");
 }
 
+TEST(Program, ListsAsJsonWhatItListsAsText) {
+  const Outcome outcome = program("list --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto lists = nlohmann::json::parse(outcome.out);
+  for (const char* list : {"fabrics", "laws", "scenes", "devices"})
+    EXPECT_FALSE(lists.at(list).empty()) << list;
+  const auto wool =
+      nlohmann::json::parse(program("list fabrics wool-tropical --json").out).at("fabrics").at(0);
+  EXPECT_EQ(wool.at("numbers").at("k0").at("range"), nlohmann::json({12.5, 50}));
+  EXPECT_EQ(wool.at("numbers").at("b2").at("known"), "published");
+  EXPECT_EQ(wool.at("published").at("drape-coefficient").at("value"), 49.8);
+}
+
 TEST(Program, SaysItsVersionAndCommit) {
   const Outcome outcome = program("--version");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -1,0 +1,18 @@
+// `list --json`: what there is, for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/scene/fabric_reader.h"
+
+namespace hysteron::experiments {
+
+// Name, description, every number with value, unit, how it is known, its range where one is stated and its
+// source, and the numbers as published.
+nlohmann::ordered_json json_of(const FabricFile& file);
+// The lists of that name: fabrics, laws, scenes or devices.
+nlohmann::ordered_json json_list(const std::string& name);
+
+}  // namespace hysteron::experiments
