@@ -1,4 +1,5 @@
 """A swing exported for ParaView, opened by VTK: `vtk.py HYSTERON FOLDER`.  Exit code 77 without VTK's package."""
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as tree
@@ -11,6 +12,7 @@ except ImportError:
     sys.exit(77)
 
 program, folder = sys.argv[1], Path(sys.argv[2])
+shutil.rmtree(folder, ignore_errors=True)
 subprocess.run([program, "swing", "--quick", "--seconds", "0.2", "--device", "cpu", "--no-images", "--quiet",
                 "--export", "vtk", "--out", str(folder)], check=True, stdout=subprocess.DEVNULL)
 instants = tree.parse(folder / "mesh" / "cloth.pvd").getroot().findall("Collection/DataSet")
