@@ -1,62 +1,48 @@
 #include "experiments/bench/parts.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "experiments/bench/step_profile.h"
 #include "sim/base/error.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
 
-Metrics stopped(const HardScene& of, const std::string& without, const std::string& why) {
-  return {{"scene", of.name},
-          {"without", without},
-          {"triangles", of.cloth.mesh.faces()},
-          {"device", ""},
-          {"bytes_per_triangle", NAN},
-          {"launches_per_step", NAN},
-          {"synchronizations_per_step", NAN},
-          {"newton_iterations_per_step", NAN},
-          {"solver_iterations_per_step", NAN},
-          {"ms_per_step", NAN},
-          {"stopped", why}};
-}
-
-Metrics timed(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
+// What a step takes; not known of a scene that stops.
+void measure(Metrics& row, const HardScene& of, const Scene& scene, double after, int steps) {
   const auto simulation = make_simulation(scene, of.cloth);
   simulation->advance(std::max(1, static_cast<int>(std::lround(after / scene.step))));
   const DeviceCounts work_before = simulation->device_work();
   const SolverCounts solved_before = simulation->solver_counts();
-  simulation->wait();
-  const auto start = std::chrono::steady_clock::now();
-  simulation->advance(steps);
-  simulation->wait();
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const double ms = ms_per_step(*simulation, steps);
   const DeviceCounts work = simulation->device_work() - work_before;
   const SolverCounts solved = simulation->solver_counts();
   const auto per_step = [&](long count) { return static_cast<double>(count) / steps; };
-  return {{"scene", of.name},
-          {"without", without},
-          {"triangles", of.cloth.mesh.faces()},
-          {"device", simulation->device()},
-          {"bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / of.cloth.mesh.faces()},
-          {"launches_per_step", per_step(work.loops)},
-          {"synchronizations_per_step", per_step(work.synchronizations)},
-          {"newton_iterations_per_step", per_step(solved.newton - solved_before.newton)},
-          {"solver_iterations_per_step", per_step(solved.linear - solved_before.linear)},
-          {"ms_per_step", 1e3 * taken.count() / steps},
-          {"stopped", ""}};
+  row.set("device", simulation->device());
+  row.set("bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / of.cloth.mesh.faces());
+  row.set("launches_per_step", per_step(work.loops));
+  row.set("synchronizations_per_step", per_step(work.synchronizations));
+  row.set("newton_iterations_per_step", per_step(solved.newton - solved_before.newton));
+  row.set("solver_iterations_per_step", per_step(solved.linear - solved_before.linear));
+  row.set("ms_per_step", ms);
 }
 
 Metrics row_of(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
+  Metrics row = {
+      {"scene", of.name}, {"without", without}, {"triangles", of.cloth.mesh.faces()}, {"device", ""}};
+  for (const char* unknown : {"bytes_per_triangle", "launches_per_step", "synchronizations_per_step",
+                              "newton_iterations_per_step", "solver_iterations_per_step", "ms_per_step"})
+    row.set(unknown, NAN);
+  row.set("stopped", "");
   try {
-    return timed(of, scene, without, after, steps);
+    measure(row, of, scene, after, steps);
   } catch (const Error& error) {
     if (error.exit_code() != 3) throw;  // not of the run, but of the machine or the request
-    return stopped(of, without, error.what());
+    row.set("stopped", error.what());
   }
+  return row;
 }
 
 }  // namespace

@@ -7,15 +7,6 @@
 namespace hysteron::experiments {
 namespace {
 
-// Milliseconds of a step.
-double timed(Simulation& simulation, int steps) {
-  simulation.wait();
-  const auto start = std::chrono::steady_clock::now();
-  simulation.advance(steps);
-  simulation.wait();
-  return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / steps;
-}
-
 Metrics row_of(const std::string& name, const KernelCost& cost, int steps, double all_seconds,
                double bandwidth) {
   const double calls = static_cast<double>(cost.calls);
@@ -31,13 +22,21 @@ Metrics row_of(const std::string& name, const KernelCost& cost, int steps, doubl
 
 }  // namespace
 
+double ms_per_step(Simulation& simulation, int steps) {
+  simulation.wait();
+  const auto start = std::chrono::steady_clock::now();
+  simulation.advance(steps);
+  simulation.wait();
+  return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / steps;
+}
+
 StepProfile profile_of_steps(Simulation& simulation, int steps) {
   simulation.advance(steps);  // warm caches, and away from the start
-  const double ms = timed(simulation, steps);
+  const double ms = ms_per_step(simulation, steps);
   simulation.profile();
   const DeviceCounts before = simulation.device_work();
   const SolverCounts solved_before = simulation.solver_counts();
-  const double ms_profiled = timed(simulation, steps);
+  const double ms_profiled = ms_per_step(simulation, steps);
   const DeviceCounts work = simulation.device_work() - before;
   const SolverCounts solved = simulation.solver_counts();
   const KernelCosts costs = simulation.kernel_costs();

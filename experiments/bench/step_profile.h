@@ -15,6 +15,9 @@ struct StepProfile {
   std::vector<Metrics> kernels;  // one row per kernel, the slowest first
 };
 
+// Advances by so many steps; the time of one [ms].
+double ms_per_step(Simulation& simulation, int steps);
+
 // Advances by `steps` to warm up, by as many unprofiled for the time of a step, and by as many profiled.
 //
 // A kernel's bytes are what its loop must move at least, each array that it reads or writes once; kernels

@@ -100,31 +100,17 @@ void list_fabrics_table() {
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
 
-// The value of a key as text: a number, or the numbers of a list.
-std::string value_text(const BoundKey& key) {
-  if (const auto* numbers = std::get_if<Numbers*>(&key.field)) return listed(**numbers);
-  return short_number(*std::get<double*>(key.field));
-}
-
 // Every number of one fabric with its unit, how it is known, between which numbers it may lie, and its
 // source.
 void list_numbers(const FabricFile& file) {
-  Scene scene;
-  scene.fabric = file.fabric;
   const std::vector<int> widths = {25, 24, 11, 10, 16};
-  std::cout << scene.fabric.name << ": " << file.description << "\n";
+  std::cout << file.fabric.name << ": " << file.description << "\n";
   print_row({"number", "value", "unit", "known", "range", "from"}, widths);
-  for (const BoundKey& key : bind_scene(scene)) {
-    const std::string& path = key.description.path;
-    const auto from = file.fabric.provenance.find(path.substr(path.find('.') + 1));
-    if (!path.starts_with("fabric.") || from == file.fabric.provenance.end()) continue;
-    const auto range = file.range.find(from->first);
-    const bool stated = range != file.range.end();
-    print_row({from->first, value_text(key), key.description.unit, from->second.confidence,
-               stated ? number_text(range->second.low) + " to " + number_text(range->second.high) : "",
-               from->second.source},
+  for (const StatedNumber& number : stated_numbers(file))
+    print_row({number.name, listed(number.value), number.unit, number.from->confidence,
+               number.range ? number_text(number.range->low) + " to " + number_text(number.range->high) : "",
+               number.from->source},
               widths);
-  }
   if (!file.fabric.published.empty()) std::cout << "as printed:\n";
   for (const auto& [name, number] : file.fabric.published)
     print_row({name, short_number(number.value), number.unit, number.provenance.confidence, "",

@@ -33,24 +33,37 @@ Json devices() {
 
 }  // namespace
 
-Json json_of(const FabricFile& file) {
+std::vector<StatedNumber> stated_numbers(const FabricFile& file) {
   Scene scene;
   scene.fabric = file.fabric;
-  Json numbers = Json::object(), published = Json::object();
+  std::vector<StatedNumber> result;
   for (const BoundKey& key : bind_scene(scene)) {
     const std::string& path = key.description.path;
     const auto from = file.fabric.provenance.find(path.substr(path.find('.') + 1));
     if (!path.starts_with("fabric.") || from == file.fabric.provenance.end()) continue;
-    Json& number = numbers[from->first];
-    if (const auto* list = std::get_if<Numbers*>(&key.field))
-      number["value"] = std::vector<double>(**list);
+    StatedNumber number{from->first, key.description.unit, {}, false, &from->second, nullptr};
+    const auto* list = std::get_if<Numbers*>(&key.field);
+    number.is_list = list;
+    if (list)
+      number.value.assign((**list).begin(), (**list).end());
     else
-      number["value"] = *std::get<double*>(key.field);
-    number["unit"] = key.description.unit;
-    number["known"] = from->second.confidence;
+      number.value = {*std::get<double*>(key.field)};
     const auto range = file.range.find(from->first);
-    if (range != file.range.end()) number["range"] = {range->second.low, range->second.high};
-    number["source"] = from->second.source;
+    if (range != file.range.end()) number.range = &range->second;
+    result.push_back(std::move(number));
+  }
+  return result;
+}
+
+Json json_of(const FabricFile& file) {
+  Json numbers = Json::object(), published = Json::object();
+  for (const StatedNumber& stated : stated_numbers(file)) {
+    Json& number = numbers[stated.name];
+    number["value"] = stated.is_list ? Json(stated.value) : Json(stated.value.front());
+    number["unit"] = stated.unit;
+    number["known"] = stated.from->confidence;
+    if (stated.range) number["range"] = {stated.range->low, stated.range->high};
+    number["source"] = stated.from->source;
   }
   for (const auto& [name, number] : file.fabric.published)
     published[name] = {{"value", number.value},

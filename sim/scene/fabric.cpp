@@ -36,6 +36,10 @@ void check_pairs(const Scene& scene, const PairedLists& lists) {
              number_text(lists.first[i - 1]));
 }
 
+void check_stops(const Scene& scene, const char* table, const Spectrum& of) {
+  check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
+}
+
 }  // namespace
 
 VirginCurve Fabric::virgin_curve() const {
@@ -48,11 +52,8 @@ VirginCurve Fabric::virgin_curve() const {
 
 void check_bending_parts(const Scene& scene) {
   const BendingParts& b = scene.fabric.bending;
-  const auto stops = [&](const char* table, const Spectrum& of) {
-    check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
-  };
-  stops("bending.stops", b.stops);
-  stops("bending.stops.weft", b.weft_stops);
+  check_stops(scene, "bending.stops", b.stops);
+  check_stops(scene, "bending.stops.weft", b.weft_stops);
   const std::string weft = "fabric.bending.stops.weft.thresholds";
   if (!b.weft_stops.empty() && b.weft_stops.size() != b.stops.size())
     throw Error::request(weft + " has " + std::to_string(b.weft_stops.size()) +
@@ -68,12 +69,9 @@ void check_bending_parts(const Scene& scene) {
 
 void check_in_plane_stops(const Scene& scene) {
   const InPlaneStops& p = scene.fabric.in_plane;
-  const auto stops = [&](const char* table, const Spectrum& of) {
-    check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
-  };
-  stops("membrane.stops.warp", p.warp);
-  stops("membrane.stops.weft", p.weft);
-  stops("membrane.stops.shear", p.shear);
+  check_stops(scene, "membrane.stops.warp", p.warp);
+  check_stops(scene, "membrane.stops.weft", p.weft);
+  check_stops(scene, "membrane.stops.shear", p.shear);
 }
 
 }  // namespace hysteron
