@@ -12,24 +12,39 @@ namespace hysteron {
 inline constexpr double kTestPressure = 50 * 98.0665;  // 50 gf/cm^2 [Pa]
 inline constexpr double kHardest = 0.5;                // share of a shell to which pressure can press it
 inline constexpr double kCompressed = 0.2;             // of the shell, at the pressure of the test
-inline constexpr double kElasticSlip = 0.01;           // of friction, over the thickness
+inline constexpr double kCrushed = 0.4;       // of the thickness: where an obstacle's last barrier begins
+inline constexpr double kLastGap = 0.01;      // of its range: from there on its stiffness stays
+inline constexpr double kElasticSlip = 0.01;  // of friction, over the thickness
 
 // Stiffness k of the barrier of such a shell [N/m^3].
 double barrier_stiffness(double thickness);
 
 // How an obstacle's shell answers: a barrier up to the compression that was measured; beyond, its stiffness
-// stays.  It would take some ten times the test's pressure to reach the surface of the solid.
+// stays.  Where it is crushed to kCrushed, under some five times the test's pressure, a last barrier begins,
+// which ends at the surface of the solid: what presses single vertices, as the tips of folds do, grows with
+// the mesh.  Steps that do not end in equilibrium, as explicit ones, have none: a blow would end in it beyond
+// the stiffness that they bear.
 template <class Real>
 struct ObstacleShell {
   Real thickness;  // of the shell [m]
   Real k;          // of the barrier [N/m^3]
+  Real last;       // distance at which the last one begins [m]; 0: none
 
   HYST_HD Barrier<Real> at(Real distance) const {
+    const Barrier<Real> cloth = measured(distance);
+    if (!(last > 0 && distance < last)) return cloth;
+    const Barrier<Real> solid = barrier(k, distance, last, static_cast<Real>(kLastGap));
+    return {cloth.energy + solid.energy, cloth.slope + solid.slope, cloth.stiffness + solid.stiffness};
+  }
+  // Of the cloth, beyond the compression that was measured [N/m^3].
+  HYST_HD Real stiffest() const { return measured(0).stiffness; }
+
+ private:
+  HYST_HD Barrier<Real> measured(Real distance) const {
     constexpr double kMeasured = (1 - kHardest - kCompressed) / (1 - kHardest);  // share of the range left
     const Real hardest = static_cast<Real>(kHardest) * thickness;
     return barrier(k, distance - hardest, thickness - hardest, static_cast<Real>(kMeasured));
   }
-  HYST_HD Real stiffest() const { return at(0).stiffness; }  // [N/m^3]
 };
 
 // That of a scene: `contact-stiffness` is its stiffness at the compression of the test.
