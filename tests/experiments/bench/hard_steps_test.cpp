@@ -82,6 +82,7 @@ TEST(HardSteps, OfEveryVariantEndInTheSameStateOnTheirOwnWays) {
   scene.fabric.friction = 0;
   scene.newton_residual = 1e-9;
   scene.newton_velocity = 1e-12;
+  scene.step /= 2;  // in longer ones the blow may buckle the square into one of several
   const HardStates hard = find_hard_steps(falling_scene(scene), 1);
   std::vector<std::vector<Eigen::Vector3d>> ends;
   std::set<long> linear;

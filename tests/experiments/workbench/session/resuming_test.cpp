@@ -114,7 +114,7 @@ TEST(Resuming, ASwingThatIsTerminatedEndsInTheSameBits) {
 TEST(Resuming, ACrumpleThatIsInterruptedEndsInTheSameBits) {
   const Folder folder;
   ASSERT_EQ(program(kCrumple + in(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(kCrumple + " --checkpoint 1000", folder.path() / "parts", SIGINT, 8, 250), 2u);
+  EXPECT_GT(interrupt(kCrumple + " --checkpoint 1000", folder.path() / "parts", SIGINT, 10, 120), 2u);
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
