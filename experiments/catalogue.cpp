@@ -28,7 +28,9 @@
   entry(figures) \
   entry(rerun) \
   entry(verify) \
-  entry(list)
+  entry(list) \
+  entry(manual) \
+  entry(complete)
 // clang-format on
 
 namespace hysteron::experiments {

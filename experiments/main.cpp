@@ -6,6 +6,7 @@
 #include <string>
 
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_words.h"
 #include "sim/base/error.h"
@@ -49,7 +50,6 @@ int main(int count, char** words) {
     if (!std::cout.flush()) throw Error::machine("cannot write to standard output");
     return exit_code;
   } catch (const Error& error) {
-    constexpr int kCouldNotGoOn = 3;  // what was written so far is kept
     if (error.exit_code() == kCouldNotGoOn) say_last_words(line);
     return fail(experiment, error);
   } catch (const std::bad_alloc&) {

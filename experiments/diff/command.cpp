@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/diff/diff.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/pages/junit.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 
@@ -14,24 +16,23 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kBeyondLimit = 4;  // exit code
-
 using F = DiffFlags;
-using M = Measures;
 // clang-format off
 const KeyRow<DiffFlags> kRows[] = {
     {"out", at<&F::out>, "", any(), "", "heat map, a PNG file; of folders: a folder for heat maps, diff.html, diff.csv"},
-    {"max-mean", at<&F::limits, &M::mean_abs>, "8-bit steps", at_least(0), "", "most of mean_abs"},
-    {"max-rmse", at<&F::limits, &M::rmse>, "8-bit steps", at_least(0), "", "most of rmse"},
-    {"min-psnr", at<&F::limits, &M::psnr_db>, "dB", any(), "", "least of psnr_db"},
-    {"min-ssim", at<&F::limits, &M::ssim>, "", between(-1, 1), "", "least of ssim"},
-    {"max-flip", at<&F::limits, &M::flip>, "", between(0, 1), "", "most of flip"},
-    {"max-pixels-over-8", at<&F::limits, &M::pixels_over_8_percent>, "percent", between(0, 100), "", "most of pixels_over_8_percent"},
+    {"limits", at<&F::limits_file>, "", any(), "", "a TOML file of limits, or one of assets/limits by its name; flags take precedence"},
+    {"junit", at<&F::junit>, "", any(), "", "a JUnit XML file, with a test case for each picture"},
     {"pixels-per-degree", at<&F::pixels_per_degree>, "1/degree", between(1, 1000), "", "of the eye that FLIP assumes; default 67: 3840 pixels on 0.7 m, seen from 0.7 m"},
     {"map", at<&F::map>, "", any(), "steps | flip", "what heat maps show: the largest channel's difference, or FLIP"},
     {"json", at<&F::json>, "", any(), "", "one JSON object on stdout"},
 };
 // clang-format on
+
+Keys bind_diff(DiffFlags& flags) {
+  Keys keys = bind(kRows, flags);
+  for (const BoundKey& key : bind_limits(flags.limits)) keys.push_back(key);
+  return keys;
+}
 
 Json json_of(const Measures& measures) {
   Json json;
@@ -46,6 +47,13 @@ void complain(const fs::path& a, const fs::path& b, const std::vector<std::strin
   if (!broken.empty())
     std::cerr << "hysteron diff: " << a.string() << " against " << b.string() << ": " << join(broken, "; ")
               << std::endl;
+}
+
+std::string suite_of(const fs::path& a, const fs::path& b) { return a.string() + " against " + b.string(); }
+
+TestCase case_of(const std::string& name, const std::vector<std::string>& broken) {
+  using Outcome = TestCase::Outcome;
+  return {name, broken.empty() ? Outcome::passed : Outcome::failed, join(broken, "; ")};
 }
 
 void make_folder_of(const fs::path& file) {
@@ -70,7 +78,8 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
         .of("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   const Comparison comparison = compare_files(a, b, flags);
-  const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits);
+  const std::string name = a.filename().string();
+  const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits_of(name));
   if (!flags.out.empty()) {
     make_folder_of(flags.out);
     render::write_png(flags.out, comparison.heat);
@@ -85,7 +94,8 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
       std::cout << m.name << " " << text_of(comparison.measures.*m.value) << "\n";
   }
   complain(a, b, broken);
-  return broken.empty() ? 0 : kBeyondLimit;
+  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), {case_of(name, broken)});
+  return broken.empty() ? 0 : kDiffers;
 }
 
 // What is written must not be found as a picture the next time.
@@ -119,7 +129,7 @@ FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags
   for (const std::string& name : names) {
     const Comparison comparison = compare_files(a / name, b / name, flags);
     const Measures& found = comparison.measures;
-    diff.rows.push_back({name, found, broken_limits(found, flags.limits)});
+    diff.rows.push_back({name, found, broken_limits(found, flags.limits_of(name))});
     diff.worst = diff.rows.size() == 1 ? found : worst_of(diff.worst, found);
     if (!flags.out.empty()) {
       const fs::path heat = fs::path(flags.out) / kHeatFolder / name;
@@ -165,12 +175,17 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
     print_row("worst", width, cells(diff.worst));
   }
   if (!flags.out.empty()) write_folder_diff(diff, flags, command);
-  return broken_limits(diff.worst, flags.limits).empty() ? 0 : kBeyondLimit;
+  std::vector<TestCase> cases;
+  for (const FolderDiff::Row& row : diff.rows) cases.push_back(case_of(row.name, row.broken));
+  if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), cases);
+  const bool within = std::all_of(diff.rows.begin(), diff.rows.end(),
+                                  [](const FolderDiff::Row& row) { return row.broken.empty(); });
+  return within ? 0 : kDiffers;
 }
 
 int run_diff(const CommandLine& line) {
   DiffFlags flags;
-  set_keys(line, bind(kRows, flags));
+  set_keys(line, bind_diff(flags));
   if (line.names.size() != 2)
     throw Error::request("needs two pictures or two folders: hysteron diff A.png B.png; " +
                          std::to_string(line.names.size()) + " given");
@@ -182,6 +197,7 @@ int run_diff(const CommandLine& line) {
     throw Error::request((fs::is_directory(a) ? a : b).string() + " is a folder and " +
                          (fs::is_directory(a) ? b : a).string() +
                          " is not: give two pictures or two folders");
+  if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
   return fs::is_directory(a) ? diff_folders(a, b, flags, line.command) : diff_pictures(a, b, flags);
 }
 
@@ -191,8 +207,9 @@ Experiment diff() {
   return {.name = "diff",
           .question = "how far two pictures, or two folders of them, differ",
           .run = run_diff,
-          .own_keys = own_keys_of<kRows>,
-          .names = "A.png B.png"};
+          .own_keys = own_keys_of<bind_diff>,
+          .names = "A.png B.png",
+          .differs = "a picture is beyond a limit"};
 }
 
 }  // namespace hysteron::experiments

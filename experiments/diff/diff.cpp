@@ -6,7 +6,6 @@
 
 #include "render/compare.h"
 #include "render/ssim.h"
-#include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/key_table.h"
 
@@ -66,15 +65,10 @@ Measures worst_of(const Measures& a, const Measures& b) {
   return worst;
 }
 
-std::vector<std::string> broken_limits(const Measures& found, const Measures& limits) {
-  std::vector<std::string> broken;
-  for (const Measure& m : all_measures()) {
-    const double value = found.*m.value, limit = limits.*m.value;
-    if (m.least ? value >= limit : value <= limit) continue;
-    broken.push_back(std::string(m.name) + " = " + number_field(value) + " must be " +
-                     (m.least ? ">= " : "<= ") + number_field(limit) + " (--" + m.limit + ")");
-  }
-  return broken;
+PictureLimits DiffFlags::limits_of(const std::string& name) const {
+  PictureLimits all = from_file.of_picture(name);
+  all.set({limits});
+  return all;
 }
 
 Comparison compare_files(const fs::path& a, const fs::path& b, const DiffFlags& flags) {

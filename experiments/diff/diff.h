@@ -1,54 +1,31 @@
 // How far two pictures, or the pictures of two folders, differ.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "experiments/diff/limits.h"
 #include "render/flip.h"
 #include "render/image.h"
 
 namespace hysteron::experiments {
-
-// What `hysteron diff` measures, or a limit on each.
-struct Measures {
-  double mean_abs = 0;               // mean absolute difference of the channels [8-bit steps]
-  double rmse = 0;                   // root of the mean squared difference [8-bit steps]
-  double psnr_db = 0;                // 20 log10(255 / rmse) [dB], infinite for equal pictures
-  double ssim = 0;                   // mean structural similarity of luma, 1 for equal pictures (ssim.h)
-  double flip = 0;                   // mean visible difference, 0 to 1 (flip.h)
-  double pixels_over_8_percent = 0;  // pixels with a channel that differs by more than 8 steps
-};
-
-// Limits that nothing is beyond.
-Measures no_limits();
-
-struct Measure {
-  const char* name;    // as printed: "psnr_db"
-  const char* column;  // with the unit: "mean_abs [steps]"
-  const char* limit;   // the flag: "max-flip", "min-ssim"
-  double Measures::*value;
-  bool least;  // the limit is the least value allowed, not the largest
-};
-// All of them, in the order in which they are printed.
-const std::array<Measure, 6>& all_measures();
-
-// How the worse of both differs.
-Measures worst_of(const Measures& a, const Measures& b);
-
-// "flip = 0.2 must be <= 0.1 (--max-flip)" for every limit that is broken; not a number breaks a limit.
-std::vector<std::string> broken_limits(const Measures& found, const Measures& limits);
 
 // In the folder of --out, for the heat maps of two folders' pictures.
 inline constexpr const char* kHeatFolder = "heat";
 
 struct DiffFlags {
   Measures limits = no_limits();
+  std::string limits_file;                              // "": none
+  Limits from_file;                                     // what it says
   double pixels_per_degree = render::kPixelsPerDegree;  // of the eye that FLIP assumes
   std::string map = "steps";                            // what heat maps show: steps | flip
-  std::string out;  // a PNG file, for folders a folder; "": nothing is written
+  std::string out;    // a PNG file, for folders a folder; "": nothing is written
+  std::string junit;  // an XML file; "": none
   bool json = false;
+
+  // Of the picture of that name: the file's, and in their place the flags'.
+  PictureLimits limits_of(const std::string& name) const;
 };
 
 // Two pictures of one size, the measures, and the picture of where they differ.

@@ -28,11 +28,16 @@ std::string heading(const FolderDiff& diff, const DiffFlags& flags, const std::s
   const auto broken = std::count_if(diff.rows.begin(), diff.rows.end(),
                                     [](const FolderDiff::Row& row) { return !row.broken.empty(); });
   std::string limits;
+  PictureLimits of_all = flags.from_file.all;
+  of_all.set({flags.limits});
   for (const Measure& m : all_measures()) {
-    const double limit = flags.limits.*m.value;
+    const double limit = of_all.values.*m.value;
     if (!std::isinf(limit))
       limits += std::string(limits.empty() ? "" : ", ") + m.name + (m.least ? " ≥ " : " ≤ ") + shown(limit);
   }
+  if (!flags.from_file.pictures.empty())
+    limits +=
+        std::string(limits.empty() ? "" : ", ") + "of some pictures as " + flags.limits_file + " has it";
   const std::string state =
       limits.empty() ? ""
       : broken       ? "<span class=\"state bad\">" + std::to_string(broken) + " beyond limits</span>"

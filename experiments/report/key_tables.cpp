@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "experiments/run/metrics.h"
-#include "experiments/workbench/app/options.h"
+#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
 #include "sim/scene/keys.h"
@@ -12,8 +13,6 @@
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-
-constexpr std::string_view kKeysBegin = "<!-- keys:begin -->", kKeysEnd = "<!-- keys:end -->";
 
 // A cell must not end at a bar.
 std::string cell(const std::string& text) {
@@ -49,7 +48,39 @@ std::string section(const std::string& title, const Keys& keys) {
   return "\n### " + title + "\n" + table_of(keys);
 }
 
+// What stands between the two comments of a name.
+struct Marked {
+  std::string name;
+  std::string (*text)();
+};
+const Marked kMarked[] = {{"keys", key_tables}, {"exit-codes", exit_code_table}};
+
+// Whether the page has such a place; what is there becomes what should be.
+bool rewrite(KeyPage& page, const Marked& marked) {
+  const std::string begin = "<!-- " + marked.name + ":begin -->", end = "<!-- " + marked.name + ":end -->";
+  const std::size_t at = page.text.find(begin), first = at + begin.size();
+  if (at == page.text.npos) return false;
+  const std::size_t last = page.text.find(end, first);
+  if (last == page.text.npos)
+    throw Error::request(page.file.string() + " has " + begin + " without " + end + " below it");
+  const std::string tables = "\n" + marked.text();
+  page.stale = page.stale || page.text.compare(first, last - first, tables) != 0;
+  page.text.replace(first, last - first, tables);
+  return true;
+}
+
 }  // namespace
+
+std::string exit_code_table() {
+  std::string table = "\n| code | meaning |\n|---|---|\n", differs;
+  for (const ExitCode& exit : kExitCodes)
+    table += "| " + std::to_string(exit.code) + " | " + cell(exit.meaning) + " |\n";
+  for (const Experiment& experiment : experiments())
+    if (*experiment.differs)
+      differs +=
+          std::string(differs.empty() ? "" : "; ") + "`" + experiment.name + "`: " + experiment.differs;
+  return table + "| " + std::to_string(kDiffers) + " | " + cell(differs) + " |\n\n";
+}
 
 std::string key_tables() {
   Scene scene = default_scene();
@@ -74,15 +105,9 @@ std::vector<KeyPage> key_pages(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
     if (entry.path().extension() != ".md") continue;
     KeyPage page{entry.path(), whole_file(entry.path(), "cannot read " + entry.path().string())};
-    const std::size_t begin = page.text.find(kKeysBegin), first = begin + kKeysBegin.size();
-    if (begin == page.text.npos) continue;
-    const std::size_t end = page.text.find(kKeysEnd, first);
-    if (end == page.text.npos)
-      throw Error::request(page.file.string() + " has " + std::string(kKeysBegin) + " without " +
-                           std::string(kKeysEnd) + " below it");
-    const std::string tables = "\n" + key_tables();
-    page.stale = page.text.compare(first, end - first, tables) != 0;
-    page.text.replace(first, end - first, tables);
+    bool any = false;
+    for (const Marked& marked : kMarked) any = rewrite(page, marked) || any;
+    if (!any) continue;
     pages.push_back(std::move(page));
   }
   if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());

@@ -1,4 +1,5 @@
-// The keys of scenes as tables in Markdown, written between two comments of a page of documentation.
+// The keys of scenes and the exit codes as tables in Markdown, written between two comments of a page of
+// documentation.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,11 @@ namespace hysteron::experiments {
 // tables that reading, flags, --help and checks come from.
 std::string key_tables();
 
-// A Markdown file with `<!-- keys:begin -->` and `<!-- keys:end -->`, which key_tables() stands between.
+// A line for each exit code.
+std::string exit_code_table();
+
+// A Markdown file with `<!-- keys:begin -->` and `<!-- keys:end -->`, which key_tables() stands between, or
+// with the same of `exit-codes` and exit_code_table().
 struct KeyPage {
   std::filesystem::path file;
   std::string text;  // as it should be

@@ -4,6 +4,7 @@
 
 #include "experiments/report/key_tables.h"
 #include "experiments/report/marked_numbers.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/check.h"
@@ -15,9 +16,6 @@
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
-
-// As of `hysteron diff`: two things that were compared are not the same.
-constexpr int kStale = 4;
 
 struct ReportFlags {
   bool check = false, self_contained = false;
@@ -66,7 +64,7 @@ bool are_keys_stale(const fs::path& folder, const std::vector<KeyPage>& pages) {
   for (const KeyPage& page : pages) {
     if (!page.stale) continue;
     complain() << page.file.string()
-               << ": the tables of keys are not what --help says now; write them again: "
+               << ": its tables of keys or exit codes are not what --help says now; write them again: "
                << "hysteron report " << folder.string() << std::endl;
     any = true;
   }
@@ -75,9 +73,9 @@ bool are_keys_stale(const fs::path& folder, const std::vector<KeyPage>& pages) {
 
 int check(const fs::path& folder) {
   const std::vector<KeyPage> documentation = key_pages(folder);
-  if (!documentation.empty()) return are_keys_stale(folder, documentation) ? kStale : 0;
+  if (!documentation.empty()) return are_keys_stale(folder, documentation) ? kDiffers : 0;
   const bool pages = are_pages_stale(folder), numbers = !has_manifest(folder) && are_numbers_stale(folder);
-  return pages || numbers ? kStale : 0;
+  return pages || numbers ? kDiffers : 0;
 }
 
 void write_keys(const std::vector<KeyPage>& documentation) {
@@ -129,7 +127,8 @@ Experiment report() {
           "its numbers in the README.md and docs/ beside it; the tables of keys in a folder of documentation",
       .run = run_report,
       .own_keys = own_keys_of<kRows>,
-      .names = "DIR"};
+      .names = "DIR",
+      .differs = "what is checked is missing or stale (--check)"};
 }
 
 }  // namespace hysteron::experiments

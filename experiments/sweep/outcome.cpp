@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/atomic_file.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr const char* kOutcome = "outcome.json";
 // Exit codes.
-constexpr int kNotRun = -1, kRefused = 2, kCouldNotGoOn = 3;
+constexpr int kNotRun = -1, kRefused = 2;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "experiments/sweep/latin_hypercube.h"
 #include "experiments/sweep/study.h"
+#include "experiments/workbench/app/command_line.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/scene/assets.h"
@@ -22,23 +23,12 @@ constexpr int kDigits = 6;  // of values that a range or a sample gives: they st
 // Of those that a study leaves to `sweep` itself.
 const std::set<std::string> kOfTheSweep = {"out", "quiet", "json", "resume", "threads", "explain"};
 
-std::vector<KeyDescription> keys_of(const Experiment& experiment) {
-  std::vector<KeyDescription> keys;
-  if (experiment.own_keys) keys = experiment.own_keys();
-  if (!experiment.simulates) return keys;
-  Options options;
-  Scene scene;
-  for (const Keys& general : {bind_options(options), bind_scene(scene)})
-    for (const KeyDescription& key : descriptions(general)) keys.push_back(key);
-  return keys;
-}
-
 // It writes a folder with a manifest, and flags alone say what; one whose argument is a scene takes it as
 // --scene, too.
 bool can_be_repeated(const Experiment& experiment) {
   const bool by_flags = !*experiment.names || (experiment.simulates && experiment.defaults);
   if (!experiment.run || !by_flags) return false;
-  const std::vector<KeyDescription> keys = keys_of(experiment);
+  const std::vector<KeyDescription> keys = options_of(experiment, Defaults::left_out);
   const auto takes = [&](const char* path) {
     return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
   };
@@ -173,7 +163,7 @@ class StudyFile {
       throw refusal(*root.find("experiment"),
                     "experiment = " + study_.experiment + " must be " + join(known, " | "))
           .of("experiment", study_.experiment);
-    for (const KeyDescription& key : keys_of(experiment_named(study_.experiment)))
+    for (const KeyDescription& key : options_of(experiment_named(study_.experiment), Defaults::left_out))
       keys_.push_back({key, Field{}});
   }
 

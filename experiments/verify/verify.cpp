@@ -2,13 +2,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <set>
 
-#include "experiments/verify/comparison.h"
+#include "experiments/verify/repetition.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/junit.h"
 #include "sim/base/error.h"
 #include "sim/base/process.h"
 
@@ -16,12 +19,12 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kDiffers = 4;  // exit code, as of diff
-
 struct VerifyChoice {
   double at_most = 0;
   std::string device;
   int threads = 0;
+  bool exact = false;
+  std::string limits = "pictures", junit;
 };
 using V = VerifyChoice;
 // clang-format off
@@ -29,6 +32,9 @@ const KeyRow<V> kRows[] = {
     {"at-most", at<&V::at_most>, "s", at_least(0), "", "only runs that have taken this wall clock time or less, and no GPU; 0: all; with --quick 4 s unless given"},
     {"device", at<&V::device>, "", any(), "", "auto | cpu | cuda | cuda:N: where to repeat them in place of where they ran"},
     {"threads", at<&V::threads>, "", between(0, 1024), "", "CPU threads; 0: as many as they had"},
+    {"exact", at<&V::exact>, "", any(), "", "the same bits are required of runs by another build or device, too"},
+    {"limits", at<&V::limits>, "", any(), "", "a TOML file of limits on pictures and metrics, or one of assets/limits by its name"},
+    {"junit", at<&V::junit>, "", any(), "", "a JUnit XML file, with a test case for each run"},
 };
 // clang-format on
 
@@ -46,7 +52,7 @@ std::vector<KeyDescription> own_keys() {
   return descriptions(bind_verify(choice, options));
 }
 
-enum class Outcome { same, differs, skipped, failed };
+enum class Outcome { same, within, differs, skipped, failed };
 
 struct Line {
   Outcome outcome;
@@ -98,22 +104,33 @@ std::vector<std::string> command_for(const fs::path& folder, const fs::path& out
   return words;
 }
 
-std::string words_of(const Comparison& c, const std::string& reasons) {
+std::string words_of(const Repetition& r, const std::string& reasons) {
   std::vector<std::string> parts;
-  const std::string state = c.same_state ? "same state" : c.has_state ? "state differs" : "no state is kept";
-  parts.push_back(fmt::format("{}; {} of {} metrics the same", state,
-                              c.metrics - c.within.size() - c.beyond.size(), c.metrics));
-  if (!c.within.empty()) parts.push_back("within their errors: " + join(c.within, ", "));
-  if (!c.beyond.empty()) parts.push_back("beyond: " + join(c.beyond, ", "));
-  if (!c.missing.empty()) parts.push_back("no longer measured: " + join(c.missing, ", "));
-  if (c.pictures > 0 && c.pictures_beyond.empty())
-    parts.push_back(fmt::format("{} picture{} the same", c.pictures, c.pictures == 1 ? "" : "s"));
-  if (!c.pictures_beyond.empty()) parts.push_back("pictures differ: " + join(c.pictures_beyond, ", "));
-  if (!c.is_same() && !reasons.empty()) parts.push_back("recorded by another: " + reasons);
+  const std::string state = r.same_state ? "same state" : r.has_state ? "state differs" : "no state is kept";
+  parts.push_back(fmt::format(
+      "{}; {} of {} metrics the same", state,
+      r.metrics - r.rounded.size() - r.effort.size() - r.within.size() - r.beyond.size(), r.metrics));
+  if (!r.rounded.empty())
+    parts.push_back(fmt::format("{} within round-off, {:.0e} of their size", r.rounded.size(), r.round_off));
+  if (!r.effort.empty()) parts.push_back(fmt::format("{} of the solver's work", r.effort.size()));
+  if (!r.within.empty()) parts.push_back("within their errors: " + join(r.within, ", "));
+  if (!r.beyond.empty()) parts.push_back("beyond: " + join(r.beyond, ", "));
+  if (!r.missing.empty()) parts.push_back("no longer measured: " + join(r.missing, ", "));
+  if (r.pictures > 0 && r.pictures_beyond.empty())
+    parts.push_back(fmt::format("{} picture{} the same", r.pictures, r.pictures == 1 ? "" : "s"));
+  if (!r.pictures_beyond.empty()) parts.push_back("pictures differ: " + join(r.pictures_beyond, ", "));
+  if (r.agreement() != Agreement::bits && !reasons.empty())
+    parts.push_back("recorded by another: " + reasons);
   return join(parts, "; ");
 }
 
-Line verified(const fs::path& folder, const fs::path& out, const VerifyChoice& choice, bool no_images) {
+Outcome outcome_of(Agreement agreement) {
+  if (agreement == Agreement::bits) return Outcome::same;
+  return agreement == Agreement::errors ? Outcome::within : Outcome::differs;
+}
+
+Line verified(const fs::path& folder, const fs::path& out, const VerifyChoice& choice, const Limits& limits,
+              bool no_images) {
   const Manifest recorded = read_manifest(folder / "manifest.json");
   if (const std::string why = why_skipped(recorded, folder, choice); !why.empty())
     return {Outcome::skipped, "skipped: " + why};
@@ -125,17 +142,22 @@ Line verified(const fs::path& folder, const fs::path& out, const VerifyChoice& c
     return {Outcome::failed, "could not be repeated: " + why};
   }
   const Manifest now = read_manifest(out / "manifest.json");
-  Comparison comparison = compare_runs(recorded, now);
-  compare_pictures(pictures, folder, out, comparison);
-  if (!comparison.has_state && comparison.metrics + comparison.pictures == 0)
+  Repetition repetition = compare_runs(recorded, now, limits, choice.exact);
+  compare_pictures(pictures, folder, out, limits, repetition);
+  if (!repetition.has_state && repetition.metrics + repetition.pictures == 0)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
-  return {comparison.is_same() ? Outcome::same : Outcome::differs,
-          words_of(comparison, reasons_between(recorded, now))};
+  return {outcome_of(repetition.agreement()), words_of(repetition, reasons_between(recorded, now))};
 }
 
 const char* word_of(Outcome outcome) {
-  constexpr const char* kWords[] = {"same", "DIFFERS", "-", "failed"};
+  constexpr const char* kWords[] = {"same", "within", "DIFFERS", "-", "failed"};
   return kWords[static_cast<int>(outcome)];
+}
+
+TestCase case_of(const std::string& name, const Line& said, double seconds) {
+  using Case = TestCase::Outcome;
+  constexpr Case kCases[] = {Case::passed, Case::passed, Case::failed, Case::skipped, Case::broken};
+  return {name, kCases[static_cast<int>(said.outcome)], said.words, seconds};
 }
 
 int run_verify(const CommandLine& line) {
@@ -145,21 +167,29 @@ int run_verify(const CommandLine& line) {
   options.out = "out/verify";
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
   const fs::path root = line.names.front();
+  const Limits limits = read_limits(choice.limits);
   const std::vector<fs::path> folders = folders_below(root);
-  int count[4] = {};
+  int count[5] = {};
+  std::vector<TestCase> cases;
   for (const fs::path& folder : folders) {
-    const fs::path name = fs::relative(folder, root);
-    const Line said = verified(folder, fs::path(options.out) / name, choice, options.no_images);
+    const std::string name = fs::relative(folder, root).string();
+    const auto start = std::chrono::steady_clock::now();
+    const Line said = verified(folder, fs::path(options.out) / name, choice, limits, options.no_images);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    cases.push_back(case_of(name, said, took.count()));
     ++count[static_cast<int>(said.outcome)];
     if (said.outcome == Outcome::skipped && options.quiet) continue;
-    std::cout << fmt::format("{:<8}{:<36} {}", word_of(said.outcome), name.string(), said.words) << std::endl;
+    std::cout << fmt::format("{:<8}{:<36} {}", word_of(said.outcome), name, said.words) << std::endl;
   }
-  const auto [same, differs, skipped, failed] = std::to_array(count);
-  std::cout << fmt::format("{} of {} runs repeated: {} the same, {} differ; {} could not be, {} skipped",
-                           same + differs, folders.size(), same, differs, failed, skipped)
-            << std::endl;
+  const auto [same, within, differs, skipped, failed] = std::to_array(count);
+  std::cout
+      << fmt::format(
+             "{} of {} runs repeated: {} the same, {} within errors, {} differ; {} could not be, {} skipped",
+             same + within + differs, folders.size(), same, within, differs, failed, skipped)
+      << std::endl;
+  if (!choice.junit.empty()) write_junit(choice.junit, "verify", root.string(), cases);
   if (differs > 0) return kDiffers;
-  if (same == 0)
+  if (same + within == 0)
     throw Error::request("nothing was compared: no run in " + root.string() + " could be repeated");
   return 0;
 }
@@ -171,7 +201,8 @@ Experiment verify() {
           .question = "runs repeated and compared with their manifests: state, metrics, pictures",
           .run = run_verify,
           .own_keys = own_keys,
-          .names = "DIR"};
+          .names = "DIR",
+          .differs = "a run is not what its manifest says"};
 }
 
 }  // namespace hysteron::experiments

@@ -116,6 +116,21 @@ TEST(Program, SaysItsVersionAndCommit) {
   const Outcome outcome = program("--version");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("(commit "), std::string::npos) << outcome.out;
+  for (const char* words : {"drape --version", "list laws --version", "drape --quick --step 0.1 --version"}) {
+    const Outcome anywhere = program(words);
+    EXPECT_EQ(anywhere.exit_code, 0) << words;
+    EXPECT_EQ(anywhere.out, outcome.out) << words;
+  }
+}
+
+TEST(Program, SaysInItsHelpWhatItsExitCodesMean) {
+  EXPECT_NE(program("--help").out.find("\nExit codes:\n  0  done\n"), std::string::npos);
+  for (const Experiment& experiment : experiments()) {
+    const std::string help = program(std::string(experiment.name) + " --help").out;
+    EXPECT_NE(help.find("\n  2  the request is wrong\n"), std::string::npos) << experiment.name;
+    const bool differs = help.find(std::string("\n  4  ") + experiment.differs) != std::string::npos;
+    EXPECT_EQ(differs, *experiment.differs != 0) << experiment.name;
+  }
 }
 
 TEST(Program, ComparesIntegratorsByErrorAndTime) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Records the runs in runs/ that ctest repeats to the bit (`hysteron verify tests/golden/runs`), after a change that
+# Records the runs in runs/ that ctest repeats (`hysteron verify tests/golden/runs`; a build for x86-64-v3 to the bit), after a change that
 # is meant to change numbers:
 #   tests/golden/record_runs.sh PROGRAM
 set -euo pipefail

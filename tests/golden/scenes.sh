@@ -12,6 +12,4 @@ declare -A golden_runs=(
   [crease]="crease --crease.fold pleat --crease.recovery 0.1 --triangles 200 --fps 5"
 )
 golden_size=480x270
-# Last bits differ between processors, and edges between releases of Mesa: a few pixels.  Another light, view or
-# fabric moves thousands by tens of steps.
-golden_limits=(--max-mean 0.2 --max-pixels-over-8 0.3 --max-flip 0.01)
+golden_limits=(--limits pictures)

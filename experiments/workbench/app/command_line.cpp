@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/base/error.h"
 #include "sim/scene/keys.h"
@@ -22,49 +23,26 @@ struct Command {
   std::vector<std::string> names;
 };
 
-// Defaults are read, with the fabric's file, only to be shown: `for_help`.
-std::vector<KeyDescription> keys_of(const Experiment& experiment, bool for_help) {
-  std::vector<KeyDescription> keys;
-  if (experiment.own_keys) keys = experiment.own_keys();
-  if (!experiment.simulates) return keys;
-  const bool shown = for_help && experiment.defaults;
-  Setup setup = shown ? experiment.defaults() : Setup();
-  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
-  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
-  for (KeyDescription& key : general) {
-    if (!shown) key.usual.clear();
-    keys.push_back(std::move(key));
-  }
-  return keys;
-}
-
-// "radius of the pedestal [m], > 0, default 0.09"
-std::string help_of(const KeyDescription& key) {
-  std::string text = key.doc;
-  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
-  if (!key.unit.empty()) text += " [" + key.unit + "]";
-  if (key.range.text() != "finite") text += ", " + key.range.text();
-  if (!key.usual.empty()) text += ", default " + key.usual;
-  return text;
-}
-
 CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
-  if (key.type == "flag") return app.add_flag("--" + key.path)->description(help_of(key));
-  const std::string names = key.path == "fabric.name" ? "--fabric,--fabric.name" : "--" + key.path;
-  CLI::Option* option = app.add_option(names)->description(help_of(key));
+  const std::string name = option_name(key);
+  if (key.type == "flag") return app.add_flag(name)->description(option_help(key));
+  CLI::Option* option = app.add_option(key.path == "fabric.name" ? name + ",--" + key.path : name)
+                            ->description(option_help(key));
   option->expected(1)->type_name(key.type);
   if (key.type == "name=value") return option->take_all()->allow_extra_args(false);
   return option->take_last();
 }
 
-void add_command(CLI::App& program, const Experiment& experiment, bool for_help, Command& command) {
+void add_command(CLI::App& program, const Experiment& experiment, Defaults defaults, Command& command) {
   command.experiment = &experiment;
   command.app = program.add_subcommand(experiment.name, experiment.question);
   command.app->allow_extras();
+  command.app->set_version_flag("--version", program_version());
+  command.app->footer(exit_codes_text(experiment.differs));
+  if (experiment.hidden) command.app->group("");
   if (!experiment.run) return;
-  for (const KeyDescription& key : keys_of(experiment, for_help)) {
-    command.flags.emplace_back(key.path == "fabric.name" ? "fabric" : key.path, add_flag(*command.app, key));
-  }
+  for (const KeyDescription& key : options_of(experiment, defaults))
+    command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
   if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);
 }
 
@@ -86,9 +64,11 @@ std::string shell_command(int count, const char* const* words) {
   return shell_text(all);
 }
 
-// CLI11 leaves what it does not know; say which flag that is, and what was meant.
+// CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
+// and what was meant.
 void refuse_unknown(const Command& command) {
-  const std::vector<std::string> unknown = command.app->remaining();
+  std::vector<std::string> unknown = command.app->remaining();
+  std::erase(unknown, "--");
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const std::string experiment = command.experiment->name;
@@ -107,7 +87,8 @@ void refuse_unknown(const Command& command) {
 void refuse_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
   if (word.starts_with('-')) throw Error::request("unknown option " + word + " before the subcommand");
   std::vector<std::string> known;
-  for (const Experiment& experiment : experiments) known.push_back(experiment.name);
+  for (const Experiment& experiment : experiments)
+    if (!experiment.hidden) known.push_back(experiment.name);
   const std::string nearest = nearest_name(word, known);
   throw Error::request("unknown subcommand " + word +
                        (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
@@ -134,6 +115,34 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 
 }  // namespace
 
+std::vector<KeyDescription> options_of(const Experiment& experiment, Defaults defaults) {
+  std::vector<KeyDescription> keys;
+  if (experiment.own_keys) keys = experiment.own_keys();
+  if (!experiment.simulates) return keys;
+  const bool shown = defaults == Defaults::shown && experiment.defaults;
+  Setup setup = shown ? experiment.defaults() : Setup();
+  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
+  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
+  for (KeyDescription& key : general) {
+    if (!shown) key.usual.clear();
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+std::string option_name(const KeyDescription& key) {
+  return key.path == "fabric.name" ? "--fabric" : "--" + key.path;
+}
+
+std::string option_help(const KeyDescription& key) {
+  std::string text = key.doc;
+  if (!key.choices.empty()) text += ": " + join(key.choices, " | ");
+  if (!key.unit.empty()) text += " [" + key.unit + "]";
+  if (key.range.text() != "finite") text += ", " + key.range.text();
+  if (!key.usual.empty()) text += ", default " + key.usual;
+  return text;
+}
+
 std::string shell_text(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + quoted(word);
@@ -144,12 +153,14 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
                                               const std::vector<Experiment>& known) {
   CLI::App program("Bending hysteresis of cloth: simulate, measure, picture", "hysteron");
   program.set_version_flag("--version", program_version());
+  program.footer(exit_codes_text("what was compared differs"));
   program.allow_extras();
   program.require_subcommand(0, 1);
   std::vector<Command> commands(known.size());
   const bool for_help = std::any_of(
       words, words + count, [](const std::string_view word) { return word == "--help" || word == "-h"; });
-  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], for_help, commands[i]);
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    add_command(program, known[i], for_help ? Defaults::shown : Defaults::left_out, commands[i]);
   const auto chosen = [&]() -> const Command* {
     for (const Command& command : commands) {
       if (command.app->parsed()) return &command;

@@ -12,6 +12,15 @@ namespace hysteron::experiments {
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known = experiments());
 
+// The options of a subcommand in the order of --help: its own, then those of every simulated run.  Their
+// defaults, and with them the fabric's file, are read only to be shown.
+enum class Defaults { left_out, shown };
+std::vector<KeyDescription> options_of(const Experiment& experiment, Defaults defaults);
+// As it is typed: "--fabric", "--step".
+std::string option_name(const KeyDescription& key);
+// "radius of the pedestal [m], > 0, default 0.09"
+std::string option_help(const KeyDescription& key);
+
 // Words as a line that a shell takes apart into them again.
 std::string shell_text(const std::vector<std::string>& words);
 

@@ -30,8 +30,10 @@ struct Experiment {
   bool simulates = false;                    // takes the keys of scenes and Options
   std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
   Setup (*defaults)() =
-      nullptr;             // of an experiment that simulates, for --help; null: they depend on the flags
-  const char* names = "";  // what CommandLine::names are ("DIR"); "": not allowed
+      nullptr;               // of an experiment that simulates, for --help; null: they depend on the flags
+  const char* names = "";    // what CommandLine::names are ("DIR"); "": not allowed
+  const char* differs = "";  // what exit code 4 says; "": it does not occur
+  bool hidden = false;       // called by scripts of the project: not in --help
 };
 
 // All subcommands, in the order of --help (experiments/catalogue.cpp).

@@ -148,6 +148,7 @@ struct Statements {
 
 struct Manifest {
   std::string version, commit;
+  std::string instructions;  // that the program was built for, "x86-64-v3"; "": not noted
   bool dirty = false;
   std::string experiment, command, started;
   std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written

@@ -270,6 +270,7 @@ Json to_json(const Metrics& metrics) {
 Json to_json(const Manifest& m) {
   Json json;
   json["hysteron"] = {{"version", m.version}, {"commit", m.commit}, {"dirty", m.dirty}};
+  if (!m.instructions.empty()) json["hysteron"]["instructions"] = m.instructions;
   json["experiment"] = m.experiment;
   json["command"] = m.command;
   json["started"] = m.started;
@@ -289,6 +290,7 @@ Manifest manifest_of(const Json& json) {
   const Json& program = at(json, "hysteron");
   m.version = shown_at(program, "version");
   m.commit = shown_at(program, "commit");
+  m.instructions = text_at(program, "instructions");
   m.dirty = is_true_at(program, "dirty");
   m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
   m.command = text_at(json, "command");

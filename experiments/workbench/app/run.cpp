@@ -29,6 +29,20 @@ std::string utc_now() {
   return text;
 }
 
+// That this program was built for: sums of vectors of another width round differently.
+constexpr const char* kInstructions =
+#if defined(__AVX512F__)
+    "x86-64-v4";
+#elif defined(__AVX2__) && defined(__FMA__)
+    "x86-64-v3";
+#elif defined(__SSE4_2__)
+    "x86-64-v2";
+#elif defined(__x86_64__)
+    "x86-64";
+#else
+    "others";
+#endif
+
 // What is known at the start.
 Manifest first_entries(const CommandLine& line, const Json& scene) {
   const auto text = [&](const char* key) {
@@ -38,6 +52,7 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   Manifest manifest;
   manifest.version = kVersion;
   manifest.commit = kGitCommit;
+  manifest.instructions = kInstructions;
   manifest.dirty = kGitDirty;
   manifest.experiment = line.experiment;
   manifest.command = line.command;

@@ -255,10 +255,67 @@ TEST_F(DiffOfFolders, PrintsOneJsonObject) {
   EXPECT_LT(json["worst"]["ssim"], 1);
 }
 
+// 64 of 64 x 48 pixels by 20 steps: mean_abs = 0.417.
+TEST_F(Diff, TakesLimitsFromAFileAndFlagsInTheirPlace) {
+  const std::string file = folder_.path() / "limits.toml";
+  std::ofstream(file) << "max-mean = 0.4\nmin-ssim = 0.5\n";
+  const Outcome outcome = diff("--limits " + file);
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+  EXPECT_NE(outcome.err.find("must be <= 0.4 (" + file + ":1)"), std::string::npos) << outcome.err;
+  EXPECT_EQ(diff("--limits " + file + " --max-mean 0.5").exit_code, 0);
+  EXPECT_NE(diff("--limits " + file + " --max-mean 0.3").err.find("<= 0.3 (--max-mean)"), std::string::npos);
+  EXPECT_EQ(diff("--limits pictures").exit_code, 4) << "those that come with the program";
+}
+
+TEST_F(DiffOfFolders, TakesLimitsOfSomePicturesFromAFile) {
+  const std::string file = folder_.path() / "limits.toml";
+  const auto limited = [&](const std::string& name, const std::string& mean) {
+    std::ofstream(file) << "max-mean = 0.1\n[[picture]]\nname = \"" << name << "\"\nmax-mean = " << mean
+                        << "\n";
+    return diff("--limits " + file).exit_code;
+  };
+  EXPECT_EQ(limited("frames/*.png", "0.5"), 0);
+  EXPECT_EQ(limited("frames/*.png", "0.3"), 4);
+  EXPECT_EQ(limited("sheet.png", "0.5"), 4) << "the other picture keeps the limit of all";
+}
+
+TEST_F(DiffOfFolders, WritesATestCaseForEachPicture) {
+  const std::string file = folder_.path() / "new" / "tests.xml";
+  EXPECT_EQ(diff("--max-mean 0.1 --junit " + file).exit_code, 4);
+  const std::string xml = text_of(file);
+  for (const char* part :
+       {"tests=\"2\" failures=\"1\"", "<testcase name=\"sheet.png\" classname=\"hysteron.diff\"",
+        "<failure message=\"mean_abs = 0.416667 must be &lt;= 0.1 (--max-mean)\""})
+    EXPECT_NE(xml.find(part), std::string::npos) << part << " in\n" << xml;
+}
+
+TEST(LimitsFile, RefusesInOneLineWhatIsNoLimit) {
+  const Folder folder;
+  const std::string file = folder.path() / "limits.toml";
+  const std::pair<const char*, const char*> kCases[] = {
+      {"max-flop = 1", "unknown key max-flop"},
+      {"max-flip = 2", "max-flip = 2 must be in [0, 1]"},
+      {"max-flip = [1]", "max-flip"},
+      {"[picture]\nmax-flip = 1", "must be an array of tables, [[picture]]"},
+      {"[[picture]]\nmax-flip = 1", "a limit needs a name"},
+      {"[[metric]]\nname = \"a\"", "needs max-difference"},
+      {"[[metric]]\nname = \"a\"\nmax-difference = -1", "must be >= 0"}};
+  for (const auto& [text, message] : kCases) {
+    std::ofstream(file) << text << "\n";
+    const Outcome outcome = program("diff " + file + " " + file + " --limits " + file);
+    EXPECT_EQ(outcome.exit_code, 2) << text;
+    EXPECT_TRUE(one_line(outcome.err)) << outcome.err;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("limits.toml:"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST(BrokenLimits, CountNotANumberAsBroken) {
-  Measures limits = no_limits(), found;
+  PictureLimits limits;
+  Measures found;
   EXPECT_TRUE(broken_limits(found, limits).empty());
-  limits.flip = 0.5;
+  limits.values.flip = 0.5;
   found.flip = std::nan("");
   EXPECT_EQ(broken_limits(found, limits).size(), 1u);
 }

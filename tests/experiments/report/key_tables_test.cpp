@@ -49,10 +49,10 @@ TEST(ReportOfDocumentation, WritesTheTablesBetweenTheirCommentsAndChecksThem) {
   std::ofstream(folder.path() / "laws.md") << "# Laws\n";
   const Outcome stale = program("report --check " + folder.path().string());
   EXPECT_EQ(stale.exit_code, 4);
-  EXPECT_EQ(stale.err,
-            "hysteron report: " + page.string() +
-                ": the tables of keys are not what --help says now; write them again: hysteron report " +
-                folder.path().string() + "\n");
+  EXPECT_EQ(stale.err, "hysteron report: " + page.string() +
+                           ": its tables of keys or exit codes are not what --help says now; write them "
+                           "again: hysteron report " +
+                           folder.path().string() + "\n");
   EXPECT_EQ(text_of(page), kEmpty) << "--check writes nothing";
   const Outcome written = program("report " + folder.path().string());
   EXPECT_EQ(written.exit_code, 0) << written.err;
@@ -61,6 +61,20 @@ TEST(ReportOfDocumentation, WritesTheTablesBetweenTheirCommentsAndChecksThem) {
             "# Keys\n\n<!-- keys:begin -->\n" + key_tables() + "<!-- keys:end -->\n\nAfter them.\n");
   EXPECT_EQ(program("report --check " + folder.path().string()).exit_code, 0);
   EXPECT_EQ(text_of(folder.path() / "laws.md"), "# Laws\n");
+}
+
+TEST(ReportOfDocumentation, HasTheExitCodesOfHelp) {
+  const Folder folder;
+  const fs::path page = folder.path() / "start.md";
+  std::ofstream(page) << "<!-- exit-codes:begin -->\n<!-- exit-codes:end -->\n";
+  ASSERT_EQ(program("report " + folder.path().string()).exit_code, 0);
+  const std::string table = text_of(page);
+  for (const Experiment& experiment : experiments())
+    if (*experiment.differs)
+      EXPECT_NE(table.find("`" + std::string(experiment.name) + "`: " + experiment.differs),
+                std::string::npos)
+          << table;
+  EXPECT_NE(table.find("\n| 2 | the request is wrong |\n"), std::string::npos) << table;
 }
 
 TEST(ReportOfDocumentation, RefusesTablesWithoutTheirEnd) {

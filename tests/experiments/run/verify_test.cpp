@@ -1,11 +1,11 @@
 #include <nlohmann/json.hpp>
 
+#include "experiments/verify/repetition.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 // A run in a folder of its own.
@@ -23,6 +23,11 @@ class Recorded : public testing::Test {
     Json json = json_in(run());
     change(json);
     std::ofstream(manifest()) << json.dump(2);
+  }
+
+  static void move(Json& json, const char* metric, double by) {
+    Json& value = json["metrics"][metric];
+    value = value.get<double>() + by;
   }
 
   Folder folder_;
@@ -87,12 +92,10 @@ TEST_F(Recorded, RunIsVerified) {
   const std::string verify = "verify " + in("runs") + " --out " + in("check");
   const Outcome same = program(verify);
   EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
-  EXPECT_NE(same.out.find("same state"), std::string::npos) << same.out;
+  for (const char* words : {"same    one", "same state", "1 the same, 0 within errors, 0 differ"})
+    EXPECT_NE(same.out.find(words), std::string::npos) << same.out;
 
-  edit([](Json& json) {
-    json["metrics"]["drape_coefficient_percent"] =
-        json["metrics"]["drape_coefficient_percent"].get<double>() + 1;
-  });
+  edit([](Json& json) { move(json, "drape_coefficient_percent", 1); });
   const Outcome beyond = program(verify);
   EXPECT_EQ(beyond.exit_code, 4);
   EXPECT_NE(beyond.out.find("beyond: drape_coefficient_percent"), std::string::npos) << beyond.out;
@@ -101,13 +104,113 @@ TEST_F(Recorded, RunIsVerified) {
     json["metrics"]["drape_coefficient_percent_step_error"] = 2.0;
     json["state_hash"] = "0123456789abcdef";
     json["hysteron"]["commit"] = "0123456789";
-    json["device"] = "cpu: another";
+    json["device"] = "cpu: another, 1 threads";
   });
   const Outcome within = program(verify);
-  EXPECT_EQ(within.exit_code, 4);
-  for (const char* words : {"state differs", "within their errors: drape_coefficient_percent",
-                            "program 0123456", "device cpu: another, now"})
+  EXPECT_EQ(within.exit_code, 0) << within.out;
+  for (const char* words : {"within  one", "state differs", "within their errors: drape_coefficient_percent",
+                            "program 0123456", "device cpu: another, 1 threads, now"})
     EXPECT_NE(within.out.find(words), std::string::npos) << within.out;
+  EXPECT_EQ(program(verify + " --exact").exit_code, 4);
+}
+
+// The program promises them of one build on one device.
+TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
+  record(kDrape);
+  edit([](Json& json) { json["state_hash"] = "0123456789abcdef"; });
+  const std::string verify = "verify " + in("runs") + " --out " + in("check");
+  EXPECT_EQ(program(verify).exit_code, 4);
+  edit([](Json& json) { json["hysteron"]["instructions"] = "x86-64-v9"; });
+  const Outcome other = program(verify);
+  EXPECT_EQ(other.exit_code, 0) << other.out;
+  EXPECT_NE(other.out.find("instructions x86-64-v9, now x86-64"), std::string::npos) << other.out;
+  edit([](Json& json) { json["hysteron"].erase("instructions"); });
+  EXPECT_EQ(program(verify).exit_code, 0) << "older programs did not note them";
+}
+
+// As if it had been recorded by a program that has standard gravity, 9.80665 m/s^2, in place of 9.81.
+TEST_F(Recorded, RunWithAnotherConstantDiffersThoughNoBitsAreDue) {
+  const std::string swing = "swing --quick --triangles 100 --no-images";
+  for (const std::string& command : {kDrape, swing}) {
+    record(command + " --gravity '0 0 -9.80665'");
+    const Json other = json_in(run());
+    record(command);
+    edit([&](Json& json) {
+      json["metrics"] = other["metrics"];
+      json["state_hash"] = other["state_hash"];
+      json["hysteron"].erase("instructions");
+    });
+    const Outcome outcome = program("verify " + in("runs") + " --out " + in("check"));
+    EXPECT_EQ(outcome.exit_code, 4) << command;
+    EXPECT_NE(outcome.out.find("beyond: "), std::string::npos) << outcome.out;
+  }
+}
+
+// A mathematical library without fused multiplication stands for that of another processor.
+TEST_F(Recorded, RunOnAnotherProcessorIsTheSameWithinRoundOff) {
+  for (const std::string& command : {kCrease, std::string("swing --quick --no-images")}) {
+    record(command);
+    edit([](Json& json) { json["hysteron"].erase("instructions"); });
+    const std::string verify = "verify " + in("runs") + " --out " + in("check");
+    setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA", 1);
+    const Outcome outcome = program(verify);
+    unsetenv("GLIBC_TUNABLES");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+    if (outcome.out.find("same state") == std::string::npos)
+      EXPECT_NE(outcome.out.find("within round-off"), std::string::npos) << outcome.out;
+  }
+}
+
+TEST_F(Recorded, RunIsHeldToLimitsFromAFile) {
+  record(kDrape);
+  edit([](Json& json) {
+    move(json, "drape_coefficient_percent", 0.4), json["hysteron"].erase("instructions");
+  });
+  const auto verified = [&](const std::string& limit) {
+    std::ofstream(in("limits.toml")) << "[[metric]]\nname = \"drape_*\"\nmax-difference = " << limit << "\n";
+    return program("verify " + in("runs") + " --limits " + in("limits.toml") + " --junit " + in("tests.xml") +
+                   " --out " + in("check"));
+  };
+  EXPECT_EQ(verified("0.5").exit_code, 0);
+  EXPECT_NE(text_of(in("tests.xml")).find("tests=\"1\" failures=\"0\" errors=\"0\""), std::string::npos);
+  EXPECT_EQ(verified("0.3").exit_code, 4);
+  const std::string xml = text_of(in("tests.xml"));
+  EXPECT_NE(xml.find("<testcase name=\"one\" classname=\"hysteron.verify\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<failure message=\"same state; "), std::string::npos) << xml;
+}
+
+Manifest with_steps(const std::string& integrator, double newton_residual) {
+  Manifest run;
+  run.scene.integrator = integrator;
+  run.keys =
+      std::make_shared<const Json>(Json{{"newton-residual", newton_residual}, {"solver-tolerance", 1e-4}});
+  return run;
+}
+
+TEST(RoundOff, IsATenthOfTheToleranceThatStepsWereSolvedToAndAtLeastAMillionth) {
+  EXPECT_DOUBLE_EQ(round_off_of(with_steps("tr-bdf2", 1e-3)), 1e-4);
+  EXPECT_DOUBLE_EQ(round_off_of(with_steps("tr-bdf2", 1e-8)), 1e-6);
+  EXPECT_DOUBLE_EQ(round_off_of(with_steps("semi-implicit", 1e-3)), 1e-5);
+  EXPECT_DOUBLE_EQ(round_off_of(with_steps("explicit", 1e-3)), 1e-6);
+  EXPECT_DOUBLE_EQ(round_off_of({}), 1e-6) << "a law without steps";
+}
+
+TEST(RoundOff, IsAShareOfTheNumberOrOfTheWhole) {
+  Manifest before = with_steps("bdf2", 1e-6), now = before;
+  before.metrics = {
+      {"energy_J", 1e-7}, {"share_percent", 0.1}, {"node_count", 7}, {"newton_iterations", 3.5}};
+  const auto agreement = [&](const char* name, MetricValue value) {
+    now.metrics = before.metrics;
+    now.metrics.set(name, value);
+    return compare_runs(before, now, {}, false).agreement();
+  };
+  EXPECT_EQ(agreement("energy_J", 1e-7), Agreement::bits);
+  EXPECT_EQ(agreement("energy_J", 1e-7 * (1 + 0.9e-6)), Agreement::errors);
+  EXPECT_EQ(agreement("energy_J", 1e-7 * (1 + 1.1e-6)), Agreement::none);
+  EXPECT_EQ(agreement("share_percent", 0.1 + 0.9e-4), Agreement::errors);
+  EXPECT_EQ(agreement("share_percent", 0.1 + 1.1e-4), Agreement::none);
+  EXPECT_EQ(agreement("node_count", 8), Agreement::none) << "counts are exact";
+  EXPECT_EQ(agreement("newton_iterations", 4.5), Agreement::errors) << "work of the solver";
 }
 
 TEST_F(Recorded, RunThatTookLongIsLeftOut) {

@@ -80,6 +80,7 @@ TEST(CommandLine, IsKeptForTheManifestAsTheShellReadsIt) {
 
 TEST(CommandLine, TakesNamesWhereTheExperimentDoes) {
   EXPECT_EQ(parsed({"report", "a", "drape"})->names, (std::vector<std::string>{"a", "drape"}));
+  EXPECT_EQ(parsed({"report", "--", "--a", ""})->names, (std::vector<std::string>{"--a", ""}));
   EXPECT_EQ(refusal({"drape", "a"}), "drape: unexpected argument \"a\"");
 }
 

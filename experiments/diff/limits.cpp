@@ -1,0 +1,150 @@
+#include "experiments/diff/limits.h"
+
+#include <fnmatch.h>
+
+#include <cmath>
+
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/toml_file.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using M = Measures;
+// clang-format off
+const KeyRow<Measures> kLimitRows[] = {
+    {"max-mean", at<&M::mean_abs>, "8-bit steps", at_least(0), "", "most of mean_abs"},
+    {"max-rmse", at<&M::rmse>, "8-bit steps", at_least(0), "", "most of rmse"},
+    {"min-psnr", at<&M::psnr_db>, "dB", any(), "", "least of psnr_db"},
+    {"min-ssim", at<&M::ssim>, "", between(-1, 1), "", "least of ssim"},
+    {"max-flip", at<&M::flip>, "", between(0, 1), "", "most of flip"},
+    {"max-pixels-over-8", at<&M::pixels_over_8_percent>, "percent", between(0, 100), "", "most of pixels_over_8_percent"},
+};
+
+struct MetricLimit {
+  std::string name;
+  double max_difference = 0;
+};
+const KeyRow<MetricLimit> kMetricRows[] = {
+    {"name", at<&MetricLimit::name>, "", any(), "", "of the metric"},
+    {"max-difference", at<&MetricLimit::max_difference>, "", at_least(0), "", "in the metric's unit"},
+};
+// clang-format on
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+class LimitsFile {
+ public:
+  explicit LimitsFile(std::string file) : file_(std::move(file)) {}
+
+  Limits read() const {
+    Limits limits;
+    for (const TomlNode& node : read_toml(file_).children) {
+      if (node.key == "picture")
+        for (const TomlNode& table : tables(node)) limits.pictures.push_back(picture(table));
+      else if (node.key == "metric")
+        for (const TomlNode& table : tables(node)) limits.metrics.push_back(metric(table));
+      else
+        read_limit(node, limits.all);
+    }
+    return limits;
+  }
+
+ private:
+  const std::vector<TomlNode>& tables(const TomlNode& node) const {
+    if (node.kind != TomlNode::Kind::array)
+      throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]]")
+          .from(place(file_, node));
+    return node.children;
+  }
+
+  void set(const Keys& keys, const TomlNode& node) const {
+    const std::string origin = place(file_, node);
+    const BoundKey& key = find_key(keys, node.key, origin);
+    if (node.kind != TomlNode::Kind::value)
+      throw Error::request(node.key + " must be one value").from(origin);
+    assign(key, node.value, origin);
+  }
+
+  void read_limit(const TomlNode& node, PictureLimits& limits) const {
+    set(bind_limits(limits.values), node);
+    limits.places[node.key] = place(file_, node);
+  }
+
+  std::pair<std::string, PictureLimits> picture(const TomlNode& table) const {
+    PictureLimits limits;
+    for (const TomlNode& node : table.children)
+      if (node.key != "name") read_limit(node, limits);
+    return {name_of(table), limits};
+  }
+
+  std::pair<std::string, double> metric(const TomlNode& table) const {
+    MetricLimit limit;
+    const Keys keys = bind(kMetricRows, limit);
+    for (const TomlNode& node : table.children) set(keys, node);
+    if (!table.find("max-difference"))
+      throw Error::request("the limit of a metric needs max-difference").from(place(file_, table));
+    return {name_of(table), limit.max_difference};
+  }
+
+  std::string name_of(const TomlNode& table) const {
+    const TomlNode* node = table.find("name");
+    const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
+    if (!name || name->empty())
+      throw Error::request("a limit needs a name, in which * stands for any text")
+          .from(place(file_, node ? *node : table));
+    return *name;
+  }
+
+  std::string file_;
+};
+
+}  // namespace
+
+Keys bind_limits(Measures& limits) { return bind(kLimitRows, limits); }
+
+void PictureLimits::set(const PictureLimits& over) {
+  for (const Measure& m : all_measures()) {
+    if (std::isinf(over.values.*m.value)) continue;
+    values.*m.value = over.values.*m.value;
+    const auto place = over.places.find(m.limit);
+    place == over.places.end() ? void(places.erase(m.limit)) : void(places[m.limit] = place->second);
+  }
+}
+
+std::vector<std::string> broken_limits(const Measures& found, const PictureLimits& limits) {
+  std::vector<std::string> broken;
+  for (const Measure& m : all_measures()) {
+    const double value = found.*m.value, limit = limits.values.*m.value;
+    if (m.least ? value >= limit : value <= limit) continue;
+    const auto place = limits.places.find(m.limit);
+    broken.push_back(std::string(m.name) + " = " + number_field(value) + " must be " +
+                     (m.least ? ">= " : "<= ") + number_field(limit) + " (" +
+                     (place == limits.places.end() ? std::string("--") + m.limit : place->second) + ")");
+  }
+  return broken;
+}
+
+PictureLimits Limits::of_picture(const std::string& name) const {
+  PictureLimits limits = all;
+  for (const auto& [pattern, own] : pictures)
+    if (matches(pattern, name)) limits.set(own);
+  return limits;
+}
+
+std::optional<double> Limits::of_metric(const std::string& name) const {
+  std::optional<double> limit;
+  for (const auto& [pattern, most] : metrics)
+    if (matches(pattern, name)) limit = most;
+  return limit;
+}
+
+Limits read_limits(const std::string& name_or_file) {
+  return LimitsFile(find_asset("limits", name_or_file, "--limits").string()).read();
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,49 @@
+// How far pictures and metrics may differ: limits of flags, and of a file.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/diff/measures.h"
+#include "sim/scene/key_table.h"
+
+namespace hysteron::experiments {
+
+// "max-flip", "min-ssim", ...: the keys of limits, as flags and in files.
+Keys bind_limits(Measures& limits);
+
+// Limits on one picture.
+struct PictureLimits {
+  Measures values = no_limits();
+  std::map<std::string, std::string> places{};  // where a file sets them, by key: "limits.toml:3"
+
+  // Those of `over` stand in place of these.
+  void set(const PictureLimits& over);
+};
+
+// "flip = 0.2 must be <= 0.1 (--max-flip)" for every limit that is broken; not a number breaks a limit.
+std::vector<std::string> broken_limits(const Measures& found, const PictureLimits& limits);
+
+// What a file says, in whose names * and ? stand for any text and any character:
+//
+//   max-flip = 0.01                        # of all pictures
+//   [[picture]]                            # of those of this name in their folder; later ones take
+//   precedence name = "frames/*.png" max-flip = 0.02
+//   [[metric]]                             # of `verify`: in place of the error that the run has stated
+//   name = "drape_coefficient_percent"
+//   max-difference = 0.5                   # in the metric's unit
+struct Limits {
+  PictureLimits all;
+  std::vector<std::pair<std::string, PictureLimits>> pictures;  // by name
+  std::vector<std::pair<std::string, double>> metrics;          // largest difference, by name
+
+  PictureLimits of_picture(const std::string& name) const;
+  std::optional<double> of_metric(const std::string& name) const;
+};
+
+// Of a file, or of assets/limits by its name.  Throws Error::machine, Error::request with file and line.
+Limits read_limits(const std::string& name_or_file);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,64 @@
+#include "experiments/workbench/pages/junit.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "experiments/workbench/pages/page_template.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Outcome = TestCase::Outcome;
+
+// XML 1.0 has no control characters but white space, not even escaped.
+std::string attribute(const std::string& name, std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  return " " + name + "=\"" + escaped(text) + "\"";
+}
+
+std::string case_text(const std::string& class_name, const TestCase& c) {
+  const std::string head = "    <testcase" + attribute("name", c.name) + attribute("classname", class_name) +
+                           fmt::format(" time=\"{:.3f}\"", c.seconds);
+  const std::string message = attribute("message", c.message);
+  std::string inside;
+  if (c.outcome == Outcome::failed) inside = "<failure" + message + attribute("type", "differs") + "/>";
+  if (c.outcome == Outcome::broken) inside = "<error" + message + attribute("type", "not compared") + "/>";
+  if (c.outcome == Outcome::skipped) inside = "<skipped" + message + "/>";
+  if (inside.empty() && !c.message.empty()) inside = "<system-out>" + escaped(c.message) + "</system-out>";
+  return inside.empty() ? head + "/>\n" : head + ">" + inside + "</testcase>\n";
+}
+
+}  // namespace
+
+std::string junit_text(const std::string& subcommand, const std::string& suite,
+                       const std::vector<TestCase>& cases) {
+  const auto count = [&](Outcome outcome) {
+    return std::count_if(cases.begin(), cases.end(), [&](const TestCase& c) { return c.outcome == outcome; });
+  };
+  double seconds = 0;
+  for (const TestCase& c : cases) seconds += c.seconds;
+  const std::string numbers =
+      fmt::format(" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\"", cases.size(),
+                  count(Outcome::failed), count(Outcome::broken), seconds);
+  const std::string name = attribute("name", suite);
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + name + numbers +
+                     ">\n  <testsuite" + name + numbers +
+                     fmt::format(" skipped=\"{}\">\n", count(Outcome::skipped));
+  for (const TestCase& c : cases) text += case_text("hysteron." + subcommand, c);
+  return text + "  </testsuite>\n</testsuites>\n";
+}
+
+void write_junit(const std::filesystem::path& file, const std::string& subcommand, const std::string& suite,
+                 const std::vector<TestCase>& cases) {
+  std::error_code failure;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
+  if (failure)
+    throw Error::machine("cannot create the folder of " + file.string() + ": " + failure.message());
+  write_text(file, junit_text(subcommand, suite, cases));
+}
+
+}  // namespace hysteron::experiments

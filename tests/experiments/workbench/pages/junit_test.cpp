@@ -1,0 +1,49 @@
+// JUnit files, as readers of them expect.
+#include "experiments/workbench/pages/junit.h"
+
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using Outcome = TestCase::Outcome;
+
+const std::vector<TestCase> kCases = {{"a & \"b\"", Outcome::passed, "", 0.25},
+                                      {"c", Outcome::passed, "1 < 2", 1},
+                                      {"d", Outcome::failed, "flip = 0.2 must be <= 0.1\x01", 0},
+                                      {"e", Outcome::broken, "no file", 0},
+                                      {"f", Outcome::skipped, "ran on a GPU", 0}};
+
+TEST(JUnit, HasACaseForEachComparisonAndCountsThem) {
+  EXPECT_EQ(junit_text("diff", "x", kCases),
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<testsuites name=\"x\" tests=\"5\" failures=\"1\" errors=\"1\" time=\"1.250\">\n"
+            "  <testsuite name=\"x\" tests=\"5\" failures=\"1\" errors=\"1\" time=\"1.250\" skipped=\"1\">\n"
+            "    <testcase name=\"a &amp; &quot;b&quot;\" classname=\"hysteron.diff\" time=\"0.250\"/>\n"
+            "    <testcase name=\"c\" classname=\"hysteron.diff\" time=\"1.000\">"
+            "<system-out>1 &lt; 2</system-out></testcase>\n"
+            "    <testcase name=\"d\" classname=\"hysteron.diff\" time=\"0.000\">"
+            "<failure message=\"flip = 0.2 must be &lt;= 0.1 \" type=\"differs\"/></testcase>\n"
+            "    <testcase name=\"e\" classname=\"hysteron.diff\" time=\"0.000\">"
+            "<error message=\"no file\" type=\"not compared\"/></testcase>\n"
+            "    <testcase name=\"f\" classname=\"hysteron.diff\" time=\"0.000\">"
+            "<skipped message=\"ran on a GPU\"/></testcase>\n"
+            "  </testsuite>\n"
+            "</testsuites>\n");
+}
+
+TEST(JUnit, FitsTheUsualSchema) {
+  if (std::system("command -v xmllint >/dev/null") != 0) GTEST_SKIP() << "no xmllint";
+  const Folder folder;
+  const auto fits = [&](const std::vector<TestCase>& cases) {
+    const std::string file = folder.path() / "new" / "tests.xml";
+    write_junit(file, "diff", "x", cases);
+    return std::system(
+        ("xmllint --noout --schema " HYSTERON_JUNIT_SCHEMA " " + file + " 2>/dev/null").c_str());
+  };
+  EXPECT_EQ(fits(kCases), 0);
+  EXPECT_EQ(fits({}), 0);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
