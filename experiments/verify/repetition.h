@@ -32,10 +32,10 @@ struct Repetition {
 
 // Builds for other instruction sets, and other versions of the mathematical library, round the last bits
 // differently.  What becomes of that: a step ends wherever its forces balance to `newton-residual` of the
-// load, and last bits decide where.  Short of chaos and of snaps, nothing is known to have moved a number by
-// a tenth of that tolerance, and runs without such steps stay within 1e-6.  (Measured on a dozen quick runs
-// with and without fused multiplication in the mathematical library: at most 2e-5 where the tolerance is
-// 1e-3, 3e-8 where it is 1e-6.)
+// load, and last bits decide where.  Short of chaos and of snaps a tenth of that tolerance is
+// enough, and runs without such steps stay within 1e-6.  (Measured on a dozen quick runs, without fused
+// multiplication in the mathematical library and with the simulation built for AVX-512: at most 2e-5 where
+// the tolerance is 1e-3, but 1.03e-4 of the integrator's share in `crease --quick`; 5e-8 where it is 1e-6.)
 double round_off_of(const Manifest& run);
 // What round-off is a share of: the number itself, or, if it is less, the whole of what has one: 100 % of a
 // percentage, 1 of a ratio, half a turn of an angle; and 1/m of a curvature, below which cloth is flat.
