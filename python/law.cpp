@@ -129,7 +129,7 @@ py::array LawState::friction_share(const Numbers& curvature) const {
 py::array LawState::residual() const {
   py::array_t<double> curvature = make_array(dimension_);
   double* to = curvature.mutable_data();
-  unlocked([&] { loop_->residual(*cpu_, elements_, to); });
+  unlocked([&] { loop_->residual(*cpu_, view(), to); });
   return curvature;
 }
 

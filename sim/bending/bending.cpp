@@ -65,6 +65,7 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
       metric_(op.metric),
       area_(device, cast<Real>(op.area)),
       coefficient_(device, cast<Real>(op.coefficient)),
+      direction_(device, cast<Real>(op.direction)),
       transposed_(device, cast<Real>(op.transposed)),
       rest_angle_(device, cast<Real>(op.rest_angle)),
       row_start_(device, op.hinge.start),
@@ -87,7 +88,8 @@ Bending<Real, Device>::Bending(Device& device, const ClothMesh& mesh, const Curv
 template <class Real, class Device>
 OperatorView<Real> Bending<Real, Device>::view() const {
   const std::size_t bytes = element_bytes() + bytes_of(angle_);
-  return {elements_, area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(), bytes};
+  return {elements_,         area_.data(), row_start_.data(), row_hinge_.data(), coefficient_.data(),
+          direction_.data(), bytes};
 }
 
 template <class Real, class Device>
@@ -273,7 +275,7 @@ std::vector<double> Bending<Real, Device>::moment() {
 template <class Real, class Device>
 std::vector<double> Bending<Real, Device>::residual_curvature() {
   Buffer<Real, Device> result(device_, static_cast<std::size_t>(elements_) * dimension_);
-  law_->residual(device_, elements_, result.data());
+  law_->residual(device_, view(), result.data());
   return geometric(result.download());
 }
 
@@ -287,10 +289,10 @@ std::vector<double> Bending<Real, Device>::slip() {
 
 template <class Real, class Device>
 std::size_t Bending<Real, Device>::bytes() const {
-  return bytes_of(area_, coefficient_, transposed_, rest_angle_, row_start_, row_hinge_, column_start_,
-                  column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_, viscous_, gradient_,
-                  moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_, tangent_,
-                  hinge_stiffness_, reference_, angle_before_);
+  return bytes_of(area_, coefficient_, direction_, transposed_, rest_angle_, row_start_, row_hinge_,
+                  column_start_, column_element_, corner_, vertex_start_, vertex_item_, angle_, rate_,
+                  viscous_, gradient_, moment_area_, force_, energy_, taken_, trial_angle_, iterate_angle_,
+                  tangent_, hinge_stiffness_, reference_, angle_before_);
 }
 
 template class Bending<double, ThisDevice>;

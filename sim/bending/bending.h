@@ -95,7 +95,9 @@ class Bending {
   void make_trials();
   OperatorView<Real> view() const;
   std::size_t vertex_bytes() const { return (vertex_start_.size() - 1) * sizeof(Vec3<Real>); }
-  std::size_t element_bytes() const { return bytes_of(area_, row_start_, row_hinge_, coefficient_); }
+  std::size_t element_bytes() const {
+    return bytes_of(area_, row_start_, row_hinge_, coefficient_, direction_);
+  }
   std::size_t column_bytes() const { return bytes_of(column_start_, column_element_, transposed_); }
   std::vector<double> geometric(const std::vector<Real>& curvature) const;  // without the metric
   double sum_over_elements(const double* on_device);                        // in their order; 0 of null
@@ -106,7 +108,7 @@ class Bending {
   Real viscosity_;  // moment over curvature rate [N m s]
   std::unique_ptr<LawLoop<Real, Device>> law_;
   std::vector<double> metric_;  // D per element; empty: 1 (CurvatureOperator::metric)
-  Buffer<Real, Device> area_, coefficient_, transposed_, rest_angle_;
+  Buffer<Real, Device> area_, coefficient_, direction_, transposed_, rest_angle_;
   Buffer<int, Device> row_start_, row_hinge_, column_start_, column_element_;
   Buffer<Eigen::Vector4i, Device> corner_;  // p0, p1, p2, p3 of each hinge
   Buffer<int, Device> vertex_start_, vertex_item_;

@@ -60,15 +60,19 @@ Eigen::Vector3d rigidities(double weft, double bias) {
   return {1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2)};
 }
 
+// nu of a bend across the edge, in the frame of its first face.
+Eigen::Vector3d across(const ClothMesh& mesh, const Edge& e) {
+  const auto axes = mesh.face_axes(e.face0);
+  const Eigen::Vector3d along = (mesh.rest[e.p3] - mesh.rest[e.p2]).normalized();
+  const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
+  return {x * x, y * y, std::sqrt(2.0) * x * y};
+}
+
 // Factors of the D components of element i, with Q as the header has it.
 Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, int i,
                           const Eigen::Vector3d& q) {
   if (op.dimension == 3) return q.cwiseSqrt();
-  const Edge& e = mesh.edge[i];
-  const auto axes = mesh.face_axes(e.face0);
-  const Eigen::Vector3d along = (mesh.rest[e.p3] - mesh.rest[e.p2]).normalized();
-  const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
-  const Eigen::Vector3d nu(x * x, y * y, std::sqrt(2.0) * x * y);
+  const Eigen::Vector3d nu = across(mesh, mesh.edge[i]);
   return {std::sqrt(nu.dot(q.cwiseProduct(nu))), 0, 0};
 }
 
@@ -95,6 +99,15 @@ void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double b
       for (int k = 0; k < d; ++k) op.coefficient[j * d + k] *= factor[k];
   }
   transpose_rows(op, mesh.interior_edges);
+}
+
+void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias) {
+  const Eigen::Vector3d q = rigidities(weft, bias);
+  op.direction.clear();
+  for (int i = 0; i < op.elements(); ++i) {
+    const Eigen::Vector3d nu = across(mesh, mesh.edge[i]), squares = q.cwiseProduct(nu.cwiseAbs2());
+    for (int k = 0; k < 2; ++k) op.direction.push_back(squares[k] / squares.sum());
+  }
 }
 
 CurvatureOperator make_curvature_operator(BendingElement element, const ClothMesh& mesh,

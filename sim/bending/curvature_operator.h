@@ -23,6 +23,9 @@ struct CurvatureOperator {
   // Curvatures are multiples of the geometric ones where a fabric bends differently along warp, weft and
   // bias: D factors per element; empty: 1.
   std::vector<double> metric;
+  // Of hinges of a fabric whose stops differ by direction: u_xx^2 and u_yy^2 of each hinge's curvature behind
+  // the metric, u the unit tensor of a bend across its edge; empty: nobody asks.
+  std::vector<double> direction;
 
   int elements() const { return static_cast<int>(area.size()); }
 };
@@ -44,6 +47,9 @@ CurvatureOperator make_curvature_operator(BendingElement element, const ClothMes
 // Along a direction of rigidity q the moments at which friction slides are sqrt(q) times, the curvatures
 // 1/sqrt(q) times those along warp.  Needs 4 bias >= 1 + weft.
 void stiffen(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
+
+// The same Q's directions of hinges: u = Q^1/2 nu(n)/|Q^1/2 nu(n)|, n across the edge.
+void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, double bias);
 
 // Rigidity over that along warp of a free strip cut at `angle` from warp [rad]: its edges carry no moment, so
 // that it bends as the inverse of Q says, 1/(nu^T Q^-1 nu), and off the axes twists as it bends.  Along warp

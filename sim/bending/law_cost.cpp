@@ -7,15 +7,16 @@
 namespace hysteron {
 namespace {
 
-constexpr int kFrames = 8;   // different sets of curvatures, visited in turn
-constexpr int kBatches = 7;  // the median of their times is taken
-constexpr int kRounds = 4;   // through all frames in a batch
+constexpr int kFrames = 8;      // different sets of curvatures, visited in turn
+constexpr int kBatches = 7;     // the median of their times is taken
+constexpr int kRounds = 4;      // through all frames in a batch
+constexpr double kBias = 0.25;  // of warp and of weft in each hinge's direction, that of 45 degrees
 
 // Every element sees D angles of its own, so that its curvature is what the frame says.
 template <class Real, class Device>
 struct Elements {
   int count, dimension;
-  Buffer<Real, Device> area, coefficient, moment_area;
+  Buffer<Real, Device> area, coefficient, direction, moment_area;
   Buffer<int, Device> start, hinge;
   std::vector<Buffer<Real, Device>> frame;  // curvatures [1/m]
 
@@ -24,6 +25,7 @@ struct Elements {
         dimension(d),
         area(device, std::vector<Real>(elements, 1)),
         coefficient(device, identities(elements, d)),
+        direction(device, std::vector<Real>(d == 1 ? 2 * static_cast<std::size_t>(elements) : 0, kBias)),
         moment_area(device, static_cast<std::size_t>(elements) * d),
         start(device, multiples(elements + 1, d)),
         hinge(device, multiples(elements * d, 1)) {
@@ -36,7 +38,7 @@ struct Elements {
     }
   }
   OperatorView<Real> view() const {
-    return {count, area.data(), start.data(), hinge.data(), coefficient.data()};
+    return {count, area.data(), start.data(), hinge.data(), coefficient.data(), direction.data()};
   }
 
   static std::vector<Real> identities(int elements, int d) {

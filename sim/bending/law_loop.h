@@ -17,11 +17,12 @@ namespace hysteron {
 template <class Real>
 struct OperatorView {
   int elements;
-  const Real* area;         // [m^2]
-  const int* start;         // rows: elements
-  const int* hinge;         // items
-  const Real* coefficient;  // D per item [1/m]
-  std::size_t bytes = 0;    // of these arrays and of a number per hinge; 0 where nobody asks
+  const Real* area;                 // [m^2]
+  const int* start;                 // rows: elements
+  const int* hinge;                 // items
+  const Real* coefficient;          // D per item [1/m]
+  const Real* direction = nullptr;  // 2 per element (CurvatureOperator); null: elements have none
+  std::size_t bytes = 0;            // of these arrays and of a number per hinge; 0 where nobody asks
 
   template <int D>
   HYST_HD Vec<Real, D> curvature(int i, const Real* angle_change) const {
@@ -69,7 +70,7 @@ class LawLoop {
   virtual void stored(Device& device, const OperatorView<Real>& op, const Real* angle_change,
                       double* energy) = 0;
   // D curvature components of each element: with zero moment on the recovery branch [1/m].
-  virtual void residual(Device& device, int elements, Real* curvature) = 0;
+  virtual void residual(Device& device, const OperatorView<Real>& op, Real* curvature) = 0;
   // How far friction or plasticity is used, 0 (not) to 1 (slides, yields), for each element; 0 for laws
   // without history.
   virtual void slip(Device& device, const OperatorView<Real>& op, const Real* angle_change, Real* share) = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/bending/law_loop.h"
+#include "sim/bending/laws/directed.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_potential.h"
 
@@ -49,7 +50,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
         {"bending law", op.bytes + step_bytes(op.elements) + bytes_of(history_, dissipated_, dissipated_)},
         op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto step = law.step(k, load_history<Law>(history, i, op.elements));
+          const auto step = law_of(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
           Vec<Real, D> moment = step.moment;
           if (viscous.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, viscous.angle_rate);
@@ -75,8 +76,9 @@ class LawLoopOf : public LawLoop<Real, Device> {
         op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
-          Vec<Real, D> moment = law.step(k, before).moment;
-          Real potential = step_potential(law, k, before);
+          const auto& own = law_of(law, op.direction, i);
+          Vec<Real, D> moment = own.step(k, before).moment;
+          Real potential = step_potential(own, k, before);
           if (trial.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, trial.angle_rate);
             moment += trial.viscosity * rate;
@@ -97,7 +99,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each(
         device, {"bending tangent", op.bytes + history_.bytes() + tangents}, op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const Tangent<Real, D> t = convex_tangent(law, k, load_history<Law>(history, i, op.elements));
+          const auto& own = law_of(law, op.direction, i);
+          const Tangent<Real, D> t = convex_tangent(own, k, load_history<Law>(history, i, op.elements));
           Real* row = tangent_area + i * (D * (D + 1) / 2);
           for (int a = 0; a < D; ++a)
             for (int b = 0; b <= a; ++b) *row++ = op.area[i] * (t(a, b) + (a == b ? viscous : Real(0)));
@@ -114,9 +117,10 @@ class LawLoopOf : public LawLoop<Real, Device> {
           if (!chosen[i]) return;
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
-          const auto after = kind == CommandKind::edit ? edited(law, k, before) : ironed(law, k, before);
+          const auto& own = law_of(law, op.direction, i);
+          const auto after = kind == CommandKind::edit ? edited(own, k, before) : ironed(own, k, before);
           taken[i] +=
-              static_cast<double>(op.area[i] * (law.step(k, before).stored - law.step(k, after).stored));
+              static_cast<double>(op.area[i] * (own.step(k, before).stored - own.step(k, after).stored));
           store_history<Law>(history, i, op.elements, after);
         });
   }
@@ -128,17 +132,18 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each(
         device, "bending energy", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          energy[i] = static_cast<double>(op.area[i] *
-                                          law.step(k, load_history<Law>(history, i, op.elements)).stored);
+          const auto step = law_of(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
+          energy[i] = static_cast<double>(op.area[i] * step.stored);
         });
   }
 
-  void residual(Device& device, int elements, Real* curvature) override {
+  void residual(Device& device, const OperatorView<Real>& op, Real* curvature) override {
     const Law law = law_;
     const Real* history = history_.data();
     for_each(
-        device, "residual curvature", elements, HYST_KERNEL(int i) {
-          const Vec<Real, D> k = law.residual(load_history<Law>(history, i, elements));
+        device, "residual curvature", op.elements, HYST_KERNEL(int i) {
+          const Vec<Real, D> k =
+              law_of(law, op.direction, i).residual(load_history<Law>(history, i, op.elements));
           for (int d = 0; d < D; ++d) curvature[i * D + d] = k[d];
         });
   }
@@ -151,7 +156,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
         device, "friction state", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto memory = load_history<Law>(history, i, op.elements);
-          share[i] = share_used(law, k, memory, b2, m0);
+          share[i] = share_used(law_of(law, op.direction, i), k, memory, b2, m0);
         });
   }
 

@@ -11,8 +11,14 @@ template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
                                                        int elements) {
   std::unique_ptr<LawLoop<Real, Device>> loop;
-  visit_group<Group, Real, D, ClothMemory>(
-      choice, [&](const auto& law) { loop = make_loop_of<Real>(device, law, choice.curve, elements); });
+  visit_group<Group, Real, D, ClothMemory>(choice, [&]<class Law>(const Law& law) {
+    if constexpr (LawOfOneDirection<Law>)
+      if (innermost(law).two_spectra) {
+        loop = make_loop_of<Real>(device, Directed<Law>{law}, choice.curve, elements);
+        return;
+      }
+    loop = make_loop_of<Real>(device, law, choice.curve, elements);
+  });
   return loop;
 }
 

@@ -71,12 +71,6 @@ void check_method(const Scene& scene) {
     throw Error::request("force = chapter (" + origin_of(scene, "force") + ") needs element = hinge, not " +
                          name_of(scene.element) + " (" + origin_of(scene, "element") + ")");
   }
-  const bool takes_stops = scene.law == "prandtl" || scene.law == "chapman";
-  if (takes_stops && !scene.fabric.bending.weft_stops.empty() && scene.element == BendingElement::hinge) {
-    throw Error::request("fabric.bending.stops.weft (" +
-                         origin_of(scene, "fabric.bending.stops.weft.thresholds") +
-                         ") needs element = shape, not hinge (" + origin_of(scene, "element") + ")");
-  }
 }
 
 void check_motion(const Scene& scene, const std::string& path, const Motion& motion) {

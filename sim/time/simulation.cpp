@@ -133,6 +133,8 @@ Plan plan(const Scene& scene, const Cloth& cloth) {
   result.op = make_curvature_operator(scene.element, cloth.mesh, cloth.held_throughout(scene));
   if (!scene.fabric.bends_alike())
     stiffen(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
+  if (scene.element == BendingElement::hinge && !scene.fabric.bending.weft_stops.empty())
+    set_directions(result.op, cloth.mesh, scene.fabric.weft_bending, scene.fabric.bias_bending);
   result.limits = choose_substeps(scene, cloth, result.op);
   return result;
 }

@@ -10,7 +10,8 @@
 // A_j = diag(p_j, p'_j, sqrt(p_j p'_j)) and slips on an ellipsoid (stop_ellipsoid.h) of half axes r_j, r'_j
 // and sqrt(r_j r'_j), so that bends along warp and along weft follow their own spectrum exactly.  Chosen
 // here: the geometric means for twist, which are those of the metric (curvature_operator.h) where the weft
-// spectrum is what the metric makes of the other.  A law of one component bends along warp.
+// spectrum is what the metric makes of the other.  A law of one component bends along warp, or across the
+// edge that it is turned to: turn().
 #pragma once
 
 #include "sim/bending/laws/law_parameters.h"
@@ -31,7 +32,7 @@ struct SpectrumStops : StopMemory<Real, D, N> {
   Real b2 = 0;               // rigidity of the straight branch [N m]
   Real hb = 0;               // friction moment sum p_j r_j [N]
   Real p[N] = {};            // stiffness of stop j [N m]
-  bool two_spectra = false;  // on the tensor:
+  bool two_spectra = false;  // that along weft as well:
   Real weft_limit[N] = {}, weft_p[N] = {};
 
   // At most N stops, as many along weft as along warp, or none.
@@ -40,7 +41,7 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     SpectrumStops law;
     law.b2 = Real(b2);
     law.hb = Real(warp.friction_moment());
-    law.two_spectra = D > 1 && !weft.empty();
+    law.two_spectra = !weft.empty();
     for (std::size_t j = 0; j < N; ++j) {
       const bool real = j < warp.size(), across = j < weft.size();
       law.limit[j] = Real(real ? warp.thresholds[j] : kSomeLimit);
@@ -49,6 +50,23 @@ struct SpectrumStops : StopMemory<Real, D, N> {
       law.weft_p[j] = Real(across ? weft.stiffnesses[j] : 0);
     }
     return law;
+  }
+
+  // From a bend along warp to one whose unit tensor u behind the metric has u_xx^2 = warp, u_yy^2 = weft and
+  // twist for the rest.  On the tensor a stop that is bent so starts with the stiffness u.A u and, held in
+  // that direction, ends with the largest moment along u on its ellipsoid, (u.A B^-1 A u)^1/2 with B of the
+  // half axes; so does the scalar stop made here, whose corner lies between.  Chosen here.
+  HYST_HD void turn(Real warp, Real weft) requires(D == 1) {
+    Eigen::Map<PerStop> own(p), own_limit(limit);
+    const Eigen::Map<const PerStop> other(weft_p), other_limit(weft_limit);
+    const PerStop slides = own * own_limit, other_slides = other * other_limit;
+    const Real twist = 1 - warp - weft;
+    const PerStop stiff = warp * own + weft * other + twist * (own * other).sqrt();
+    const PerStop moment =
+        (warp * slides * slides + weft * other_slides * other_slides + twist * slides * other_slides).sqrt();
+    own_limit = (stiff > Real(0)).select(moment / stiff, own_limit);
+    own = stiff;
+    hb = sum(moment);
   }
 
   HYST_HD Step step(const Vec<Real, D>& curvature, const Past& before) const {

@@ -4,6 +4,8 @@
 #include <random>
 
 #include "sim/bending/bending.h"
+#include "sim/bending/laws/spectrum_stops.h"
+#include "sim/scene/scene.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron {
@@ -244,6 +246,78 @@ TEST(ImplicitBending, TakesTheShorterWayToWhereAStepBegins) {
     return bent.bending.energies()[0];
   };
   EXPECT_NEAR(energy_at(1.2), energy_at(-0.8), kRounding * energy_at(-0.8));
+}
+
+// Of a fabric with these stops on the bias, behind the metric Q = (1, 0.6, 0.6): stiffnesses
+// (p + p')/4 + 0.3 sqrt(p p'/0.6), squares of friction moments (f^2 + f'^2)/4 + 0.3 f f'/sqrt(0.6).
+Spectrum on_the_bias(const Spectrum& warp, const Spectrum& weft) {
+  Spectrum bias;
+  for (std::size_t j = 0; j < warp.size(); ++j) {
+    const double p = warp.stiffnesses[j], other = weft.stiffnesses[j];
+    const double f = p * warp.thresholds[j], slides = other * weft.thresholds[j];
+    const double stiff = (p + other) / 4 + 0.3 * std::sqrt(p * other / 0.6);
+    const double moment = std::sqrt((f * f + slides * slides) / 4 + 0.3 * f * slides / std::sqrt(0.6));
+    bias.stiffnesses.push_back(stiff);
+    bias.thresholds.push_back(moment / stiff);
+  }
+  return bias;
+}
+
+// Rows of hinges across a strip whose chords, each of length d, turn by K d.
+Positions rolled(const ClothMesh& mesh, double curvature, double d) {
+  Positions x = mesh.rest;
+  for (Vector3d& p : x) {
+    const long column = std::lround(p.x() / d);
+    p.x() = p.z() = 0;
+    for (long i = 0; i < column; ++i) {
+      p.x() += d * std::cos(curvature * d * static_cast<double>(i));
+      p.z() += d * std::sin(curvature * d * static_cast<double>(i));
+    }
+  }
+  return x;
+}
+
+// Cut along warp, bias and weft.
+TEST(HingesOfAFabric, FollowTheClosedLoopsOfTheStopsAcrossTheirEdges) {
+  constexpr double kSpacing = 5e-3, kFar = 90;  // [m], [1/m]
+  const Spectrum warp = {{4, 15, 60}, {9e-6, 5e-6, 8e-7}}, weft = {{10, 40, 80}, {4e-6, 6e-6, 2e-6}};
+  Fabric fabric;
+  fabric.weft_bending = 0.6, fabric.bias_bending = 0.7;
+  fabric.bending.stops = warp, fabric.bending.weft_stops = weft;
+  const std::tuple<double, double, Spectrum> cuts[] = {
+      {0, 1, warp}, {std::atan(1.0), 0.7, on_the_bias(warp, weft)}, {2 * std::atan(1.0), 0.6, weft}};
+  for (const auto& [angle, q, stops] : cuts) {
+    ClothMesh mesh = make_grid(10 * kSpacing, 0.01, 10, 2, MeshFamily::aligned, 0);
+    mesh.warp_axis = {std::cos(angle), std::sin(angle), 0};
+    CurvatureOperator op = make_hinge_operator(mesh);
+    stiffen(op, mesh, fabric.weft_bending, fabric.bias_bending);
+    set_directions(op, mesh, fabric.weft_bending, fabric.bias_bending);
+    Cpu cpu(1);
+    Bending<double, Cpu> bending(
+        cpu, mesh, op,
+        make_law_loop<double>(cpu, choose_law("prandtl", fabric.virgin_curve(), {}), 1, op.elements()),
+        ForceConvention::energy, 0);
+    testing::Driven<SpectrumStops<double, 1, 8>> law(
+        SpectrumStops<double, 1, 8>::make(q * fabric.b2, stops, {}));
+    const Positions still(mesh.vertices(), Vector3d::Zero());
+    double before = 0, area = 0;
+    for (double turn : {60.0, -60.0, 30.0, -10.0, kFar, -kFar, kFar}) {
+      before = turn == -kFar ? bending.dissipated_energy() : before;
+      bending.commit(rolled(mesh, turn, kSpacing).data(), still.data(), 0);
+      const double moment = law.moment(turn);
+      const std::vector<double> found = bending.moment(), curvature = bending.curvature();
+      area = 0;
+      for (int e = 0; e < mesh.interior_edges; ++e) {
+        const Vector3d along = mesh.rest[mesh.edge[e].p3] - mesh.rest[mesh.edge[e].p2];
+        const bool across = std::abs(along.x()) < kRounding;
+        area += across ? op.area[e] : 0;
+        const double side = std::copysign(1, curvature[e] * turn);
+        EXPECT_NEAR(found[e] * side, across ? moment : 0, kRounding * fabric.b1 * kFar) << angle << " " << e;
+      }
+    }
+    const double lost = area * stops.loop_area(kFar);
+    EXPECT_NEAR(bending.dissipated_energy() - before, lost, kRounding * lost) << angle;
+  }
 }
 
 }  // namespace

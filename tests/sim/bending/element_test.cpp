@@ -196,6 +196,20 @@ TEST(StiffenedHinge, HasTheRigidityAcrossItsEdge) {
   }
 }
 
+// Behind the metric Q = (1, 0.6, 0.6): nu = (1/2, 1/2, sqrt(1/2)) on the bias.
+TEST(DirectedHinge, HasTheComponentsOfABendAcrossItsEdge) {
+  const ClothMesh mesh = make_grid(1, 1, 2, 2, MeshFamily::aligned, 0);  // edges along warp, weft and bias
+  CurvatureOperator op = make_hinge_operator(mesh);
+  set_directions(op, mesh, 0.6, 0.7);
+  ASSERT_EQ(op.direction.size(), 2u * mesh.interior_edges);
+  for (int e = 0; e < mesh.interior_edges; ++e) {
+    const Vector3d along = mesh.rest[mesh.edge[e].p3] - mesh.rest[mesh.edge[e].p2];
+    const bool on_warp = std::abs(along.y()) < 1e-9, on_weft = std::abs(along.x()) < 1e-9;
+    EXPECT_NEAR(op.direction[2 * e], on_warp ? 0 : on_weft ? 1 : 0.25 / 0.7, kReproduced);
+    EXPECT_NEAR(op.direction[2 * e + 1], on_warp ? 1 : on_weft ? 0 : 0.25 * 0.6 / 0.7, kReproduced);
+  }
+}
+
 // Deflections that cost no energy, of a free cloth.  Zero among eigenvalues: rounding of the largest one.
 TEST_P(Family, ShapeHasNoNullModesBesideTheRigidOnes) {
   constexpr double kZero = 1e-12;

@@ -107,6 +107,22 @@ std::vector<test::Method> every_integrator() {
   return all;
 }
 
+// Stops along warp and weft, branches and a set, on hinges and faces.
+TEST(Gpu, BendsAFabricOfManyPartsAsTheCpuDoes) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  for (const char* element : {"hinge", "shape"}) {
+    Scene scene = busy_scene("chapman", element, "semi-implicit");
+    scene.fabric.bending = test::all_parts();
+    const auto cpu = run_on("cpu", scene), gpu = run_on("cuda", scene);
+    const double lost = cpu->ledger().bending_friction;
+    EXPECT_GT(lost, 0) << element;
+    EXPECT_NEAR(gpu->ledger().bending_friction, lost, 1e-6 * lost) << element;
+    EXPECT_LT(test::farthest(cpu->positions(), gpu->positions()), 1e-9) << element;
+    EXPECT_EQ(run_on("cuda", scene)->state_hash(), gpu->state_hash()) << element;
+  }
+}
+
 class InPlaneFrictionOnBothDevices : public testing::TestWithParam<test::Method> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, InPlaneFrictionOnBothDevices, testing::ValuesIn(every_integrator()),
                          [](const auto& method) { return method.param.name(); });

@@ -1,6 +1,7 @@
 // Friction as a spectrum of stops: loops by closed form, on the tensor, with a spectrum for each direction.
 #include <gtest/gtest.h>
 
+#include "sim/bending/laws/directed.h"
 #include "sim/bending/laws/prandtl_stops.h"
 #include "sim/bending/laws/spectrum_stops.h"
 #include "tests/sim/bending/laws/law_fixtures.h"
@@ -119,6 +120,78 @@ TEST(TwoSpectra, RubBetweenWarpAndWeftOnTheBias) {
   const double of_warp = warp().friction_moment(), of_weft = weft().friction_moment();
   EXPECT_GT(friction, std::min(of_warp, of_weft));
   EXPECT_LT(friction, std::max(of_warp, of_weft));
+}
+
+// At 45 degrees: stiffnesses are the squares of the mean roots, friction moments the means.
+Spectrum bias() {
+  Spectrum mean;
+  for (std::size_t j = 0; j < warp().size(); ++j) {
+    const double p = warp().stiffnesses[j], other_p = weft().stiffnesses[j];
+    const double stiff = std::pow((std::sqrt(p) + std::sqrt(other_p)) / 2, 2);
+    const double moment = (p * warp().thresholds[j] + other_p * weft().thresholds[j]) / 2;
+    mean.stiffnesses.push_back(stiff);
+    mean.thresholds.push_back(moment / stiff);
+  }
+  return mean;
+}
+
+struct Turned {
+  double direction[2];  // of a hinge (CurvatureOperator)
+  Spectrum own;
+  Strip law() const { return Directed<Strip>{Strip::make(kB2, warp(), weft())}.of(direction, 0); }
+};
+const Turned kTurned[] = {{{1, 0}, warp()}, {{0, 1}, weft()}, {{0.25, 0.25}, bias()}};
+
+TEST(TurnedSpectra, ReturnOnTheVirginCurveOfTheirDirectionDoubled) {
+  for (const Turned& of : kTurned) {
+    const auto own = [&](double k) { return kB2 * k + of.own.friction_at(k); };
+    for (double turn : {7.0, 30.0, 250.0, 900.0}) {
+      Driven<Strip> cloth(of.law());
+      EXPECT_NEAR(cloth.moment(turn), own(turn), kRounding * own(turn));
+      for (int i = 1; i <= 40; ++i) {
+        const double k = turn - 2 * turn * i / 40;
+        EXPECT_NEAR(cloth.moment(k), own(turn) - 2 * own((turn - k) / 2), kRounding * own(turn));
+      }
+    }
+  }
+}
+
+TEST(TurnedSpectra, LoseTheAreaOfTheClosedLoopOfTheirDirection) {
+  for (const Turned& of : kTurned)
+    for (double amplitude : {8.0, 50.0, 250.0, 1000.0}) {
+      Driven<Strip> cloth(of.law());
+      cloth.moment(amplitude);
+      const double first = cloth.dissipated;
+      for (double turn : {-amplitude, amplitude}) cloth.moment(turn);
+      EXPECT_NEAR(cloth.dissipated - first, of.own.loop_area(amplitude),
+                  kRounding * of.own.loop_area(amplitude));
+      EXPECT_NEAR(cloth.law.used(Vec<double, 1>(2000), cloth.history), 1, kRounding);
+    }
+}
+
+// The tensor held to one direction begins with the same stiffness and slides with the same moment.
+TEST(TurnedSpectra, BeginAndSlideAsTheTensorBentInTheirDirection) {
+  constexpr double kSmall = 1e-3, kFar = 1e9, kSlides = 1e-6;  // below and far beyond all thresholds [1/m]
+  for (double angle : {0.2, 0.6, 1.1, 1.4}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Vec<double, 3> u = Vec<double, 3>(c * c, 0.8 * s * s, 0.9 * std::sqrt(2.0) * c * s).normalized();
+    const double direction[2] = {u[0] * u[0], u[1] * u[1]};
+    Driven<Strip> strip(Directed<Strip>{Strip::make(0, warp(), weft())}.of(direction, 0));
+    Driven<Sheet> sheet(Sheet::make(0, warp(), weft()));
+    EXPECT_NEAR(strip.moment(kSmall), sheet.to(Vec<double, 3>(kSmall * u)).moment.dot(u),
+                kRounding * warp().stiffness() * kSmall);
+    EXPECT_NEAR(strip.moment(kFar), sheet.to(Vec<double, 3>(kFar * u)).moment.dot(u),
+                kSlides * warp().friction_moment());
+  }
+}
+
+// Behind the metric of the curvature these are the same spectrum, whatever the direction.
+TEST(TurnedSpectra, ThatAreEqualAreOne) {
+  const Strip one = Strip::make(kB2, warp(), warp());
+  const double direction[2] = {0.3, 0.5};
+  Driven<Strip> turned(Directed<Strip>{one}.of(direction, 0)), plain(one);
+  for (double k : random_turns(200, 400, 5))
+    ASSERT_NEAR(turned.moment(k), plain.moment(k), kRounding * kB2 * 400);
 }
 
 }  // namespace
