@@ -53,6 +53,21 @@ TEST(Repeats, OfASpecimenThatCutsItsOwnMeshHaveOtherNumbersOfTriangles) {
             "mesh: triangles=4000; step: step=0.005; draw-1: triangles=1500; draw-2: triangles=666");
 }
 
+// The angles of a standard, at once, after 15 s and in the end; one without the second has no error of it.
+TEST(Errors, OfACreaseInTimeAreThoseOfEachOfItsAngles) {
+  const Metrics run = {
+      {"release_angle_deg", 68.0}, {"recovery_angle_15_s_deg", 73.0}, {"recovery_angle_deg", 77.0}};
+  const Metrics finer = {
+      {"release_angle_deg", 67.0}, {"recovery_angle_15_s_deg", 75.0}, {"recovery_angle_deg", 80.0}};
+  const Errors errors = errors_of("crease", run, {{{"step", {}}, finer}, {{"mesh", {}}, run}});
+  EXPECT_EQ(errors.metrics["release_angle_deg_step_error"].number(), 1);
+  EXPECT_EQ(errors.metrics["recovery_angle_15_s_deg_step_error"].number(), 2);
+  EXPECT_EQ(errors.metrics["recovery_angle_deg_step_error"].number(), 3);
+  EXPECT_EQ(errors.metrics["recovery_angle_15_s_deg_mesh_error"].number(), 0);
+  const Errors at_once = errors_of("crease", {{"recovery_angle_deg", 77.0}}, {{{"step", {}}, finer}});
+  EXPECT_FALSE(at_once.metrics.contains("recovery_angle_15_s_deg_step_error"));
+}
+
 TEST(Repeats, OfADrapeGoAlongTheOtherPathToo) {
   const Scene scene = scene_on("random", "disc");
   EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 1).back()}), "path: drape.release=dropped");
