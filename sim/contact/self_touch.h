@@ -7,11 +7,29 @@
 
 namespace hysteron {
 
-inline constexpr double kClosest = 0.1;  // share that no step goes below
+inline constexpr double kClosest = 0.1;    // share of a shell that no step goes below
+inline constexpr double kLast = 0.2;       // share from which on a second barrier keeps pairs off that
+inline constexpr double kLastStiff = 3e3;  // its stiffness over the first's
 
 template <class Real>
 HYST_HD Real least_distance(const SelfPair<Real>& pair) {
   return static_cast<Real>(kClosest) * pair.shell;
+}
+
+// Of a pair at this distance, below its shell.  What is near on the flat cloth has a small shell, and its
+// barrier is weak in proportion: a sharp fold of triangles finer than the thickness presses through it.  At
+// the least distance no step could then lead anywhere, so that a second barrier ends a little above it.
+template <class Real>
+HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
+  const Real hardest = static_cast<Real>(kHardest) * pair.shell, last = static_cast<Real>(kLast) * pair.shell;
+  Barrier<Real> sum = barrier(k, distance - hardest, pair.shell - hardest);
+  if (!(distance < last)) return sum;
+  const Real least = least_distance(pair);
+  const Barrier<Real> end = barrier(static_cast<Real>(kLastStiff) * k, distance - least, last - least);
+  sum.energy += end.energy;
+  sum.slope += end.slope;
+  sum.stiffness += end.stiffness;
+  return sum;
 }
 
 template <class Real>
@@ -33,12 +51,12 @@ HYST_HD HYST_NOINLINE SelfTouch<Real> self_touch(const SelfPair<Real>& pair,
   pair.gather(position, x);
   const ClosestPoints<Real> closest = pair.is_edges() ? edge_edge(x) : point_triangle(x);
   SelfTouch<Real> touch;
-  const Real distance = closest.offset.norm(), hardest = static_cast<Real>(kHardest) * pair.shell;
+  const Real distance = closest.offset.norm();
   if (!(distance < pair.shell)) return touch;
   touch.touches = true;
   touch.normal = closest.offset / distance;
   touch.weight = closest.weight;
-  const Barrier<Real> b = barrier(model.stiffness, distance - hardest, pair.shell - hardest);
+  const Barrier<Real> b = pair_barrier(pair, model.stiffness, distance);
   Fade<Real> fade{1, 0};
   if (pair.is_edges()) {
     touch.first = x[1] - x[0];

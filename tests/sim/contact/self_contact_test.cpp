@@ -10,6 +10,7 @@
 #include "sim/base/error.h"
 #include "sim/contact/barrier.h"
 #include "sim/contact/compression.h"
+#include "sim/contact/self_touch.h"
 #include "sim/mesh/intersections.h"
 #include "tests/sim/contact/two_sheets.h"
 
@@ -137,6 +138,26 @@ TEST(Barrier, GoesOnSmoothlyWhereNextToNothingOfTheGapIsLeft) {
     EXPECT_NEAR((more.energy - less.energy) / (2 * h) / at.slope, 1, 1e-6);
     EXPECT_NEAR((more.slope - less.slope) / (2 * h) / at.stiffness, 1, 1e-6);
   }
+}
+
+// Half-way to the least distance the second barrier adds K R (ln 2 + 1/2) to the pressure, K and R its
+// stiffness and range; it begins without a jump in pressure or stiffness, and above it is none.
+TEST(Barrier, OfAPairThatIsCrushedEndsInAnotherBeforeTheLeastDistance) {
+  SelfPair<double> pair{};
+  pair.shell = 1e-4;
+  const double k = 3e7, range = (kLast - kClosest) * pair.shell, begins = kLast * pair.shell;
+  const auto first = [&](double distance) {
+    return barrier(k, distance - kHardest * pair.shell, (1 - kHardest) * pair.shell);
+  };
+  EXPECT_EQ(pair_barrier(pair, k, begins).slope, first(begins).slope);
+  const double just_below = begins - 1e-9 * range, middle = begins - range / 2;
+  EXPECT_NEAR(pair_barrier(pair, k, just_below).slope / first(just_below).slope, 1, 1e-9);
+  EXPECT_NEAR(pair_barrier(pair, k, just_below).stiffness / first(just_below).stiffness, 1, 1e-6);
+  const double added = first(middle).slope - pair_barrier(pair, k, middle).slope;
+  EXPECT_NEAR(added / (kLastStiff * k * range * (std::log(2.0) + 0.5)), 1, 1e-12);
+  const double h = 1e-4 * range;
+  const double fall = pair_barrier(pair, k, middle - h).energy - pair_barrier(pair, k, middle + h).energy;
+  EXPECT_NEAR(-fall / (2 * h) / pair_barrier(pair, k, middle).slope, 1, 1e-6);
 }
 
 // The gradient is the energy's, through parallel edges as well; sums over all pairs vanish.
