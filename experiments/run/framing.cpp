@@ -35,9 +35,10 @@ struct Trial {
 
 // On the scene's own mesh where a coarse one cannot start, as when pins select none of its vertices.
 std::unique_ptr<Trial> trial_of(const Scene& scene) {
-  if (scene.triangles <= kTriangles) return std::make_unique<Trial>(scene);
+  if (scene.triangles <= kTriangles && scene.cloth.subdivisions == 0) return std::make_unique<Trial>(scene);
   Scene coarse = scene;
-  coarse.triangles = kTriangles;
+  coarse.triangles = std::min(scene.triangles, kTriangles);
+  coarse.cloth.subdivisions = 0;
   try {
     return std::make_unique<Trial>(coarse);
   } catch (const Error&) {

@@ -17,6 +17,33 @@ std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen:
   return angles;
 }
 
+std::array<Eigen::Vector3d, 4> rest_hinge(const ClothMesh& mesh, int hinge) {
+  const Edge& e = mesh.edge[hinge];
+  if (!mesh.sewn) return {mesh.rest[e.p0], mesh.rest[e.p1], mesh.rest[e.p2], mesh.rest[e.p3]};
+  // Where the corner opposite to the edge lies: along the edge, from its middle, and above it.
+  const auto tip = [&](int f) {
+    const auto& edges = mesh.face_edge[f];
+    const int k = static_cast<int>(std::find(edges.begin(), edges.end(), hinge) - edges.begin());
+    const auto at = mesh.corners(f);
+    const Eigen::Vector3d from = at[(k + 1) % 3], to = at[(k + 2) % 3];
+    const double length = (to - from).norm();
+    return Eigen::Vector2d((at[k] - (from + to) / 2).dot(to - from) / length, 2 * mesh.face_area[f] / length);
+  };
+  const Eigen::Vector2d first = tip(e.face0), second = tip(e.face1);
+  const double half = mesh.edge_length(hinge) / 2;
+  return {Eigen::Vector3d(first.x(), first.y(), 0), Eigen::Vector3d(-second.x(), -second.y(), 0),
+          Eigen::Vector3d(-half, 0, 0), Eigen::Vector3d(half, 0, 0)};
+}
+
+std::vector<double> rest_angles(const ClothMesh& mesh) {
+  std::vector<double> angles(mesh.interior_edges);
+  for (int i = 0; i < mesh.interior_edges; ++i) {
+    const auto [p0, p1, p2, p3] = rest_hinge(mesh, i);
+    angles[i] = dihedral_angle<double>(p0, p1, p2, p3).theta;
+  }
+  return angles;
+}
+
 void transpose_rows(CurvatureOperator& op, int hinges) {
   const int d = op.dimension, items = static_cast<int>(op.hinge.item.size());
   op.element.start.assign(hinges + 1, 0);
@@ -36,11 +63,11 @@ void transpose_rows(CurvatureOperator& op, int hinges) {
 CurvatureOperator make_hinge_operator(const ClothMesh& mesh) {
   CurvatureOperator op;
   op.dimension = 1;
-  op.rest_angle = hinge_angles(mesh, mesh.rest);
+  op.rest_angle = rest_angles(mesh);
   op.hinge.start.push_back(0);
   for (int i = 0; i < mesh.interior_edges; ++i) {
     const Edge& e = mesh.edge[i];
-    const double length = (mesh.rest[e.p3] - mesh.rest[e.p2]).norm();
+    const double length = mesh.edge_length(i);
     const double height = (mesh.face_area[e.face0] + mesh.face_area[e.face1]) / length;  // (h0 + h1)/2
     op.area.push_back(length * height);
     op.coefficient.push_back(1 / height);
@@ -60,10 +87,14 @@ Eigen::Vector3d rigidities(double weft, double bias) {
   return {1, weft, std::max(0.0, 2 * bias - (1 + weft) / 2)};
 }
 
-// nu of a bend across the edge, in the frame of its first face.
-Eigen::Vector3d across(const ClothMesh& mesh, const Edge& e) {
-  const auto axes = mesh.face_axes(e.face0);
-  const Eigen::Vector3d along = (mesh.rest[e.p3] - mesh.rest[e.p2]).normalized();
+// nu of a bend across interior edge i, in the frame of its first face.
+Eigen::Vector3d across(const ClothMesh& mesh, int i) {
+  const int f = mesh.edge[i].face0;
+  const auto axes = mesh.face_axes(f);
+  const auto& edges = mesh.face_edge[f];
+  const int k = static_cast<int>(std::find(edges.begin(), edges.end(), i) - edges.begin());
+  const auto at = mesh.corners(f);
+  const Eigen::Vector3d along = (at[(k + 2) % 3] - at[(k + 1) % 3]).normalized();
   const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
   return {x * x, y * y, std::sqrt(2.0) * x * y};
 }
@@ -72,7 +103,7 @@ Eigen::Vector3d across(const ClothMesh& mesh, const Edge& e) {
 Eigen::Vector3d metric_of(const CurvatureOperator& op, const ClothMesh& mesh, int i,
                           const Eigen::Vector3d& q) {
   if (op.dimension == 3) return q.cwiseSqrt();
-  const Eigen::Vector3d nu = across(mesh, mesh.edge[i]);
+  const Eigen::Vector3d nu = across(mesh, i);
   return {std::sqrt(nu.dot(q.cwiseProduct(nu))), 0, 0};
 }
 
@@ -105,7 +136,7 @@ void set_directions(CurvatureOperator& op, const ClothMesh& mesh, double weft, d
   const Eigen::Vector3d q = rigidities(weft, bias);
   op.direction.clear();
   for (int i = 0; i < op.elements(); ++i) {
-    const Eigen::Vector3d nu = across(mesh, mesh.edge[i]), squares = q.cwiseProduct(nu.cwiseAbs2());
+    const Eigen::Vector3d nu = across(mesh, i), squares = q.cwiseProduct(nu.cwiseAbs2());
     for (int k = 0; k < 2; ++k) op.direction.push_back(squares[k] / squares.sum());
   }
 }

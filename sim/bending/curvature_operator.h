@@ -1,6 +1,7 @@
 // The fixed linear map from changes of dihedral angle to curvatures: what distinguishes bending elements.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sim/bending/choices.h"
@@ -58,6 +59,12 @@ double strip_rigidity(double weft, double bias, double angle);
 
 // Angles of all hinges of the mesh in the given configuration, within (-pi, pi].
 std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
+
+// The vertices p0, p1, p2, p3 of a hinge at rest [m].  Panels that are sewn together lie flat there, across a
+// seam as within a panel: side by side, with the middles of the seam's two sides on each other.
+std::array<Eigen::Vector3d, 4> rest_hinge(const ClothMesh& mesh, int hinge);
+// Angles of all hinges at rest, within (-pi, pi].
+std::vector<double> rest_angles(const ClothMesh& mesh);
 
 // Fills element/transposed from hinge/coefficient.
 void transpose_rows(CurvatureOperator& op, int hinges);

@@ -46,15 +46,17 @@ int corner_of(const ClothMesh& mesh, int face, int vertex) {
 
 std::array<Vector2d, 3> flat_face(const ClothMesh& mesh, int f) {
   const auto axes = mesh.face_axes(f);
+  const auto at = mesh.corners(f);
   std::array<Vector2d, 3> corner;
   for (int k = 0; k < 3; ++k) {
-    const Vector3d d = mesh.rest[mesh.face[f][k]] - mesh.rest[mesh.face[f][0]];
+    const Vector3d d = at[k] - at[0];
     corner[k] = {d.dot(axes[0]), d.dot(axes[1])};
   }
   return corner;
 }
 
-// Unfolds `to`, the neighbour of `from` across edge e, into the plane of the patch.
+// Unfolds `to`, the neighbour of `from` across edge e, into the plane of the patch.  The sides of a seam may
+// differ in length: their middles meet.
 void unfold(const ClothMesh& mesh, const Edge& e, int from, int to, Patch& patch) {
   const auto& placed = patch.at(from);
   std::array<Vector2d, 3> corner = flat_face(mesh, to);
@@ -65,7 +67,8 @@ void unfold(const ClothMesh& mesh, const Edge& e, int from, int to, Patch& patch
   const double c = u.dot(w), s = u.x() * w.y() - u.y() * w.x();
   rotation << c, -s, s, c;
   const Vector2d origin = corner[t2];
-  for (Vector2d& p : corner) p = a + rotation * (p - origin);
+  const double ease = mesh.sewn ? ((b - a).norm() - (corner[t3] - origin).norm()) / 2 : 0;
+  for (Vector2d& p : corner) p = a + rotation * (p - origin) + ease * w;
   patch[to] = corner;
 }
 
@@ -183,7 +186,7 @@ CurvatureOperator make_shape_operator(const ClothMesh& mesh, const std::vector<c
   CurvatureOperator op;
   op.dimension = 3;
   op.area = mesh.face_area;
-  op.rest_angle = hinge_angles(mesh, mesh.rest);
+  op.rest_angle = rest_angles(mesh);
   std::vector<std::map<int, double>> psi(mesh.interior_edges);
 #pragma omp parallel for schedule(dynamic, 64)
   for (int e = 0; e < mesh.interior_edges; ++e) psi[e] = correction(mesh, e);

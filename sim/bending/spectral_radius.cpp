@@ -9,9 +9,8 @@ class RestBending {
  public:
   RestBending(const ClothMesh& mesh, const CurvatureOperator& op) : mesh_(mesh), op_(op) {
     for (int h = 0; h < mesh.interior_edges; ++h) {
-      const Edge& e = mesh.edge[h];
-      angle_.push_back(
-          dihedral_angle<double>(mesh.rest[e.p0], mesh.rest[e.p1], mesh.rest[e.p2], mesh.rest[e.p3]));
+      const auto [p0, p1, p2, p3] = rest_hinge(mesh, h);
+      angle_.push_back(dihedral_angle<double>(p0, p1, p2, p3));
     }
     rate_.resize(angle_.size());
     moment_.resize(static_cast<std::size_t>(op.elements()) * op.dimension);

@@ -7,9 +7,10 @@ std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh) {
   std::vector<MembraneRest<double>> rest(mesh.faces());
   for (int f = 0; f < mesh.faces(); ++f) {
     const auto axes = mesh.face_axes(f);
+    const auto at = mesh.corners(f);
     Eigen::Matrix2d d;
     for (int k = 0; k < 2; ++k) {
-      const Eigen::Vector3d u = mesh.rest[mesh.face[f][k + 1]] - mesh.rest[mesh.face[f][0]];
+      const Eigen::Vector3d u = at[k + 1] - at[0];
       d.col(k) << u.dot(axes[0]), u.dot(axes[1]);
     }
     const Eigen::Matrix2d g = d.inverse();  // rows: gradients of the shape functions of corners 1 and 2

@@ -35,12 +35,13 @@ struct Adjacency {
 };
 
 struct ClothMesh {
-  std::vector<Eigen::Vector3d> rest;     // rest shape in space [m]; flat builders lie in z = 0
-  std::vector<Eigen::Vector3i> face;     // counter-clockwise seen from the front
-  std::vector<Eigen::Vector2d> pattern;  // per vertex (warp, weft) coordinates [m]; empty: from warp_axis
-  std::vector<Eigen::Vector3d>
-      face_warp;                       // per face warp direction, where seams forbid a pattern; else empty
-  Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction where there is neither, or it is degenerate
+  std::vector<Eigen::Vector3d> rest;  // rest shape in space [m]; flat builders lie in z = 0
+  std::vector<Eigen::Vector3i> face;  // counter-clockwise seen from the front
+  std::vector<Eigen::Vector2d>
+      pattern;  // per vertex texture coordinates; empty: none, or several along seams
+  std::vector<std::array<Eigen::Vector2d, 3>> panel;  // then those of the triangles' corners; else empty
+  bool sewn = false;  // panels [m] are the cloth at rest, and `rest` is only where their seams hold them
+  Eigen::Vector3d warp_axis{1, 0, 0};  // warp direction in texture coordinates; without any, in space
 
   // Filled by build_topology():
   std::vector<Edge> edge;                     // interior edges first, then boundary edges
@@ -52,16 +53,22 @@ struct ClothMesh {
 
   int vertices() const { return static_cast<int>(rest.size()); }
   int faces() const { return static_cast<int>(face.size()); }
-  // Warp and weft unit vectors of face f in the rest shape, in its plane and at right angles: the direction
-  // of face_warp, of the rising first pattern coordinate, or of warp_axis projected; weft = normal x warp.
-  // A triangle that warp_axis pierces at a right angle takes its first edge.
+  // Corners of face f at rest [m]: of its panel, in z = 0, or in `rest`.
+  std::array<Eigen::Vector3d, 3> corners(int f) const;
+  // Length of an edge at rest [m]; along a seam the mean of its two sides.
+  double edge_length(int e) const;
+  // Warp and weft unit vectors of face f among its corners at rest, in its plane and at right angles: where
+  // warp_axis lies in texture coordinates, or, without any and where they are degenerate, warp_axis
+  // projected; weft = normal x warp.  A triangle that warp_axis pierces at a right angle takes its first
+  // edge.
   std::array<Eigen::Vector3d, 2> face_axes(int f) const;
 };
 
 // Checks the mesh and fills the derived members.  `what` names the mesh in messages ("mesh shirt.obj").
 // Throws Error::request for: no triangles, indices out of range, non-finite vertices, degenerate triangles
 // (height/longest edge < 1e-6), an edge shared by more than two triangles, inconsistent orientation,
-// vertices that no triangle uses, a triangle given twice, a pattern of another size than the vertices.
+// vertices that no triangle uses, a triangle given twice, a pattern of another size than the vertices, panels
+// of another number than the triangles.
 void build_topology(ClothMesh& mesh, const std::string& what);
 
 // Mesh families of the builders (the accuracy of a bending element depends on them).
@@ -96,14 +103,14 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
 ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
 
 // Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture
-// coordinates, where every corner has one, become the pattern, or face_warp if they have seams.
+// coordinates, where every corner has one, become the pattern, or panels if they have seams.
 // weld > 0 merges each vertex into the first one closer than that distance [m].
 // Throws Error::machine for a file that cannot be read; Error::request, naming the file and the line, for
 // malformed lines, numbers that are not finite, and all that build_topology refuses.
 ClothMesh read_obj(const std::string& file, double weld);
 // Writers of one frame, atomic (temporary name, then rename): position [m] per vertex, value (a curvature
-// [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with the pattern
-// as texture coordinates; PLY binary little-endian, doubles.  Throw Error::machine.
+// [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with its texture
+// coordinates; PLY binary little-endian, doubles.  Throw Error::machine.
 void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 void write_ply(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
                const std::vector<double>& value);

@@ -1,31 +1,76 @@
 #include "sim/mesh/garment.h"
 
+#include <algorithm>
+#include <sstream>
+
 #include "sim/base/error.h"
 
 namespace hysteron {
 namespace {
 
-double signed_area(const ClothMesh& mesh, const Eigen::Vector3i& t) {
-  const Eigen::Vector3d a = mesh.rest[t[1]] - mesh.rest[t[0]], b = mesh.rest[t[2]] - mesh.rest[t[0]];
-  return (a.x() * b.y() - a.y() * b.x()) / 2;
+constexpr double kLargestStretch = 2;  // of all sides together; cloth that is sewn stretches by far less
+
+bool is_mirrored(const ClothMesh& mesh, int f) {
+  const auto at = mesh.corners(f);
+  return (at[1] - at[0]).cross(at[2] - at[0]).z() < 0;
+}
+
+// Flat cloth has one side up; of panels, each.
+void check_folds(const ClothMesh& mesh, const std::string& what) {
+  for (int e = 0; e < mesh.interior_edges; ++e) {
+    const Edge& edge = mesh.edge[e];
+    if (is_seam(mesh, e) || is_mirrored(mesh, edge.face0) == is_mirrored(mesh, edge.face1)) continue;
+    throw Error::request(what + ": triangle " + std::to_string(edge.face1 + 1) +
+                         " is turned over in its texture coordinates against its neighbour " +
+                         std::to_string(edge.face0 + 1) + ", where the cloth must be flat");
+  }
+}
+
+// Lengths of all triangles' sides together.
+double length_of_sides(const ClothMesh& mesh) {
+  double sum = 0;
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto at = mesh.corners(f);
+    for (int k = 0; k < 3; ++k) sum += (at[(k + 1) % 3] - at[k]).norm();
+  }
+  return sum;
+}
+
+void check_scale(double stretch, double scale, const std::string& what) {
+  if (stretch <= kLargestStretch && stretch >= 1 / kLargestStretch) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << what << ": its triangles' sides are " << stretch << " times as long as in texture coordinates of "
+       << scale << " m a unit, which must be " << 1 / kLargestStretch << " to " << kLargestStretch
+       << "; cloth.texture-scale = " << scale * stretch << " m makes them equal";
+  throw Error::request(text.str());
 }
 
 }  // namespace
 
-ClothMesh read_pattern(const std::string& file, double weld) {
+bool is_seam(const ClothMesh& mesh, int edge) {
+  if (mesh.panel.empty()) return false;
+  const Edge& e = mesh.edge[edge];
+  const auto place = [&](int f, int vertex) {
+    return mesh.panel[f][mesh.face[f][0] == vertex ? 0 : mesh.face[f][1] == vertex ? 1 : 2];
+  };
+  return place(e.face0, e.p2) != place(e.face1, e.p2) || place(e.face0, e.p3) != place(e.face1, e.p3);
+}
+
+ClothMesh read_pattern(const std::string& file, double weld, double scale) {
   ClothMesh mesh = read_obj(file, weld);
   const std::string what = "mesh " + file;
-  if (mesh.pattern.empty())
-    throw Error::request(
-        what + ": its texture coordinates are no flat cloth: " +
-        (mesh.face_warp.empty() ? "corners have none" : "vertices have several, along seams"));
-  for (int v = 0; v < mesh.vertices(); ++v) mesh.rest[v] = {mesh.pattern[v].x(), mesh.pattern[v].y(), 0};
-  const bool mirrored = signed_area(mesh, mesh.face[0]) < 0;
-  for (int f = 0; f < mesh.faces(); ++f)
-    if ((signed_area(mesh, mesh.face[f]) < 0) != mirrored)
-      throw Error::request(what + ": triangle " + std::to_string(f + 1) +
-                           " is turned over in its texture coordinates, where the cloth must be flat");
-  build_topology(mesh, what);
+  if (mesh.pattern.empty() && mesh.panel.empty())
+    throw Error::request(what + ": its texture coordinates are no flat cloth: corners have none");
+  const double worn = length_of_sides(mesh);
+  for (Eigen::Vector2d& at : mesh.pattern) at *= scale;
+  for (auto& corners : mesh.panel)
+    for (Eigen::Vector2d& at : corners) at *= scale;
+  mesh.sewn = !mesh.panel.empty();
+  for (int v = 0; !mesh.sewn && v < mesh.vertices(); ++v) mesh.rest[v] << mesh.pattern[v], 0;
+  build_topology(mesh, what + ", its texture coordinates");
+  check_folds(mesh, what);
+  check_scale(worn / length_of_sides(mesh), scale, what);
   return mesh;
 }
 

@@ -19,10 +19,11 @@
 namespace hysteron {
 namespace {
 
-// The file's own vertices, the lines on which vertices and faces stand, and what the loader needs of each
-// line.
+// The file's own vertices and texture coordinates, the lines on which vertices and faces stand, and what the
+// loader needs of each line.
 struct Lines {
   std::vector<Eigen::Vector3d> vertex;
+  std::vector<Eigen::Vector2d> texture;
   std::vector<int> vertex_line, face_line;
   std::string resolved;
 };
@@ -84,8 +85,8 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
     lines.resolved += "v 0 0 0";  // counted only
   } else if (word[0] == "vt") {
     if (word.size() < 3) throw bad_line(what, line, "a texture coordinate needs two numbers");
-    for (int i = 1; i <= 2; ++i) finite_number(word[i], what, line);
-    add_words(word, 3, lines.resolved);
+    lines.texture.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line));
+    lines.resolved += "vt 0 0";  // counted only
   } else if (word[0] == "vn") {
     lines.resolved += "vn 0 0 1";  // counted only
   } else if (word[0] == "f") {
@@ -162,9 +163,8 @@ class Faces {
 
   Uv uv(const tinyobj::index_t& corner, int line) const {
     if (corner.texcoord_index == -1) return {};
-    check_index(corner.texcoord_index, attributes_.texcoords.size() / 2, "texture coordinate", line);
-    return Eigen::Vector2d(attributes_.texcoords[2 * corner.texcoord_index],
-                           attributes_.texcoords[2 * corner.texcoord_index + 1]);
+    check_index(corner.texcoord_index, lines_.texture.size(), "texture coordinate", line);
+    return lines_.texture[corner.texcoord_index];
   }
 
   void check_index(int index, std::size_t count, const std::string& of, int line) const {

@@ -35,12 +35,12 @@ void weld_vertices(double distance, const ObjSoup& soup, ClothMesh& mesh, MeshNa
 }
 
 // Texture coordinates become the pattern where each vertex has one.  Along seams it has several: then each
-// triangle keeps the warp direction of its own corners.
+// triangle keeps those of its own corners.
 void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
   if (!has_texture(soup)) return;
   mesh.pattern = vertex_texture(soup, mesh.face, mesh.rest.size());
   for (int f = 0; mesh.pattern.empty() && f < mesh.faces(); ++f)
-    mesh.face_warp.push_back(pattern_warp(mesh, f, {*soup.uv[f][0], *soup.uv[f][1], *soup.uv[f][2]}));
+    mesh.panel.push_back({*soup.uv[f][0], *soup.uv[f][1], *soup.uv[f][2]});
 }
 
 }  // namespace

@@ -48,17 +48,18 @@ void check_vertices(const ClothMesh& mesh, const MeshNames& names) {
     throw Error::request(names.what + ": " + std::to_string(mesh.pattern.size()) +
                          " pattern coordinates for " + std::to_string(mesh.vertices()) +
                          " vertices; give one each or none");
+  if ((mesh.sewn || !mesh.panel.empty()) && mesh.panel.size() != mesh.face.size())
+    throw Error::request(names.what + ": " + std::to_string(mesh.panel.size()) + " panels for " +
+                         std::to_string(mesh.faces()) + " triangles; give one each or none");
 }
 
-Eigen::Vector3d area_vector(const ClothMesh& mesh, int f) {
-  const auto& [a, b, c] = std::tie(mesh.face[f][0], mesh.face[f][1], mesh.face[f][2]);
-  return 0.5 * (mesh.rest[b] - mesh.rest[a]).cross(mesh.rest[c] - mesh.rest[a]);
-}
+using Corners = std::array<Eigen::Vector3d, 3>;
 
-double longest_side(const ClothMesh& mesh, int f) {
+Eigen::Vector3d area_vector(const Corners& at) { return 0.5 * (at[1] - at[0]).cross(at[2] - at[0]); }
+
+double longest_side(const Corners& at) {
   double longest = 0;
-  for (int i = 0; i < 3; ++i)
-    longest = std::max(longest, (mesh.rest[mesh.face[f][i]] - mesh.rest[mesh.face[f][(i + 1) % 3]]).norm());
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, (at[i] - at[(i + 1) % 3]).norm());
   return longest;
 }
 
@@ -66,7 +67,8 @@ void measure_areas(ClothMesh& mesh, const MeshNames& names) {
   mesh.face_area.resize(mesh.face.size());
   mesh.vertex_area.assign(mesh.rest.size(), 0.0);
   for (int f = 0; f < mesh.faces(); ++f) {
-    const double area = area_vector(mesh, f).norm(), side = longest_side(mesh, f);
+    const Corners at = mesh.corners(f);
+    const double area = area_vector(at).norm(), side = longest_side(at);
     if (!(2 * area >= kLeastHeightRatio * side * side) || side == 0)
       throw Error::request(names.what + ": " + names.triangle(f) + " is degenerate (" +
                            names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
@@ -137,6 +139,17 @@ void connect_edges(ClothMesh& mesh, const MeshNames& names) {
   }
 }
 
+// Derivative of the position by the first texture coordinate over a triangle; zero where these coordinates
+// are degenerate.
+Eigen::Vector3d texture_warp(const Corners& at, const std::array<Eigen::Vector2d, 3>& texture) {
+  const Eigen::Vector2d u = texture[1] - texture[0], v = texture[2] - texture[0];
+  const double det = u.x() * v.y() - u.y() * v.x();
+  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d x1 = at[1] - at[0], x2 = at[2] - at[0];
+  return (x1 * v.y() - x2 * u.y()) / det;
+}
+
 void gather_vertex_faces(ClothMesh& mesh) {
   Adjacency& rows = mesh.vertex_faces;
   rows.start.assign(mesh.rest.size() + 1, 0);
@@ -160,17 +173,6 @@ std::string MeshNames::vertex(int v) const {
                              : "the vertex of line " + std::to_string(vertex_line[v]);
 }
 
-Eigen::Vector3d pattern_warp(const ClothMesh& mesh, int f, const std::array<Eigen::Vector2d, 3>& at) {
-  const Eigen::Vector2d u = at[1] - at[0], v = at[2] - at[0];
-  const double det = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
-    return Eigen::Vector3d::Zero();
-  const Eigen::Vector3i& face = mesh.face[f];
-  const Eigen::Vector3d x1 = mesh.rest[face[1]] - mesh.rest[face[0]];
-  const Eigen::Vector3d x2 = mesh.rest[face[2]] - mesh.rest[face[0]];
-  return (x1 * v.y() - x2 * u.y()) / det;
-}
-
 void build_topology(ClothMesh& mesh, const MeshNames& names) {
   check_indices(mesh, names);
   check_vertices(mesh, names);
@@ -183,18 +185,38 @@ void build_topology(ClothMesh& mesh, const std::string& what) {
   build_topology(mesh, MeshNames{what, {}, {}});
 }
 
+std::array<Eigen::Vector3d, 3> ClothMesh::corners(int f) const {
+  if (!sewn) return {rest[face[f][0]], rest[face[f][1]], rest[face[f][2]]};
+  const auto at = [&](int k) { return Eigen::Vector3d(panel[f][k].x(), panel[f][k].y(), 0); };
+  return {at(0), at(1), at(2)};
+}
+
+double ClothMesh::edge_length(int e) const {
+  const auto in_face = [&](int f) {
+    const int k =
+        static_cast<int>(std::find(face_edge[f].begin(), face_edge[f].end(), e) - face_edge[f].begin());
+    const Corners at = corners(f);
+    return (at[(k + 2) % 3] - at[(k + 1) % 3]).norm();
+  };
+  const double first = in_face(edge[e].face0);
+  return sewn && edge[e].interior() ? (first + in_face(edge[e].face1)) / 2 : first;
+}
+
 std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
-  const Eigen::Vector3d normal = area_vector(*this, f).normalized();
+  const Corners at = corners(f);
+  const Eigen::Vector3d normal = area_vector(at).normalized();
   Eigen::Vector3d warp = Eigen::Vector3d::Zero();
-  if (!face_warp.empty())
-    warp = face_warp[f];
+  if (!panel.empty())
+    warp = texture_warp(at, panel[f]);
   else if (!pattern.empty())
-    warp = pattern_warp(*this, f, {pattern[face[f][0]], pattern[face[f][1]], pattern[face[f][2]]});
-  if (warp.isZero(0)) warp = warp_axis;
+    warp = texture_warp(at, {pattern[face[f][0]], pattern[face[f][1]], pattern[face[f][2]]});
+  const bool textured = !warp.isZero(0);
+  if (!textured) warp = warp_axis;
   Eigen::Vector3d in_plane = warp - normal * normal.dot(warp);
   // A warp direction that pierces the triangle says nothing about it; any fixed choice serves.
-  if (in_plane.norm() <= kLeastHeightRatio * warp.norm()) in_plane = rest[face[f][1]] - rest[face[f][0]];
+  if (in_plane.norm() <= kLeastHeightRatio * warp.norm()) in_plane = at[1] - at[0];
   in_plane.normalize();
+  if (textured) in_plane = warp_axis.x() * in_plane + warp_axis.y() * normal.cross(in_plane);
   return {in_plane, normal.cross(in_plane)};
 }
 

@@ -1,7 +1,6 @@
 // Building the topology of a mesh whose triangles and vertices come from the lines of a file.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,6 @@ struct MeshNames {
   std::string triangle(int f) const;
   std::string vertex(int v) const;
 };
-
-// Derivative of the position by the first pattern coordinate over triangle f, whose corners have the pattern
-// coordinates `at`; zero where these are degenerate.
-Eigen::Vector3d pattern_warp(const ClothMesh& mesh, int f, const std::array<Eigen::Vector2d, 3>& at);
 
 // As build_topology(mesh, what), with the file's lines in its messages.
 void build_topology(ClothMesh& mesh, const MeshNames& names);

@@ -59,11 +59,17 @@ void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector
   std::string text;
   for (const auto& x : position) append_line<3>(text, "v", x);
   for (const auto& u : mesh.pattern) append_line<2>(text, "vt", u);
-  for (const auto& face : mesh.face) {
+  for (const auto& corners : mesh.panel)
+    for (const auto& u : corners) append_line<2>(text, "vt", u);
+  for (int f = 0; f < mesh.faces(); ++f) {
     text += 'f';
-    for (const int v : face) {
-      const std::string number = std::to_string(v + 1);
-      text += ' ' + number + (mesh.pattern.empty() ? "" : '/' + number);
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.face[f][k];
+      text += ' ' + std::to_string(v + 1);
+      if (!mesh.panel.empty())
+        text += '/' + std::to_string(3 * f + k + 1);
+      else if (!mesh.pattern.empty())
+        text += '/' + std::to_string(v + 1);
     }
     text += '\n';
   }

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/mesh/garment.h"
+#include "sim/mesh/subdivision.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
@@ -20,7 +21,7 @@ ClothMesh one_rest_mesh(const Scene& scene) {
   const int triangles = scene.triangles / c.copies;
   if (is_obj(scene.mesh)) return read_obj(scene.mesh, c.weld);
   if (c.shape == "file") return read_obj(c.file, c.weld);
-  if (c.shape == "pattern") return read_pattern(c.file, c.weld);
+  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale);
   const MeshFamily family = mesh_family(scene.mesh);
   if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
   if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);
@@ -136,6 +137,10 @@ std::vector<char> Cloth::held_throughout(const Scene& scene) const {
 Cloth make_cloth(const Scene& scene) {
   ClothMesh mesh = rest_mesh(scene);
   std::vector<Eigen::Vector3d> start = start_shape(scene, mesh);
+  for (int i = 0; i < scene.cloth.subdivisions; ++i) {
+    start = with_middles(mesh, std::move(start));
+    mesh = subdivided(mesh);
+  }
   return placed(scene, std::move(mesh), std::move(start));
 }
 

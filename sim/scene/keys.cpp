@@ -17,15 +17,17 @@ using P = InPlaneStops;
 
 // clang-format off
 const KeyRow<Scene> kSceneRows[] = {
-    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | tube | file | pattern", "outline of the cloth; file: an OBJ; pattern: the texture coordinates [m] of an OBJ, which starts where its vertices are"},
+    {"cloth.shape", at<&S::cloth, &C::shape>, "", any(), "square | strip | disc | tube | file | pattern", "outline of the cloth; file: an OBJ; pattern: the texture coordinates of an OBJ, whose islands are panels sewn along their seams, and which starts where its vertices are"},
     {"cloth.length", at<&S::cloth, &C::length>, "m", positive(), "", "along warp (square, strip, tube)"},
     {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip; a square takes cloth.length)"},
     {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc, the tube, the loops of a knot or the turns of pleats"},
     {"cloth.file", at<&S::cloth, &C::file>, "", any(), "", "OBJ of the rest shape (file), or with it as texture coordinates (pattern)"},
     {"cloth.weld", at<&S::cloth, &C::weld>, "m", at_least(0), "", "vertices of an OBJ closer than this are merged; 0: none are"},
+    {"cloth.texture-scale", at<&S::cloth, &C::texture_scale>, "m", positive(), "", "pattern: length of a unit of the texture coordinates"},
+    {"cloth.subdivisions", at<&S::cloth, &C::subdivisions>, "", between(0, 8), "", "how many times each triangle is cut into four, a finer mesh where a file has the triangles"},
     {"cloth.position", at<&S::cloth, &C::position>, "m", any(), "", "of the rest shape's origin at the start"},
     {"cloth.rotation", at<&S::cloth, &C::rotation>, "degree", any(), "", "about x, y, z in this order at the start"},
-    {"cloth.warp-angle", at<&S::cloth, &C::warp_angle>, "degree", any(), "", "warp direction against the rest shape's x axis"},
+    {"cloth.warp-angle", at<&S::cloth, &C::warp_angle>, "degree", any(), "", "warp direction against the rest shape's x axis, or the first texture coordinate of an OBJ"},
     {"cloth.start", at<&S::cloth, &C::start>, "", any(), "", "shape at the start: rest, that at rest; knot, a strip in an open overhand knot of two loops; pleats, a strip or square laid in pleats; or an OBJ of the same triangles, FILE.obj"},
     {"cloth.pleats", at<&S::cloth, &C::pleats>, "", between(2, 1000), "", "layers of the pleats"},
     {"cloth.copies", at<&S::cloth, &C::copies>, "", between(1, 1000), "", "as many cloths of this shape, which share the triangles"},

@@ -76,6 +76,8 @@ struct ClothShape {
   double radius = 0.15;
   std::string file;
   double weld = 0;
+  double texture_scale = 1;
+  int subdivisions = 0;
   Eigen::Vector3d position{0, 0, 0};
   Eigen::Vector3d rotation{0, 0, 0};
   double warp_angle = 0;

@@ -29,10 +29,8 @@ double bending_eigenvalue(const Scene& scene, const Cloth& cloth, const Curvatur
   double lambda = bending_spectral_radius(cloth.mesh, op, stiffness, mass, held);
   if (scene.force == ForceConvention::chapter) {
     double largest = 0;
-    for (int h = 0; h < cloth.mesh.interior_edges; ++h) {
-      const Edge& e = cloth.mesh.edge[h];
-      largest = std::max(largest, 0.5 / (cloth.mesh.rest[e.p3] - cloth.mesh.rest[e.p2]).norm());
-    }
+    for (int h = 0; h < cloth.mesh.interior_edges; ++h)
+      largest = std::max(largest, 0.5 / cloth.mesh.edge_length(h));
     lambda *= largest;
   }
   return lambda;

@@ -10,8 +10,10 @@ namespace {
 
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
+// None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
 std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
   std::vector<float> uv;
+  if (mesh.sewn) return uv;
   if (shape.shape == "tube") {
     for (const Eigen::Vector2d& p : unrolled(mesh, shape))
       uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
@@ -19,9 +21,10 @@ std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
   }
   const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
   for (int i = 0; i < mesh.vertices(); ++i) {
-    const bool given = !mesh.pattern.empty();
-    uv.push_back(static_cast<float>(given ? mesh.pattern[i].x() : mesh.rest[i].dot(mesh.warp_axis)));
-    uv.push_back(static_cast<float>(given ? mesh.pattern[i].y() : mesh.rest[i].dot(weft)));
+    Eigen::Vector3d at = mesh.rest[i];
+    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
+    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
+    uv.push_back(static_cast<float>(at.dot(weft)));
   }
   return uv;
 }

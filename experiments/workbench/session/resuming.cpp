@@ -30,6 +30,9 @@ std::string comparable(Json scene) {
 std::uint64_t hash_of(const Cloth& cloth) {
   std::uint64_t hash = kFnv1aStart;
   for (const auto& face : cloth.mesh.face) hash = fnv1a(face.data(), sizeof(int) * 3, hash);
+  if (cloth.mesh.sewn)
+    for (const auto& corners : cloth.mesh.panel)
+      for (const Eigen::Vector2d& x : corners) hash = fnv1a(x.data(), 2 * sizeof(double), hash);
   for (const auto* points : {&cloth.mesh.rest, &cloth.start})
     for (const Eigen::Vector3d& x : *points) hash = fnv1a(x.data(), 3 * sizeof(double), hash);
   return fnv1a(cloth.pin.data(), cloth.pin.size() * sizeof cloth.pin[0], hash);

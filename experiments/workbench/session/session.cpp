@@ -99,7 +99,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
       setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
       simulation_(make_simulation(setup.scene, cloth_)),
-      rest_angle_(hinge_angles(cloth_.mesh, cloth_.mesh.rest)),
+      rest_angle_(rest_angles(cloth_.mesh)),
       recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);

@@ -30,7 +30,7 @@ class Rolled : public testing::Test {
 };
 
 TEST_F(Rolled, PatternIsTheClothAtRest) {
-  const ClothMesh mesh = read_pattern(file_.path(), 0);
+  const ClothMesh mesh = read_pattern(file_.path(), 0, 1);
   ASSERT_EQ(mesh.face, flat_.face);
   for (int v = 0; v < mesh.vertices(); ++v) EXPECT_LT((mesh.rest[v] - flat_.rest[v]).norm(), kRounding) << v;
   double area = 0;
@@ -77,11 +77,11 @@ TEST(Pattern, ThatIsNoFlatClothIsRefused) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   const std::pair<const char*, const char*> kCases[] = {
       {"f 1 2 3\nf 1 3 4\n", "corners have none"},
-      {"vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 3 3\nf 1/1 2/2 3/3\nf 1/5 3/3 4/4\n", "along seams"},
+      {"vt 0 0\nvt 9 0\nvt 9 9\nvt 0 9\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "cloth.texture-scale = 0.111 m"},
       {"vt 0 0\nvt 1 0\nvt 1 1\nvt 1 0.2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n", "triangle 2 is turned over"}};
   for (const auto& [text, message] : kCases) {
     const TextFile file(square + text, ".obj");
-    const Failure failure = failure_of([&, name = file.path()] { read_pattern(name, 0); });
+    const Failure failure = failure_of([&, name = file.path()] { read_pattern(name, 0, 1); });
     EXPECT_EQ(failure.exit_code, 2) << text;
     EXPECT_NE(failure.message.find(message), std::string::npos) << failure.message;
   }

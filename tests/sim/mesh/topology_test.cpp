@@ -141,11 +141,22 @@ TEST(WarpAxes, FollowThePatternWhereverTheSheetIsTurned) {
     EXPECT_NEAR((mesh.face_axes(f)[0] - turn * direction).norm(), 0, 1e-14);
 }
 
-TEST(WarpAxes, FaceWarpGoesBeforePatternAndAxis) {
+TEST(WarpAxes, AreThoseOfEachTrianglesOwnTexture) {
   ClothMesh mesh = two_triangles();
-  mesh.face_warp = {{0, 2, 0}, {-3, 0, 5}};
-  EXPECT_NEAR((mesh.face_axes(0)[0] - Eigen::Vector3d(0, 1, 0)).norm(), 0, 1e-15);
+  const Eigen::Vector2d zero(0, 0), one(1, 0), both(1, 1), other(0, 1);
+  mesh.panel = {{zero, other, Eigen::Vector2d(-1, 1)}, {both, zero, one}};  // turned by 90 and by 180 degrees
+  EXPECT_NEAR((mesh.face_axes(0)[0] - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-15);
   EXPECT_NEAR((mesh.face_axes(1)[0] - Eigen::Vector3d(-1, 0, 0)).norm(), 0, 1e-15);
+}
+
+TEST(WarpAxes, TurnInTheTexture) {
+  ClothMesh mesh = two_triangles();
+  for (const auto& x : mesh.rest) mesh.pattern.emplace_back(3 * x.y(), -3 * x.x());
+  const double angle = 0.4;
+  mesh.warp_axis = {std::cos(angle), std::sin(angle), 0};
+  const Eigen::Vector3d first(0, 1, 0), second(-1, 0, 0);  // directions of rising texture coordinates
+  const Eigen::Vector3d expected = std::cos(angle) * first + std::sin(angle) * second;
+  for (int f = 0; f < mesh.faces(); ++f) EXPECT_NEAR((mesh.face_axes(f)[0] - expected).norm(), 0, 1e-15);
 }
 
 TEST(WarpAxes, TriangleAcrossTheAxisTakesItsFirstEdge) {

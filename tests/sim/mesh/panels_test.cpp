@@ -1,0 +1,128 @@
+// Panels: islands of a texture that are sewn together along seams.
+#include "sim/mesh/garment.h"
+#include "sim/scene/cloth.h"
+#include "tests/sim/base/folder.h"
+#include "tests/sim/mesh/mesh_measures.h"
+#include "tests/sim/mesh/panel_tube.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::PanelTube;
+
+constexpr double kRounding = 1e-15;
+
+Vector2d moved(const Vector2d& at) { return at + Vector2d(2, -1); }
+Vector2d turned(const Vector2d& at) { return {-at.y(), at.x()}; }
+Vector2d mirrored(const Vector2d& at) { return {at.x(), -at.y()}; }
+
+ClothMesh tube(const PanelTube& panels, double scale = 1) {
+  const TextFile file(panels.obj(), ".obj");
+  return read_pattern(file.path(), 0, scale);
+}
+
+int seams(const ClothMesh& mesh) {
+  int count = 0;
+  for (int e = 0; e < mesh.interior_edges; ++e) count += is_seam(mesh, e);
+  return count;
+}
+
+Failure refusal(const std::string& obj, double scale = 1) {
+  const TextFile file(obj, ".obj");
+  return failure_of([&, name = file.path()] { read_pattern(name, 0, scale); });
+}
+
+TEST(Panels, SewnAtTwoSeamsMakeATube) {
+  for (const auto& second : {moved, turned, mirrored}) {
+    const ClothMesh mesh = tube({.second = second});
+    EXPECT_TRUE(mesh.sewn);
+    EXPECT_EQ(test::euler_characteristic(mesh), 0);
+    EXPECT_EQ(seams(mesh), 2 * PanelTube::kAlong);
+    EXPECT_EQ(test::total_area(mesh), PanelTube::area());
+  }
+}
+
+TEST(Panels, OfTheWornClothWeighWhatTheFlatOnesDo) {
+  const ClothMesh mesh = tube({.second = moved, .worn = [](const Vector3d& x) { return 1.25 * x; }});
+  double area = 0;
+  for (const double a : mesh.vertex_area) area += a;
+  EXPECT_NEAR(area, PanelTube::area(), kRounding);
+}
+
+TEST(Panels, StartWhereTheVerticesAreAndPinsFindThemThere) {
+  const TextFile file(PanelTube{.second = moved}.obj(), ".obj");
+  Scene scene;
+  scene.cloth.shape = "pattern";
+  scene.cloth.file = file.path();
+  scene.cloth.position = {0, 0, 1};
+  Pin& ring = scene.pin.emplace_back();
+  ring.low = {0, 0, 0};
+  ring.high = {0, PanelTube::kSide, PanelTube::kSide};
+  const Cloth cloth = make_cloth(scene);
+  EXPECT_EQ(static_cast<int>(cloth.pin_vertices[0].size()), 4 * PanelTube::kCells);
+  for (const Vector3d& x : cloth.start) {
+    EXPECT_GE(x.z(), 1);
+    EXPECT_LE(x.z(), 1 + PanelTube::kSide);
+  }
+}
+
+TEST(Panels, TakeWarpFromTheirTexture) {
+  ClothMesh mesh = tube({.second = turned});
+  for (const double angle : {0.0, 0.7}) {  // of warp in the texture
+    mesh.warp_axis = {std::cos(angle), std::sin(angle), 0};
+    for (int f = 0; f < mesh.faces(); ++f) {
+      EXPECT_LT((mesh.face_axes(f)[0] - mesh.warp_axis).norm(), kRounding);
+      EXPECT_LT((mesh.face_axes(f)[1] - Vector3d::UnitZ().cross(mesh.warp_axis)).norm(), kRounding);
+    }
+  }
+}
+
+TEST(Panels, SeamIsAsLongAsTheMeanOfItsSides) {
+  const ClothMesh mesh =
+      tube({.second = [](const Vector2d& at) { return Vector2d(1.5 * at.x(), at.y() + 1); }});
+  const double cell = PanelTube::kLength / PanelTube::kAlong;
+  for (int e = 0; e < mesh.interior_edges; ++e)
+    if (is_seam(mesh, e)) EXPECT_EQ(mesh.edge_length(e), (cell + 1.5 * cell) / 2);
+}
+
+TEST(Panels, TravelAsTextureCoordinates) {
+  const test::Folder folder;
+  const ClothMesh mesh = tube({.second = turned});
+  write_obj(folder.file("tube.obj"), mesh, mesh.rest);
+  const ClothMesh read = read_pattern(folder.file("tube.obj"), 0, 1);
+  EXPECT_EQ(read.rest, mesh.rest);
+  EXPECT_EQ(read.panel, mesh.panel);
+}
+
+TEST(Panels, InOtherUnitsAreScaled) {
+  const PanelTube in_centimetres{.second = moved, .worn = [](const Vector3d& x) { return 0.01 * x; }};
+  EXPECT_NEAR(test::total_area(tube(in_centimetres, 0.01)), 1e-4 * PanelTube::area(), kRounding);
+}
+
+TEST(Panels, OfAnotherSizeThanTheWornClothAreRefusedWithTheScaleThatFits) {
+  const Failure failure =
+      refusal(PanelTube{.second = moved, .worn = [](const Vector3d& x) { return 2.5 * x; }}.obj(), 0.5);
+  EXPECT_EQ(failure.exit_code, 2);
+  EXPECT_NE(
+      failure.message.find("5 times as long as in texture coordinates of 0.5 m a unit, which must be 0.5 to "
+                           "2; cloth.texture-scale = 2.5 m"),
+      std::string::npos)
+      << failure.message;
+}
+
+TEST(Panels, ThatAreFoldedOrHaveNoAreaAreRefused) {
+  const PanelTube folded{
+      .second = [](const Vector2d& at) { return Vector2d(std::abs(at.x() - 0.25), at.y()); }};
+  EXPECT_NE(refusal(folded.obj()).message.find("is turned over in its texture coordinates"),
+            std::string::npos);
+  const PanelTube line{.second = [](const Vector2d& at) { return Vector2d(at.x(), 0); }};
+  EXPECT_NE(refusal(line.obj()).message.find("its texture coordinates: triangle 32 is degenerate"),
+            std::string::npos)
+      << refusal(line.obj()).message;
+}
+
+}  // namespace
+}  // namespace hysteron
