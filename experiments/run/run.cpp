@@ -94,6 +94,10 @@ int run_scene(const CommandLine& given) {
   const std::vector<MetricRequest> requests = metrics_in(scene);
   Json choices = Json::parse(setup.choices);
   if (!requests.empty()) choices["metric"] = to_json(requests);
+  for (const MetricRequest& request : requests) setup.asked_metrics.push_back(request.metric());
+  if (setup.options.errors && requests.empty())
+    throw Error::request("--errors: " + scene + " has no [[metric]] whose errors could be measured")
+        .of("errors", "true");
   setup.choices = choices.dump();
 
   Session session(line, setup);

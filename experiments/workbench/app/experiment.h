@@ -51,6 +51,8 @@ struct Setup {
   std::string asked = "";      // the scene before the experiment changes it, JSON; empty: it is not changed
   std::vector<std::string> own_tables =
       {};  // arrays of tables of a scene file that the experiment reads itself
+  std::vector<std::string> asked_metrics =
+      {};  // of the scene file: --errors finds theirs beside the headlines'
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

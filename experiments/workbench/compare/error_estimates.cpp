@@ -107,13 +107,16 @@ class Estimate {
 
 }  // namespace
 
-Errors errors_of(const std::string& experiment, const Metrics& metrics,
-                 const std::vector<Repeated>& repeats) {
+Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats,
+                 const std::vector<std::string>& asked) {
   const Headlines& headlines = headlines_of(experiment);
-  Errors errors = Estimate(headlines.with_errors(), metrics, repeats).errors();
-  const bool meshed =
-      std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) { return r.repeat.name == "mesh"; });
-  if (!meshed) errors.missing.push_back("mesh and draw: the cloth's triangles come from a file");
+  std::vector<std::string> names = headlines.with_errors();
+  names.insert(names.end(), asked.begin(), asked.end());
+  Errors errors = Estimate(names, metrics, repeats).errors();
+  const bool of_a_file = std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) {
+    return !r.repeat.changes.empty() && r.repeat.changes.front().path == kSubdivisions;
+  });
+  if (of_a_file) errors.missing.push_back("draw: the cloth's triangles come from a file");
   if (headlines.equilibria)
     errors.missing.push_back("step: " + experiment + " finds equilibria at loads that --step does not set");
   return errors;

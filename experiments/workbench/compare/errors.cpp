@@ -42,6 +42,11 @@ bool from_a_file(const Scene& scene) {
   return scene.cloth.shape == "file" || scene.cloth.shape == "pattern" || scene.mesh.ends_with(".obj");
 }
 
+Flag finer_mesh(const Scene& scene) {
+  if (from_a_file(scene)) return {kSubdivisions, std::to_string(scene.cloth.subdivisions + 1)};
+  return {"triangles", std::to_string(kFiner * scene.triangles)};
+}
+
 SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
   std::vector<Flag> own = repeat.changes;
   // A scene's file may say otherwise.
@@ -113,11 +118,11 @@ std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene
                                int draws) {
   const Headlines& headlines = headlines_of(experiment);
   std::vector<Repeat> repeats;
-  const bool meshed = !from_a_file(scene);
+  const bool drawn = !from_a_file(scene);
   // The longest first: they run side by side.
-  if (meshed) repeats.push_back({"mesh", {{"triangles", std::to_string(kFiner * scene.triangles)}}});
+  repeats.push_back({"mesh", {finer_mesh(scene)}});
   if (!headlines.equilibria) repeats.push_back({"step", half_the_step(scene)});
-  for (int draw = 1; meshed && draw <= draws; ++draw)
+  for (int draw = 1; drawn && draw <= draws; ++draw)
     repeats.push_back({"draw-" + std::to_string(draw),
                        headlines.own_mesh ? drawn_number(scene, draw) : drawn_mesh(scene, draw)});
   const auto other = std::find_if(headlines.paths.begin(), headlines.paths.end(),
@@ -130,6 +135,8 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const auto stage = run.stage("errors");
   run.keep();
   const Headlines& headlines = headlines_of(line.experiment);
+  std::vector<std::string> names = headlines.with_errors();
+  names.insert(names.end(), setup.asked_metrics.begin(), setup.asked_metrics.end());
   const std::vector<Repeat> repeats =
       repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
   std::vector<SweepColumn> columns;
@@ -143,13 +150,13 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
       columns, jobs,
       [&](const SweepColumn& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
       [&](const std::string& line) { run.progress("errors: " + line); });
-  write_table(run, headlines.with_errors(), repeats, columns);
+  write_table(run, names, repeats, columns);
   std::vector<Repeated> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
-  const Errors errors = errors_of(line.experiment, run.metrics(), found);
+  const Errors errors = errors_of(line.experiment, run.metrics(), found, setup.asked_metrics);
   for (const auto& [name, value] : errors.metrics) run.metric(name, value);
   run.manifest().errors_missing = errors.missing;
-  for (const std::string& name : headlines.with_errors())
+  for (const std::string& name : names)
     if (is_headline(run.metrics(), name)) run.progress(with_errors(run.metrics(), name));
   for (const std::string& sentence : errors.missing) run.progress("errors: " + sentence);
 }

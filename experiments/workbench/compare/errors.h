@@ -11,13 +11,16 @@
 
 namespace hysteron::experiments {
 
+// Key of the finer mesh of a cloth whose triangles come from a file.
+inline constexpr const char* kSubdivisions = "cloth.subdivisions";
+
 // One run more: what differs from the first.  Its name is "step", "mesh", "path" or "draw-1", "draw-2" ...
 struct Repeat {
   std::string name;
   std::vector<Flag> changes;
 };
-// Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  A cloth whose
-// triangles come from a file has no other mesh.
+// Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  The triangles
+// of a file are subdivided, and there are no other draws of them.
 std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
                                int draws);
 
@@ -29,7 +32,7 @@ struct Repeated {
   bool unchanged = false;  // it ended in the run's own state, bit for bit
 };
 
-// For each headline among the metrics of the run:
+// For each headline and each of `asked` among the metrics of the run:
 //   _step_error, _mesh_error   |its value there - the run's|
 //   _draw_error                standard deviation over the run and the draws
 //   _mean, _mean_stderr        of the same, from three draws on
@@ -39,7 +42,8 @@ struct Errors {
   Metrics metrics{};
   std::vector<std::string> missing;
 };
-Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats);
+Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats,
+                 const std::vector<std::string>& asked = {});
 
 // Runs the repeats of a run whose metrics are known, adds its errors to them, the sentences as
 // `errors_missing`, and writes errors.csv.  Throws Error::machine.

@@ -137,6 +137,40 @@ TEST_F(Scenes, AreComparedInOneFrame) {
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
 }
 
+const std::string kCornerHeight = R"([[metric]]
+name = "corner"
+kind = "height"
+point = [0.2, 0.2, 0]
+)";
+
+// A free fall by implicit Euler with the step h ends at -g T (T + h)/2, wherever the vertices are.
+TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
+  constexpr double kStep = 0.01, kSeconds = 0.1, kRounding = 1e-9;
+  const Json metrics = metrics_of(kSquare + kCornerHeight, "--no-images --errors --errors.draws 1");
+  EXPECT_NEAR(metrics["corner_m_step_error"], 9.81 * kSeconds * kStep / 4, kRounding);
+  EXPECT_NEAR(metrics["corner_m_mesh_error"], 0, kRounding);
+  EXPECT_NEAR(metrics["corner_m_draw_error"], 0, kRounding);
+}
+
+TEST_F(Scenes, FromFilesAreSubdividedForTheErrorOfTheirMesh) {
+  std::ofstream(folder_.path() / "square.obj")
+      << "v 0 0 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nf 1 2 3\nf 1 3 4\n";
+  const Json metrics = metrics_of(
+      "step = 0.01\nseconds = 0.02\n[cloth]\nshape = \"file\"\nfile = \"square.obj\"\n" + kCornerHeight,
+      "--no-images --errors");
+  EXPECT_TRUE(metrics["corner_m_mesh_error"].is_number());
+  EXPECT_TRUE(metrics["corner_m_draw_error"].is_null());
+  const Json manifest = Json::parse(text_of(out() / "manifest.json"));
+  EXPECT_EQ(manifest["errors_missing"], Json({"draw: the cloth's triangles come from a file"}));
+  EXPECT_NE(text_of(out() / "errors.csv").find("mesh,cloth.subdivisions=1,"), std::string::npos);
+}
+
+TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
+  const Outcome outcome = run(kSquare, "--no-images --errors");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("has no [[metric]] whose errors could be measured"), std::string::npos);
+}
+
 TEST_F(Scenes, RefuseInOneLineWhatCannotBeMeasured) {
   const std::pair<const char*, const char*> kCases[] = {
       {"name = \"a b\"", "metric.name = \"a b\" must be small letters"},

@@ -83,12 +83,16 @@ TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
   EXPECT_EQ(words({repeats_of("drape", scene, "lowered", 0)[1]}), "step: step=0.005 tolerance=2e-05");
 }
 
-TEST(Repeats, OfAClothFromAFileHaveNoOtherMesh) {
-  EXPECT_EQ(words(repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2)), "step: step=0.005");
+TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
+  const std::vector<Repeat> repeats = repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2);
+  EXPECT_EQ(words(repeats), "mesh: cloth.subdivisions=1; step: step=0.005");
   const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
-  const Errors errors = errors_of("crumple", metrics, {{{"step", {}}, {{"curvature_rms_per_m", 6.0}}}});
+  const Errors errors =
+      errors_of("crumple", metrics,
+                {{repeats[0], {{"curvature_rms_per_m", 7.0}}}, {repeats[1], {{"curvature_rms_per_m", 6.0}}}});
+  EXPECT_EQ(errors.metrics["curvature_rms_per_m_mesh_error"].number(), 2);
   EXPECT_EQ(errors.metrics["curvature_rms_per_m_step_error"].number(), 1);
-  EXPECT_FALSE(errors.metrics["curvature_rms_per_m_mesh_error"].is_known());
+  EXPECT_FALSE(errors.metrics["curvature_rms_per_m_draw_error"].is_known());
   ASSERT_EQ(errors.missing.size(), 1);
   EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
 }
