@@ -119,7 +119,7 @@ wait_for 60 "the node is up" node_is_up
 sinfo
 
 "$hysteron" sweep "$study" --out "$out" --snakemake "$scratch/flow"
-jobs=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["jobs"])' "$scratch/flow/config.json")
+jobs=$(python3 -c 'import json, sys; print(len(json.load(open(sys.argv[1]))["jobs"]))' "$scratch/flow/config.json")
 runs=$("$hysteron" sweep "$study" --out "$out" --snakemake "$scratch/flow" | awk '{print $1}')
 say "$runs runs in $jobs jobs"
 start=$SECONDS

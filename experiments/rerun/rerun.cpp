@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "experiments/rerun/recorded_workflow.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
@@ -15,9 +16,15 @@ namespace fs = std::filesystem;
 
 struct RerunChoice {
   bool no_errors = false;
+  std::string snakemake;
 };
-const KeyRow<RerunChoice> kRows[] = {
-    {"no-errors", at<&RerunChoice::no_errors>, "", any(), "", "without the repeats of --errors"}};
+using R = RerunChoice;
+// clang-format off
+const KeyRow<R> kRows[] = {
+    {"no-errors", at<&R::no_errors>, "", any(), "", "without the repeats of --errors"},
+    {"snakemake", at<&R::snakemake>, "", any(), "", "folder: write all runs below DIR as a Snakemake workflow there, and run nothing"},
+};
+// clang-format on
 
 // Where it runs is not part of what it computes: on one device every number of threads has the same bits.
 std::vector<KeyDescription> device_keys() {
@@ -61,8 +68,29 @@ void say_outcome(const Manifest& before, const fs::path& folder) {
               << ": `hysteron verify` tells in what" << std::endl;
 }
 
+// Of all runs below a folder, with what the line asks of each.
+int write_runs(const CommandLine& line, const std::string& flow) {
+  const fs::path folder = line.names.front();
+  std::vector<Flag> flags = line.flags;
+  std::erase_if(flags, [](const Flag& flag) {
+    return flag.path == "out" || flag.path == "snakemake" || flag.path == "quiet" || flag.path == "json";
+  });
+  const std::string name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
+  const RecordedWorkflow all =
+      workflow_of_runs(folder, last_text(line.flags, "out", "out/rerun-" + name), flags);
+  write_workflow(flow, all.workflow);
+  const auto on_gpus = std::count_if(all.workflow.jobs.begin(), all.workflow.jobs.end(),
+                                     [](const WorkflowJob& job) { return job.resources.gpus > 0; });
+  for (const std::string& words : all.left_out) std::cout << "left out: " << words << "\n";
+  std::cout << fmt::format("{} runs, {} of them on a GPU: {}\n", all.workflow.jobs.size(), on_gpus,
+                           starting_words(flow));
+  return 0;
+}
+
 int run_rerun(const CommandLine& line) {
   if (line.names.size() != 1) throw Error::request("needs one run: its folder or its manifest.json");
+  if (const std::string flow = last_text(line.flags, "snakemake", ""); !flow.empty())
+    return write_runs(line, flow);
   const RecordedRun run = recorded_run(line.names.front());
   CommandLine repeated = line_that_repeats(run);
   if (last_text(line.flags, "no-errors", "") == "true")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/compare/workflow.h"
 
 namespace hysteron::experiments {
 
@@ -28,22 +29,14 @@ struct StudyRun {
   std::vector<std::string> values;  // one of each axis
 };
 
-// What a scheduler is told of a job.
-struct JobResources {
-  int runs = 1;  // one after the other
-  int cores = 1;
-  int memory = 1000;  // [MB]
-  int gpus = 0;
-  int minutes = 60;  // of wall clock
-};
-
 struct Study {
   std::string file;
   std::string experiment;
   std::vector<Flag> shared;  // keys that all runs have in common
   std::vector<StudyAxis> axes;
   std::vector<std::string> metrics;  // that pages show; empty: the experiment's headlines
-  JobResources resources;
+  JobResources resources;            // of a job on a cluster
+  int runs_a_job = 1;                // one after the other
   std::vector<StudyRun> runs;
 };
 

@@ -327,7 +327,7 @@ class StudyFile {
       if (const TomlNode* given = node.find(key))
         number = integer(*given, std::string("resources.") + key, low, high);
     };
-    read("runs", r.runs, 1, kMostValues);
+    read("runs", study_.runs_a_job, 1, kMostValues);
     read("cores", r.cores, 1, 1024);
     read("memory", r.memory, 1, 1e8);
     read("gpus", r.gpus, 0, 64);

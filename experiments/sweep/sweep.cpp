@@ -16,7 +16,6 @@
 #include "experiments/sweep/plots.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
-#include "experiments/sweep/workflow.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/app/time_left.h"
@@ -102,6 +101,28 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& run
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   jobs.at_once = choice.jobs > 0 ? choice.jobs : gpus > 0 ? gpus : std::max(1, cores / choice.threads);
   return jobs;
+}
+
+// The study as a workflow: a job for each run, or for a few, and one that makes the table.
+void write_study(const std::filesystem::path& folder, const Study& study, const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  const auto all = static_cast<int>(study.runs.size());
+  const int jobs = (all + study.runs_a_job - 1) / study.runs_a_job;
+  const std::vector<std::string> sweep = {"sweep", fs::absolute(study.file).string(), "--out",
+                                          fs::absolute(out).lexically_normal().string(), "--quiet"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = sweep;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  Workflow workflow{.out = out, .jobs = {}, .product = "table.csv", .collects = with({"--collect"})};
+  for (int k = 1; k <= jobs; ++k)
+    workflow.jobs.push_back(
+        {std::to_string(k),
+         with({"--threads", kThreads, "--jobs", "1", "--part", fmt::format("{}/{}", k, jobs)}),
+         study.resources});
+  write_workflow(folder, workflow);
+  std::cout << all << " runs in " << jobs << " jobs: " << starting_words(folder) << "\n";
 }
 
 // What the study says as its runs end, and what it counts.
@@ -252,7 +273,7 @@ int run_sweep(const CommandLine& line) {
   const Study study = read_study(line.names[0]);
   if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
   std::vector<SweepColumn> runs = columns_of(study, options.out);
-  if (!choice.snakemake.empty()) return write_workflow(choice.snakemake, study, options.out), 0;
+  if (!choice.snakemake.empty()) return write_study(choice.snakemake, study, options.out), 0;
   if (!choice.only.empty() || !choice.part.empty())
     return run_some(chosen(runs, choice), choice, options.quiet);
   Run run(line, options, keys_of(study));

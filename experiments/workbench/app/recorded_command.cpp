@@ -1,6 +1,7 @@
 #include "experiments/workbench/app/recorded_command.h"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -64,7 +65,9 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
 CommandLine line_that_repeats(const RecordedRun& run) {
   const Manifest& m = run.manifest;
   CommandLine line = parsed(run);
-  std::erase_if(line.flags, [](const Flag& flag) { return flag.path == "out" || flag.path == "resume"; });
+  static const std::set<std::string> kOfThatTime = {"out", "resume",
+                                                    "collect"};  // collected runs are run again
+  std::erase_if(line.flags, [](const Flag& flag) { return kOfThatTime.contains(flag.path); });
   if (m.options && m.keys->contains("cloth")) {
     std::erase_if(line.flags, [](const Flag& flag) { return !flag.path.starts_with("errors"); });
     line.experiment = m.experiment;

@@ -49,6 +49,36 @@ TEST_F(Recorded, RunIsRepeatedToTheBit) {
   }
 }
 
+TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
+  record(kDrape);
+  fs::create_directories(folder_.path() / "runs" / "other");
+  Json other = json_in(run());
+  other["device"] = "cuda: a GPU";
+  other["bytes_device"] = 2'000'000'000;
+  other["wall_seconds"]["total"] = 3600;
+  std::ofstream(folder_.path() / "runs" / "other" / "on-gpu.json") << other.dump();
+  other["complete"] = false;
+  std::ofstream(folder_.path() / "runs" / "stopped.json") << other.dump();
+
+  const auto config = [&](const std::string& more) {
+    const Outcome outcome =
+        program("rerun " + in("runs") + " --out " + in("again") + " --snakemake " + in("flow") + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("left out: stopped is not complete"), std::string::npos) << outcome.out;
+    return Json::parse(text_of(folder_.path() / "flow" / "config.json"));
+  };
+  const Json jobs = config("")["jobs"];
+  ASSERT_EQ(jobs.size(), 2u);
+  EXPECT_EQ(jobs["one"]["cores"], 1);
+  EXPECT_EQ(jobs["one"]["gpus"], 0);
+  EXPECT_EQ(jobs["other/on-gpu"]["gpus"], 1);
+  EXPECT_EQ(jobs["other/on-gpu"]["minutes"], 4 * 60);
+  EXPECT_EQ(jobs["other/on-gpu"]["memory_mb"], 1000 + 4 * 2000);
+  EXPECT_EQ(jobs["other/on-gpu"]["words"][3], in("again/other/on-gpu"));
+  EXPECT_EQ(config(" --device cpu")["jobs"]["other/on-gpu"]["gpus"], 0);
+  EXPECT_EQ(config(" --threads 3")["jobs"]["one"]["cores"], 3);
+}
+
 TEST_F(Recorded, SceneNeedsItsFileNoMore) {
   std::ofstream(in("mine.toml"))
       << "triangles = 64\nseconds = 0.05\n[[metric]]\nname = \"edge\"\nto = [0.5, 0, 0]\n";

@@ -104,8 +104,10 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder_.path() / "out"));
   const auto config = nlohmann::json::parse(text_of(flow / "config.json"));
-  EXPECT_EQ(config["jobs"], 4);
-  EXPECT_EQ(config["study"], study_.string());
+  EXPECT_EQ(config["jobs"].size(), 4u);
+  EXPECT_EQ(config["jobs"]["3"]["words"][1], study_.string());
+  EXPECT_EQ(config["jobs"]["3"]["words"].back(), "3/4");
+  EXPECT_EQ(config["collects"].back(), "--collect");
   EXPECT_EQ(config["out"], (folder_.path() / "out").string());
   for (const char* file : {"Snakefile", "slurm/config.yaml"}) EXPECT_TRUE(fs::exists(flow / file)) << file;
 }

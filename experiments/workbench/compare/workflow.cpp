@@ -1,0 +1,52 @@
+#include "experiments/workbench/compare/workflow.h"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/manifest.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
+#include "sim/scene/assets.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+void make(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
+}
+
+Json to_json(const WorkflowJob& job) {
+  return {{"words", job.words},
+          {"cores", job.resources.cores},
+          {"memory_mb", job.resources.memory},
+          {"gpus", job.resources.gpus},
+          {"minutes", job.resources.minutes}};
+}
+
+}  // namespace
+
+void write_workflow(const fs::path& folder, const Workflow& workflow) {
+  make(folder / "slurm");
+  const fs::path shipped = assets_folder() / "snakemake";
+  for (const char* name : {"Snakefile", "slurm/config.yaml"})
+    write_text(folder / name, whole_file(shipped / name, "cannot read " + (shipped / name).string()));
+  Json jobs = Json::object();
+  for (const WorkflowJob& job : workflow.jobs) jobs[job.name] = to_json(job);
+  const Json config = {{"hysteron", fs::read_symlink("/proc/self/exe").string()},
+                       {"working_folder", fs::current_path().string()},
+                       {"out", fs::absolute(workflow.out).lexically_normal().string()},
+                       {"product", workflow.product},
+                       {"collects", workflow.collects},
+                       {"jobs", jobs}};
+  write_text(folder / "config.json", config.dump(1) + "\n");
+}
+
+std::string starting_words(const fs::path& folder) {
+  return "cd " + folder.string() +
+         " && snakemake --cores all --keep-going --rerun-incomplete, or snakemake --profile slurm";
+}
+
+}  // namespace hysteron::experiments
