@@ -105,10 +105,8 @@ CoarseLevelView<Real> CoarseLevel<Real, Device>::view() {
 
 template <class Real, class Device>
 std::size_t CoarseLevel<Real, Device>::bytes() const {
-  return finer.bytes() + gather_start.bytes() + gather_item.bytes() + gather_weight.bytes() +
-         row_ptr.bytes() + col.bytes() + upper.bytes() + plate_off_diagonal.bytes() + plate_diagonal.bytes() +
-         off_diagonal.bytes() + diagonal.bytes() + inverse.bytes() + inverse_eigenvalue.bytes() + b.bytes() +
-         x.bytes() + y.bytes();
+  return matrix_bytes() + gather_bytes() +
+         bytes_of(finer, upper, plate_off_diagonal, plate_diagonal, inverse, inverse_eigenvalue, b, x, y);
 }
 
 template struct CoarseLevel<double, ThisDevice>;

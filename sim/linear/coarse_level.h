@@ -63,6 +63,8 @@ struct CoarseLevel {
 
   CoarseLevel(Device& device, const RestLevel& level);
   CoarseLevelView<Real> view();
+  std::size_t matrix_bytes() const { return bytes_of(row_ptr, col, off_diagonal, diagonal); }
+  std::size_t gather_bytes() const { return bytes_of(gather_start, gather_item, gather_weight); }
   std::size_t bytes() const;
 };
 

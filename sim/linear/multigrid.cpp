@@ -21,6 +21,11 @@ constexpr int kMostDense = 96;  // nodes whose matrix is inverted densely
 // Levels of so many nodes at most share a launch on a GPU: four rows for each warp of a team.
 constexpr int kMostInTeam = 1024;
 
+template <class Real, class Device>
+Kernel sweep_of(const CoarseLevel<Real, Device>& level) {
+  return {"multigrid: sweep", level.matrix_bytes() + bytes_of(level.inverse, level.b, level.x, level.y)};
+}
+
 // What a level adds to the share of the plate that its matrix has from the finer one.
 double plate_change(int level) {
   if (level == 0) return 1;
@@ -52,7 +57,7 @@ template <class Real, class Device>
 void Multigrid<Real, Device>::invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added,
                                               const char* held, Mat3<Real>* inverse) {
   for_each(
-      device_, "multigrid: diagonal", matrix.rows, HYST_KERNEL(int i) {
+      device_, {"multigrid: diagonal", (added ? 3 : 2) * inverse_.bytes()}, matrix.rows, HYST_KERNEL(int i) {
         Mat3<Real> block = matrix.diagonal[i];
         if (added) block += added[i];
         inverse[i] = held && held[i] ? Mat3<Real>(Mat3<Real>::Zero()) : safe_inverse<Real>(block);
@@ -70,7 +75,10 @@ SmallLevels<Real> Multigrid<Real, Device>::small_levels() {
 template <class Real, class Device>
 void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity,
                                       CoarseLevel<Real, Device>& level) {
-  for_each_row(device_, "multigrid: coarse matrix", static_cast<int>(level.upper.size()),
+  // Beside the finer matrix.
+  const std::size_t bytes = level.gather_bytes() + bytes_of(level.finer, level.upper, level.off_diagonal,
+                                                            level.diagonal, level.inverse);
+  for_each_row(device_, {"multigrid: coarse matrix", bytes}, static_cast<int>(level.upper.size()),
                Coarsening<Real>{finer, held, level.view(), level.upper.data(),
                                 level.plate_off_diagonal.data(), level.plate_diagonal.data(), rigidity});
 }
@@ -81,7 +89,7 @@ void Multigrid<Real, Device>::find_eigenvalue(CoarseLevel<Real, Device>& level) 
   const CoarseLevelView<Real> v = level.view();
   double* inverse_eigenvalue = level.inverse_eigenvalue.data();
   for_each_row_sum<2>(
-      device_, "multigrid: eigenvalue", v.nodes,
+      device_, {"multigrid: eigenvalue", level.matrix_bytes() + level.y.bytes()}, v.nodes,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
         const Vec3<Real> product = row_times(lanes, v.matrix, i, v.y);
         if (!lanes.leads()) return;
@@ -102,11 +110,14 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
     coarsen(l == 0 ? matrix : level_[l - 1].view().matrix, l == 0 ? held : nullptr,
             static_cast<Real>(plate_change(static_cast<int>(l))) * bending, level_[l]);
   for (int l = 0; l < first_small_; ++l) {
+    const CoarseLevel<Real, Device>& level = level_[l];
     const CoarseLevelView<Real> v = level_[l].view();
-    for_each(device_, "multigrid: rough vector", v.nodes, RoughStart<Real>{v});
+    for_each(device_, {"multigrid: rough vector", bytes_of(level.inverse, level.x)}, v.nodes,
+             RoughStart<Real>{v});
+    const Kernel power = {"multigrid: power",
+                          level.matrix_bytes() + bytes_of(level.inverse, level.x, level.y)};
     for (int step = 1; step < kPowerSteps; ++step)
-      for_each_row(device_, "multigrid: power", v.nodes,
-                   PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
+      for_each_row(device_, power, v.nodes, PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
   }
   const SmallLevels<Real> small = small_levels();
   const int nodes = dense() ? level_.back().nodes : 0;
@@ -120,8 +131,9 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
 template <class Real, class Device>
 void Multigrid<Real, Device>::sweep(CoarseLevel<Real, Device>& level, const int* stop) {
   const CoarseLevelView<Real> v = level.view();
-  for_each_row(device_, "multigrid: sweep", v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x}, stop);
-  for_each_row(device_, "multigrid: sweep", v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+  const Kernel sweep = sweep_of(level);
+  for_each_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x}, stop);
+  for_each_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
 }
 
 template <class Real, class Device>
@@ -130,18 +142,25 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
   const int* stop = scalars ? &scalars->done : nullptr;
   const Vec3<Real>* residual = r;
   for (int l = 0; l < first_small_; ++l) {
+    const CoarseLevel<Real, Device>& level = level_[l];
     const CoarseLevelView<Real> v = level_[l].view();
-    for_each_row(device_, "multigrid: restrict", v.nodes, Restriction<Real>{v, residual, true}, stop);
-    for_each_row(device_, "multigrid: sweep", v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
-    if (l + 1 < levels) for_each_row(device_, "multigrid: residual", v.nodes, LevelResidual<Real>{v}, stop);
+    const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
+                                                           level.finer.size() * sizeof(Vec3<Real>) +
+                                                           bytes_of(level.inverse, level.b, level.x)};
+    const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
+    for_each_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, true}, stop);
+    for_each_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+    if (l + 1 < levels) for_each_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
     residual = v.x;
   }
   if (first_small_ < levels)
     for_each_team(device_, "multigrid: small levels", 1, SmallCycle<Real>{small_levels(), residual}, stop);
   for (int l = first_small_ - 1; l >= 0; --l) {
     if (l + 1 < levels)
-      for_each(device_, "multigrid: correct", level_[l].nodes,
-               CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
+      for_each(
+          device_,
+          {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
+          level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
     sweep(level_[l], stop);
   }
   combine(r, z, scalars);
@@ -155,8 +174,10 @@ void Multigrid<Real, Device>::combine(const Vec3<Real>* r, Vec3<Real>* z, PcgSca
   const DeviceInterpolation<Real>* finer = coarse ? level_[0].finer.data() : nullptr;
   const Vec3<Real>* correction = coarse ? level_[0].y.data() : nullptr;
   const Real weight = coarse ? Real(kFinestWeight) : Real(1);
+  const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
+                    from_coarse = coarse ? bytes_of(level_[0].finer, level_[0].y) : 0;
   for_each_sum<1>(
-      device_, "multigrid: combine", vertices_,
+      device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (scalars && scalars->done) return;
         Vec3<Real> sum = Vec3<Real>::Zero();

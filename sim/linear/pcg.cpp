@@ -43,7 +43,7 @@ void Pcg<Real, Device>::project(const System& system, const char* held, const Ve
   Vec3<Real>* q = q_.data();
   PcgScalars* s = scalars_.data();
   for_each_row_sum<2>(
-      device_, "solve: guess", rows_,
+      device_, {"solve: guess", system.bytes + vectors(3)}, rows_,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
         if (held[i]) return;
         const Vec3<Real> product = product_of.at(lanes, i, guess);
@@ -69,7 +69,7 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   PcgScalars* s = scalars_.data();
   for_each_sum<2>(
-      device_, "solve: start", rows_,
+      device_, {"solve: start", (rest ? 3 : 2) * inverse_.bytes() + vectors(guess ? 7 : 5)}, rows_,
       HYST_KERNEL(int i, Sums<2>& sums) {
         if (held[i]) {
           x[i] = r[i] = z[i] = p[i] = Vec3<Real>::Zero();
@@ -102,7 +102,7 @@ void Pcg<Real, Device>::start_preconditioned(const System& system, const char* h
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   PcgScalars* s = scalars_.data();
   for_each(
-      device_, "solve: start", rows_, HYST_KERNEL(int i) {
+      device_, {"solve: start", vectors(guess ? 6 : 4)}, rows_, HYST_KERNEL(int i) {
         if (held[i]) {
           x[i] = r[i] = p[i] = Vec3<Real>::Zero();
           return;
@@ -114,7 +114,7 @@ void Pcg<Real, Device>::start_preconditioned(const System& system, const char* h
   if (other_scale) find_target(system, held, rhs, known, end);
   system.preconditioner->apply(r, z, nullptr);
   for_each_sum<1>(
-      device_, "solve: first direction", rows_,
+      device_, {"solve: first direction", vectors(3)}, rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         p[i] = z[i];
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
@@ -131,14 +131,14 @@ void Pcg<Real, Device>::find_target(const System& system, const char* held, cons
   Vec3<Real>*z = z_.data(), *scale = q_.data();
   PcgScalars* s = scalars_.data();
   for_each(
-      device_, "solve: scale", rows_, HYST_KERNEL(int i) {
+      device_, {"solve: scale", vectors(known ? 3 : 2)}, rows_, HYST_KERNEL(int i) {
         scale[i] = held[i] ? Vec3<Real>(Vec3<Real>::Zero())
                    : known ? Vec3<Real>(rhs[i] - known[i])
                            : Vec3<Real>(rhs[i]);
       });
   system.preconditioner->apply(scale, z, nullptr);
   for_each_sum<1>(
-      device_, "solve: target", rows_,
+      device_, {"solve: target", vectors(2)}, rows_,
       HYST_KERNEL(int i, Sums<1>& sums) { sums.term[0] += static_cast<double>(scale[i].dot(z[i])); },
       HYST_KERNEL(const Sums<1>& total) { s->target = end.tolerance * end.tolerance * total.term[0]; });
 }
@@ -150,7 +150,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   const SystemProduct<Real> product_of{system.matrix, system.softening, product<Real>(system.bending, p),
                                        product<Real>(system.self_contact, p)};
   for_each_row_sum<1>(
-      device_, "solve: product", rows_,
+      device_, {"solve: product", system.bytes + vectors(2)}, rows_,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<1>& sums) {
         if (s->done || held[i]) return;
         const Vec3<Real> product = product_of.at(lanes, i, p);
@@ -168,7 +168,7 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
   else
     advance(held, x);
   for_each(
-      device_, "solve: direction", rows_, HYST_KERNEL(int i) {
+      device_, {"solve: direction", vectors(3)}, rows_, HYST_KERNEL(int i) {
         if (s->done || held[i]) return;
         p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
       });
@@ -180,7 +180,7 @@ void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
   PcgScalars* s = scalars_.data();
   for_each_sum<1>(
-      device_, "solve: advance", rows_,
+      device_, {"solve: advance", inverse_.bytes() + vectors(7)}, rows_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (s->done || held[i]) return;
         const Real alpha = static_cast<Real>(s->alpha);
@@ -197,7 +197,7 @@ void Pcg<Real, Device>::advance_preconditioned(const System& system, const char*
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
   PcgScalars* s = scalars_.data();
   for_each(
-      device_, "solve: advance", rows_, HYST_KERNEL(int i) {
+      device_, {"solve: advance", vectors(6)}, rows_, HYST_KERNEL(int i) {
         if (s->done || held[i]) return;
         const Real alpha = static_cast<Real>(s->alpha);
         x[i] += alpha * p[i];
@@ -229,12 +229,14 @@ bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held
 }
 
 // The device decides when it is done; the host only asks, at first after as many iterations as the last solve
-// took for each decade of its tolerance.
+// took for each decade of its tolerance.  While kernels are profiled it asks after each, so that what they
+// state is what was needed.
 template <class Real, class Device>
 PcgScalars Pcg<Real, Device>::iterate_in_batches(const System& system, const char* held, Vec3<Real>* x,
                                                  PcgEnd end) {
   int batch = 1;
-  if (Device::kGpu)
+  const bool in_batches = Device::kGpu && !device_.profile;
+  if (in_batches)
     batch += static_cast<int>(
         std::min<double>(end.most_iterations, iterations_per_decade_ * decades(end.tolerance)));
   else if (const PcgScalars first = scalars(); first.done)
@@ -242,7 +244,7 @@ PcgScalars Pcg<Real, Device>::iterate_in_batches(const System& system, const cha
   for (;;) {
     for (int k = 0; k < batch; ++k) iterate(system, held, x);
     if (const PcgScalars now = scalars(); now.done) return now;
-    batch = Device::kGpu ? kIterationsAtOnce : 1;
+    batch = in_batches ? kIterationsAtOnce : 1;
   }
 }
 

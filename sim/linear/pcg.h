@@ -40,6 +40,7 @@ struct LinearSystem {
   Preconditioner<Real, Device>* preconditioner = nullptr;  // null: the inverted diagonal blocks
   ScalarRowsView<Real> softening = {};                     // null: none
   StiffnessProduct<Real> self_contact = {};                // K p; empty: none
+  std::size_t bytes = 0;  // that a product reads at least beside vectors, where that is stated
 };
 
 struct PcgEnd {
@@ -83,6 +84,7 @@ class Pcg {
   bool iterate_on_device(const System& system, const char* held, Vec3<Real>* x);
   PcgScalars iterate_in_batches(const System& system, const char* held, Vec3<Real>* x, PcgEnd end);
   PcgScalars scalars() const;
+  std::size_t vectors(int count) const { return count * r_.bytes(); }
 
   Device& device_;
   int rows_;

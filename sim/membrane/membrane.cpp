@@ -116,7 +116,8 @@ void Membrane<Real, Device>::add_viscous_loss(const Vec3<Real>* v, Real step) {
   const Deformation<Real>* deformed = deformation_.data();
   double* lost = viscous_.data();
   for_each(
-      device_, "viscous loss", faces_, HYST_KERNEL(int f) {
+      device_, {"viscous loss", bytes_of(rest_, corner_, deformation_, viscous_, viscous_) + vertex_bytes()},
+      faces_, HYST_KERNEL(int f) {
         const Eigen::Vector3i t = corner[f];
         const Vec3<Real> rate =
             green_strain_rate(deformed[f], deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]));

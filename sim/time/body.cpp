@@ -79,7 +79,8 @@ void Body<Real, Device>::begin_stage(double start, Real h) {
   const Vec3<Real>* from = x.data();
   Vec3<Real>* to = before.data();
   for_each(
-      *device, "remember positions", vertices, HYST_KERNEL(int i) { to[i] = from[i]; });
+      *device, {"remember positions", bytes_of(x, before)}, vertices,
+      HYST_KERNEL(int i) { to[i] = from[i]; });
 }
 
 template <class Real, class Device>
@@ -131,7 +132,7 @@ bool Body<Real, Device>::is_finite() {
   const Vec3<Real>*at = x.data(), *moving = v.data();
   double* size = size_.data();
   for_each_sum<1>(
-      *device, "finite", vertices,
+      *device, {"finite", bytes_of(x, v)}, vertices,
       HYST_KERNEL(int i, Sums<1>& sums) {
         sums.term[0] += static_cast<double>(at[i].squaredNorm() + moving[i].squaredNorm());
       },

@@ -22,7 +22,8 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
   const MembraneForceView<Real> membrane = body_.membrane.forces();
   Vec3<Real>* force = force_.data();
   for_each(
-      *body_.device, "explicit forces", body_.vertices, HYST_KERNEL(int i) { force[i] = membrane.at(i); });
+      *body_.device, {"explicit forces", body_.membrane.force_bytes() + force_.bytes()}, body_.vertices,
+      HYST_KERNEL(int i) { force[i] = membrane.at(i); });
   if (body_.contact) body_.contact->add(body_.x.data(), body_.before.data(), 1, force, nullptr);
   const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
   const Real drag = static_cast<Real>(body_.scene.air_drag / body_.scene.fabric.density);
@@ -30,8 +31,11 @@ void ExplicitEuler<Real, Device>::substep(Real dt) {
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();
   VertexLedger* ledger = body_.ledger.data();
+  const std::size_t bytes =
+      body_.bending.force_bytes() + bytes_of(force_, body_.mass, body_.held, body_.x, body_.x, body_.v,
+                                             body_.v, body_.ledger, body_.ledger);
   for_each(
-      *body_.device, "explicit substep", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device, {"explicit substep", bytes}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> bend = bending.at(i), rest = force[i], weight = mass[i] * g;
         VertexLedger& sum = ledger[i];
         const Vec3<Real> air = held[i] ? Vec3<Real>(Vec3<Real>::Zero()) : Vec3<Real>(-drag * mass[i] * v[i]);

@@ -208,7 +208,8 @@ void ImplicitStep<Real, Device>::place(const VertexState<Real>& state) {
   const Vec3<Real>* a = acceleration_.data();
   Vec3<Real>*reference = reference_.data(), *drift = drift_.data(), *predicted = predicted_.data();
   for_each(
-      device_, "implicit start", vertices_, HYST_KERNEL(int i) {
+      device_, {"implicit start", vectors(5 + (extrapolation > 0 ? 2 : 0) + (carried > 0 ? 1 : 0))},
+      vertices_, HYST_KERNEL(int i) {
         reference[i] = x[i];
         drift[i] = v[i];
         if (extrapolation > 0) {
@@ -233,7 +234,7 @@ void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool acce
   const char* held = state.held;
   Vec3<Real>* end = end_.data();
   for_each(
-      device_, "implicit guess", vertices_, HYST_KERNEL(int i) {
+      device_, {"implicit guess", vectors(accelerated ? 3 : 2)}, vertices_, HYST_KERNEL(int i) {
         end[i] = held[i] ? Vec3<Real>(x[i] + h * v[i]) : Vec3<Real>(predicted[i] + weight * a[i]);
       });
 }
@@ -264,7 +265,7 @@ void ImplicitStep<Real, Device>::shorten_guess(const VertexState<Real>& state, R
   const char* held = state.held;
   Vec3<Real>*end = end_.data(), *displacement = displacement_.data();
   for_each(
-      device_, "implicit: displacement", vertices_, HYST_KERNEL(int i) {
+      device_, {"implicit: displacement", vectors(4)}, vertices_, HYST_KERNEL(int i) {
         displacement[i] = held[i] ? Vec3<Real>(end[i] - x[i]) : Vec3<Real>(step_length * (end[i] - x[i]));
         end[i] = x[i] + displacement[i];
       });
@@ -289,7 +290,7 @@ double ImplicitStep<Real, Device>::local_error(const VertexState<Real>& state) {
   const Real* mass = state.mass;
   double* size = size_.data();
   for_each_sum<1>(
-      device_, "implicit error", vertices_,
+      device_, {"implicit error", vectors(second ? 4 : 3) + vertices_ * sizeof(Real)}, vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
         if (held[i]) return;
         const Vec3<Real> miss = end[i] - x[i] - h * v[i] - curved * a[i];
@@ -329,8 +330,10 @@ void ImplicitStep<Real, Device>::book(const VertexState<Real>& state, VertexLedg
   const bool knows_forces = knows_forces_, along_arc = handle_displacement && !knows_forces;
   knows_forces_ = forces_.size() > 0;
   VertexForces<Real>* kept = knows_forces_ ? forces_.data() : nullptr;
+  const std::size_t bytes =
+      bending_.force_bytes() + vectors(7) + vertices_ * (sizeof(Real) + 2 * sizeof(VertexLedger));
   for_each(
-      device_, "implicit ledger", vertices_, HYST_KERNEL(int i) {
+      device_, {"implicit ledger", bytes}, vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> d = end[i] - x[i], weight = mass[i] * g;
         const Vec3<Real> way = held[i] && along_arc ? handle_displacement[i] : d;
         const Vec3<Real> air = -mass[i] * drag * (end[i] - reference[i]);
@@ -369,7 +372,7 @@ void ImplicitStep<Real, Device>::move_on(const VertexState<Real>& state) {
   Vec3<Real>* acceleration = acceleration_.data();
   const char* held = state.held;
   for_each(
-      device_, "implicit end", vertices_, HYST_KERNEL(int i) {
+      device_, {"implicit end", vectors(two_step ? 8 : 6)}, vertices_, HYST_KERNEL(int i) {
         const Vec3<Real> moved = held[i] ? v[i] : Vec3<Real>(rate * (end[i] - reference[i]));
         if (two_step) {
           x0[i] = x[i];

@@ -99,6 +99,7 @@ class ImplicitStep {
   StepFormula formula_of(double h, bool is_first_stage) const;
   StepFormula rates_of(double h) const;
   PotentialValue potential_of_guess(const VertexState<Real>& state, bool accelerated);
+  std::size_t vectors(int count) const { return count * end_.bytes(); }
 
   Device& device_;
   bool two_step_, two_stage_, static_, bending_lags_;

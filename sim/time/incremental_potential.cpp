@@ -249,12 +249,15 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
     self_contact_->linearise(x, start_.now, sliding_share);
     self_contact_->add_stiffness_diagonal(rest);
   }
-  LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}};
-  if (!bending_lags_)
+  LinearSystem<Real, Device> system{matrix, {}, rest, nullptr, softening, {}, matrix_.bytes()};
+  if (full) system.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
+  if (!bending_lags_) {
     system.bending = [this](const Vec3<Real>* p) {
       bending_.apply_stiffness(p);
       return bending_.forces();
     };
+    system.bytes += bending_.force_bytes();
+  }
   if (self_contact_)
     system.self_contact = [this](const Vec3<Real>* p) { return self_contact_->apply_stiffness(p); };
   return system;

@@ -84,8 +84,10 @@ void SemiImplicit<Real, Device>::gather_impulses(Real h) {
   const Real* mass = body_.mass.data();
   const Vec3<Real>* v = body_.v.data();
   Vec3<Real>*x = body_.x.data(), *impulse = impulse_.data();
+  const std::size_t bytes =
+      body_.bending.force_bytes() + bytes_of(body_.mass, body_.v, body_.x, body_.x, impulse_);
   for_each(
-      *body_.device, "explicit impulse", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device, {"explicit impulse", bytes}, body_.vertices, HYST_KERNEL(int i) {
         impulse[i] = h * (bending.at(i) + mass[i] * (g - drag * v[i]));
         x[i] += h * v[i];
       });
@@ -112,8 +114,11 @@ void ChapterSteps<Real, Device>::substep(Real dt) {
   const char* held = body_.held.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data();
   VertexLedger* ledger = body_.ledger.data();
+  const std::size_t bytes =
+      body_.bending.force_bytes() +
+      bytes_of(body_.mass, body_.held, body_.x, body_.x, body_.v, body_.v, body_.ledger, body_.ledger);
   for_each(
-      *body_.device, "substep", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device, {"substep", bytes}, body_.vertices, HYST_KERNEL(int i) {
         const Vec3<Real> force = bending.at(i);
         const Real m = mass[i];
         const Vec3<Real> weight = m * g;
@@ -162,9 +167,11 @@ void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
     const bool first = iteration == 0;
     assemble(h, impulse, first);
     body_.clock.begin(Stage::solve);
-    const PcgOutcome outcome = pcg_.solve({body_.matrix.view()}, body_.held.data(), rhs_.data(), impulse,
-                                          first ? change_.data() : nullptr, correction_.data(),
-                                          body_.scene.solver_tolerance, kMostIterations);
+    LinearSystem<Real, Device> system{body_.matrix.view()};
+    system.bytes = body_.matrix.bytes();
+    const PcgOutcome outcome =
+        pcg_.solve(system, body_.held.data(), rhs_.data(), impulse, first ? change_.data() : nullptr,
+                   correction_.data(), body_.scene.solver_tolerance, kMostIterations);
     body_.counts.linear += outcome.iterations;
     correct(h, first);
     body_.clock.end(Stage::solve);
@@ -185,8 +192,12 @@ void LinearisedSolve<Real, Device>::assemble(Real h, const Vec3<Real>* impulse, 
   const Real* mass = body_.mass.data();
   const Vec3<Real>* total = change_.data();
   Vec3<Real>* rhs = rhs_.data();
+  const std::size_t diagonal = 2 * body_.vertices * sizeof(Mat3<Real>),  // read and written
+      vectors = (1 + (impulse ? 1 : 0) + (first ? 0 : 1)) * rhs_.bytes();
   for_each(
-      *body_.device, "implicit forces", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device,
+      {"implicit forces", body_.membrane.force_bytes() + body_.mass.bytes() + diagonal + vectors},
+      body_.vertices, HYST_KERNEL(int i) {
         rhs[i] = h * force.at(i);
         if (impulse) rhs[i] += impulse[i];
         if (!first) rhs[i] -= mass[i] * total[i];
@@ -204,8 +215,9 @@ void LinearisedSolve<Real, Device>::correct(Real h, bool first) {
   const Vec3<Real>* dv = correction_.data();
   Vec3<Real>*x = body_.x.data(), *v = body_.v.data(), *total = change_.data();
   const char* held = body_.held.data();
+  const std::size_t bytes = bytes_of(correction_, change_, body_.v, body_.v, body_.x, body_.x, body_.held);
   for_each(
-      *body_.device, "correct", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device, {"correct", bytes}, body_.vertices, HYST_KERNEL(int i) {
         if (held[i]) return;
         total[i] = first ? dv[i] : Vec3<Real>(total[i] + dv[i]);
         v[i] += dv[i];
@@ -227,8 +239,12 @@ void LinearisedSolve<Real, Device>::book(Real h, const Vec3<Real>* explicit_impu
   const Vec3<Real> g = body_.scene.gravity.template cast<Real>();
   const bool handles = body_.hands.any_moves();
   VertexLedger* ledger = body_.ledger.data();
+  const std::size_t explicit_bytes = explicit_impulse ? body_.bending.force_bytes() + rhs_.bytes() : 0;
   for_each(
-      *body_.device, "implicit ledger", body_.vertices, HYST_KERNEL(int i) {
+      *body_.device,
+      {"implicit ledger",
+       explicit_bytes + bytes_of(body_.mass, body_.held, body_.v, change_, body_.ledger, body_.ledger)},
+      body_.vertices, HYST_KERNEL(int i) {
         if (held[i] && !handles) return;
         VertexLedger& sum = ledger[i];
         Vec3<Real> impulse =
@@ -257,7 +273,7 @@ double LinearisedSolve<Real, Device>::change_size() {
   const Vec3<Real>* dv = change_.data();
   double* size = size_.data();
   for_each_sum<2>(
-      *body_.device, "velocity change", body_.vertices,
+      *body_.device, {"velocity change", bytes_of(body_.mass, body_.held, change_)}, body_.vertices,
       HYST_KERNEL(int i, Sums<2>& sums) {
         sums.term[1] += static_cast<double>(mass[i]);
         if (!held[i]) sums.term[0] += static_cast<double>(mass[i] * dv[i].squaredNorm());
