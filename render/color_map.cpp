@@ -1,5 +1,7 @@
 #include "render/color_map.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -62,6 +64,10 @@ Rgb8 method_color(std::size_t index) {
   static constexpr Rgb8 kColors[kMethodColors] = {
       {0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {0, 0, 0}};
   return kColors[index % kMethodColors];
+}
+
+std::string hex(const Rgb8& color) {
+  return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
 }
 
 }  // namespace hysteron::render

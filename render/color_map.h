@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "render/image.h"
@@ -28,5 +29,7 @@ Rgb8 map_color8(ColorMap map, float t);
 // the first comes again.
 inline constexpr int kMethodColors = 7;
 Rgb8 method_color(std::size_t index);
+
+std::string hex(const Rgb8& color);  // "#RRGGBB"
 
 }  // namespace hysteron::render

@@ -13,10 +13,6 @@
 namespace hysteron::render::gnuplot {
 namespace {
 
-std::string hex(const Rgb8& color) {
-  return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
-}
-
 // A gnuplot string: single quotes are doubled, line ends become spaces.
 std::string single_quoted(const std::string& text) {
   std::string result = "'";

@@ -1,81 +1,77 @@
-// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --laws: of the laws alone;
-// with --hard: of steps that Newton's method finds hard; with --profile: of the kernels of a step; with
-// --parts: of what a scene's model is made of.
+// Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --sizes: by the number of
+// triangles; with --laws: of the laws alone, or in whole steps; with --hard: of steps that Newton's method
+// finds hard; with --profile: of the kernels of a step; with --parts: of what a scene's model is made of.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "experiments/bench/element_costs.h"
 #include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
 #include "experiments/bench/parts.h"
-#include "experiments/bench/step_profile.h"
+#include "experiments/bench/sizes.h"
 #include "experiments/bench/table.h"
+#include "experiments/bench/thread_scaling.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
-#include "experiments/workbench/app/run.h"
 #include "sim/base/comma_list.h"
+#include "sim/base/error.h"
 #include "sim/base/parallel.h"
-#include "sim/scene/cloth.h"
 #include "sim/scene/scene_reader.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 namespace {
 
-struct Case {
-  const char* element;
-  const char* law;
-  const char* memory = "stops";  // of prandtl
-};
-constexpr Case kCases[] = {{"shape", "linear"}, {"shape", "prandtl"}, {"shape", "wong"},
-                           {"hinge", "linear"}, {"hinge", "prandtl"}, {"hinge", "prandtl", "stack"},
-                           {"hinge", "wong"}};
-
 struct BenchOptions {
+  bool sizes = false;
+  Numbers sizes_triangles = {1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6};
+  std::string sizes_integrators = "explicit,semi-implicit,implicit,bdf2,tr-bdf2";
   bool laws = false;
   double elements = 1e6;
+  Numbers laws_triangles = {};
   bool hard = false;
   std::string hard_scenes =
       "crumple-sphere,crumple-tube,crumple-fist,crumple-fall,crumple-press,fold,crease,drape";
   int hard_steps = 20, hard_triangles = 300;
   bool profile = false;
+  Numbers profile_threads = {};
   bool parts = false;
   std::string parts_scenes = "crumple-fall,crumple-sphere,crease,drape,fold";
   int parts_triangles = 2000;
   double parts_after = 0.1;
+  double budget = 120;
 };
 // clang-format off
 const KeyRow<BenchOptions> kRows[] = {
+    {"sizes", at<&BenchOptions::sizes>, "", any(), "", "time of a step by the number of triangles, beside that of moving its bytes: table.csv and plot_sizes"},
+    {"sizes-triangles", at<&BenchOptions::sizes_triangles>, "", between(2, 1e7), "", "of --sizes"},
+    {"sizes-integrators", at<&BenchOptions::sizes_integrators>, "", any(), "", "of --sizes, separated by commas"},
     {"laws", at<&BenchOptions::laws>, "", any(), "", "the laws alone: error on random histories, time and memory per element"},
     {"elements", at<&BenchOptions::elements>, "", between(1, 1e8), "", "of --laws"},
+    {"laws-triangles", at<&BenchOptions::laws_triangles>, "", between(2, 1e7), "", "of --laws: not the laws alone, but whole semi-implicit and implicit steps of so many triangles"},
     {"hard", at<&BenchOptions::hard>, "", any(), "", "scenes to their end, as many at a time as --threads says (0: all cores); then their hardest steps again with other choices of the solver's, of which table.csv tells"},
-    {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes, TOML files, or the specimens fold, crease and drape, separated by commas"},
+    {"hard-scenes", at<&BenchOptions::hard_scenes>, "", any(), "", "of --hard: scenes of assets/scenes, TOML files, or the specimens fold, crease and drape, separated by commas; all: every shipped one"},
     {"hard-steps", at<&BenchOptions::hard_steps>, "", between(1, 1000), "", "of --hard: how many steps of each scene"},
     {"hard-triangles", at<&BenchOptions::hard_triangles>, "", between(1, 1e6), "", "of --hard"},
     {"profile", at<&BenchOptions::profile>, "", any(), "", "the kernels of the scene's steps: calls, time, bytes and the share of a copy's bandwidth, of which table.csv tells"},
+    {"profile-threads", at<&BenchOptions::profile_threads>, "", between(1, 4096), "", "of --profile: numbers of the CPU's threads to compare, of those that the machine has"},
     {"parts", at<&BenchOptions::parts>, "", any(), "", "scenes as they are and without one part of their model each: memory, launches and time of a step, of which table.csv tells"},
     {"parts-scenes", at<&BenchOptions::parts_scenes>, "", any(), "", "of --parts: as --hard-scenes"},
     {"parts-triangles", at<&BenchOptions::parts_triangles>, "", between(1, 1e6), "", "of --parts"},
     {"parts-after", at<&BenchOptions::parts_after>, "s", at_least(0), "", "of --parts: simulated before steps are timed"},
+    {"budget", at<&BenchOptions::budget>, "s", positive(), "", "of --sizes, --laws-triangles and --parts: wall clock for the table; rows that would not fit are left out and say so"},
 };
 // clang-format on
 
-void take(const Case& c, Scene& scene) {
-  scene.element = value_named<BendingElement>(c.element);
-  scene.law = c.law;
-  scene.param.clear();
-  if (scene.law == "prandtl") scene.param["memory"] = c.memory;
-}
 constexpr double kQuickElements = 10001;
 constexpr int kQuickHardSteps = 3, kQuickHardTriangles = 200;
 constexpr int kSteps = 40, kQuickSteps = 4;
-constexpr int kBatches = 7;  // the median of their times is reported
+constexpr int kSingleSteps = 9, kQuickSingleSteps = 3;  // that are timed by themselves
 
 Setup defaults() {
   Setup setup;
@@ -93,104 +89,90 @@ Setup defaults() {
   return setup;
 }
 
-// Bytes that the stages of a step must move, each array that a loop reads or writes counted once per pass:
-// angles, law and forces per substep, the membrane per Newton step, matrix and vectors per iteration of the
-// solve.
-double bytes_per_step(const Simulation& simulation) {
-  double bending = 0, history = 0, membrane = 0, solve = 0, state = 0;
-  for (const ScenePart& part : simulation.parts()) {
-    const double bytes = static_cast<double>(part.bytes);
-    if (part.name == "bending") bending = bytes;
-    if (part.name == "bending history") history = bytes;
-    if (part.name == "membrane") membrane = bytes;
-    if (part.name == "implicit solve") solve = bytes;
-    if (part.name == "state") state = bytes;
-  }
-  return simulation.limits().substeps * (bending + 2 * history + state) + 2 * membrane +
-         simulation.solver_iterations() * solve;
+// What was asked for, and how it is answered.
+struct Request {
+  const CommandLine& line;
+  Setup setup;
+  BenchOptions own;
+
+  bool quick() const { return setup.options.quick; }
+  bool json() const { return setup.options.json; }
+  int steps() const { return quick() ? kQuickSteps : kSteps; }
+  int single_steps() const { return quick() ? kQuickSingleSteps : kSingleSteps; }
+  Json own_keys() { return to_json(bind(kRows, own)); }
+};
+
+int bench_elements(const Request& request) {
+  const RowPrinter print({{"triangles", "triangles", 9},
+                          {"precision", "precision", 9},
+                          {"element", "element", 7},
+                          {"law", "law", 8},
+                          {"substeps", "substeps", 8},
+                          {"solver_iterations", "iterations", 10, 1},
+                          {"ms_per_step", "ms/step", 8, 3},
+                          {"bytes_per_triangle", "bytes/triangle", 14},
+                          {"device", "device", 0}},
+                         request.json());
+  const std::vector<Metrics> rows = element_costs(request.setup.scene, request.steps(), print);
+  if (request.json()) print_json(rows);
+  return 0;
 }
 
-// One row of the table.
-Metrics measure(Simulation& simulation, const Scene& scene, int triangles, int steps) {
-  simulation.advance(steps);  // warm caches, and away from the flat start
-  std::vector<double> ms;
-  const auto before = simulation.stage_seconds();
-  for (int batch = 0; batch < kBatches; ++batch) {
-    const auto start = std::chrono::steady_clock::now();
-    simulation.advance(steps);
-    simulation.wait();
-    ms.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-                 steps);
-  }
-  std::sort(ms.begin(), ms.end());
-  const double median = ms[kBatches / 2];
-  Metrics row;
-  row.set("scene", "hanging-square");
-  row.set("triangles", triangles);
-  row.set("device", simulation.device());
-  row.set("precision", name_of(scene.precision));
-  row.set("element", name_of(scene.element));
-  row.set("law", scene.law);
-  if (scene.law == "prandtl") row.set("memory", scene.param.at("memory"));
-  row.set("integrator", name_of(scene.integrator));
-  row.set("substeps", simulation.limits().substeps);
-  row.set("solver_iterations", simulation.solver_iterations());
-  row.set("ms_per_step", median);
-  row.set("ms_per_step_fastest", ms.front());
-  const auto after = simulation.stage_seconds();
-  for (std::size_t s = 0; s < after.size(); ++s)
-    row.set("ms_" + after[s].first, 1e3 * (after[s].second - before[s].second) / (kBatches * steps));
-  const double bytes = bytes_per_step(simulation);
-  row.set("bytes_device", simulation.device_bytes());
-  row.set("bytes_per_triangle", static_cast<double>(simulation.device_bytes()) / triangles);
-  row.set("bytes_per_step", bytes);
-  row.set("fraction_of_copy_bandwidth", bytes / (1e-3 * median) / simulation.copy_bandwidth());
-  row.set("state_hash", fmt::format("{:016x}", simulation.state_hash()));
-  return row;
-}
-
-void print(const Metrics& row) {
-  fmt::print("{:8.0f} {:<7} {:<6} {:<8} {:3.0f} {:7.1f} {:10.3f} {:9.1f}   {}\n", row["triangles"].number(),
-             row["precision"].text(), row["element"].text(), row["law"].text(), row["substeps"].number(),
-             row["solver_iterations"].number(), row["ms_per_step"].number(),
-             row["bytes_per_triangle"].number(), row["device"].text());
-  std::fflush(stdout);
-}
-
-void print_json(const std::vector<Metrics>& rows) {
-  Json list = Json::array();
-  for (const Metrics& row : rows) list.push_back(to_json(row));
-  std::cout << list.dump(2) << std::endl;
-}
-
-// All laws of an element take the substeps of the stiffest, so that the rows differ by the law alone.
-int common_substeps(Scene scene, const Cloth& cloth) {
-  int most = scene.substeps;
-  for (const Case& c : kCases) {
-    take(c, scene);
-    scene.substeps = 0;
-    most = std::max(most, make_simulation(scene, cloth)->limits().substeps);
-  }
-  return most;
-}
-
-int bench_laws(const CommandLine& line, const Setup& setup, int elements) {
-  Options options = setup.options;
-  options.json = false;  // of its rows, not of the manifest
-  Run run(line, options, to_json(setup.scene));
-  const std::vector<Metrics> rows = law_cost_table(setup.scene, elements);
-  write_law_costs(run, rows, !options.no_images);
+int bench_by_size(Request& request, const SizeChoice& choice, bool compares_laws) {
+  const RowPrinter print({{"triangles", "triangles", 9},
+                          {"integrator", "integrator", 13},
+                          {"law", "law", 8},
+                          {"step_s", "step [s]", 9, 7},
+                          {"ms_per_step", "ms/step", 9, 3},
+                          {"newton_iterations_per_step", "newton", 6, 1},
+                          {"solver_iterations_per_step", "linear", 6, 1},
+                          {"floor_ms_per_step", "floor ms", 9, 4},
+                          {"fraction_of_copy_bandwidth", "fraction", 8, 3},
+                          {"skipped", "left out since it", 0}},
+                         request.json());
+  Run run(request.line, table_options(request.setup), to_json(request.setup.scene));
+  run.note("bench", request.own_keys());
+  SizeTable table = times_by_size(request.setup.scene, choice, print);
+  if (compares_laws) compare_with_linear(table.rows);
+  write_sizes(run, table, !request.setup.options.no_images);
   run.finish();
-  if (setup.options.json) {
-    print_json(rows);
-    return 0;
-  }
-  fmt::print("{:<18} element  largest  rms [% of M0]  ns/element  bytes/element\n", "law");
-  for (const Metrics& row : rows) {
-    fmt::print("{:<18} {:<7} {:8.2f} {:8.2f} {:12.3f} {:10.0f}\n", row["law"].text(), row["element"].text(),
-               row["largest_error_percent_of_M0"].number(), row["rms_error_percent_of_M0"].number(),
-               row["ns_per_element"].number(), row["history_bytes_per_element"].number());
-  }
+  if (request.json()) print_json(table.rows);
+  return 0;
+}
+
+int bench_sizes(Request& request) {
+  SizeChoice choice{
+      request.own.sizes_triangles, {}, {request.setup.scene.law}, request.single_steps(), request.own.budget};
+  for (const std::string& name : split(request.own.sizes_integrators))
+    choice.integrators.push_back(value_named<Integrator>(name));
+  return bench_by_size(request, choice, false);
+}
+
+// The stiffest law first, whose steps are then stable for the others, too.
+int bench_laws_in_steps(Request& request) {
+  const SizeChoice choice{request.own.laws_triangles,
+                          {Integrator::semi_implicit, Integrator::implicit},
+                          {"prandtl", "wong", "linear"},
+                          request.single_steps(),
+                          request.own.budget};
+  return bench_by_size(request, choice, true);
+}
+
+int bench_laws(const Request& request) {
+  Run run(request.line, table_options(request.setup), to_json(request.setup.scene));
+  const std::vector<Metrics> rows =
+      law_cost_table(request.setup.scene, static_cast<int>(request.own.elements));
+  write_law_costs(run, rows, !request.setup.options.no_images);
+  run.finish();
+  if (request.json()) print_json(rows);
+  const RowPrinter print({{"law", "law", 40},
+                          {"element", "element", 7},
+                          {"largest_error_percent_of_M0", "largest", 8, 2},
+                          {"rms_error_percent_of_M0", "rms [% of M0]", 13, 2},
+                          {"ns_per_element", "ns/element", 10, 3},
+                          {"history_bytes_per_element", "bytes/element", 13}},
+                         request.json());
+  for (const Metrics& row : rows) print(row);
   return 0;
 }
 
@@ -202,12 +184,11 @@ int jobs_of(const Scene& scene) {
              : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-int bench_hard_steps(const CommandLine& line, const Setup& setup, BenchOptions own) {
-  Options options = setup.options;
-  options.json = false;  // of its rows, not of the manifest
-  Run run(line, options, to_json(bind(kRows, own)));
-  const std::vector<std::string> names = split(own.hard_scenes);
-  Scene like = setup.scene;
+int bench_hard_steps(Request& request) {
+  Run run(request.line, table_options(request.setup), request.own_keys());
+  const BenchOptions& own = request.own;
+  const std::vector<std::string> names = listed(own.hard_scenes, hard_scene_names());
+  Scene like = request.setup.scene;
   const int jobs = jobs_of(like);
   like.threads = 1;  // of each job
   std::vector<HardStates> scenes(names.size());
@@ -220,81 +201,119 @@ int bench_hard_steps(const CommandLine& line, const Setup& setup, BenchOptions o
   const std::vector<Metrics> rows =
       hard_step_table(scenes, solver_variants(), jobs,
                       [&](const std::string& done) { run.progress("taken again: " + done); });
-  write_table(run, rows);
-  run.finish();
-  if (setup.options.json) {
-    print_json(rows);
-    return 0;
-  }
-  fmt::print("newton  linear length unbalanced halved ended residual ms/step variant\n");
+  finish_table(run, request.setup, rows);
+  const RowPrinter print({{"newton_iterations", "newton", 6},
+                          {"linear_iterations", "linear", 7},
+                          {"mean_step_length", "length", 6, 2},
+                          {"unbalanced", "unbalanced", 10},
+                          {"halved", "halved", 6},
+                          {"broken_off", "ended", 5},
+                          {"ms_median", "ms/step", 7, 1},
+                          {"variant", "variant", 0}},
+                         request.json());
   for (const Metrics& row : rows)
-    if (row["scene"].text() == "all")
-      fmt::print("{:6.0f} {:7.0f} {:6.2f} {:10.0f} {:6.0f} {:5.0f} {:8.1e} {:7.1f} {}\n",
-                 row.number("newton_iterations"), row.number("linear_iterations"),
-                 row.number("mean_step_length"), row.number("unbalanced"), row.number("halved"),
-                 row.number("broken_off"), row.number("largest_residual"), row.number("ms_median"),
-                 row["variant"].text());
+    if (row["scene"].text() == "all") print(row);
   return 0;
 }
 
 void print(const StepProfile& profile) {
-  fmt::print("  calls   us/call   us/step  share  of copy  kernel\n");
-  for (const Metrics& row : profile.kernels) {
-    const double share = row.number("fraction_of_copy_bandwidth");
-    fmt::print("{:7.1f} {:9.1f} {:9.1f} {:5.1f}% {:>8}  {}\n", row.number("calls_per_step"),
-               row.number("us_per_call"), row.number("us_per_step"), row.number("share_percent"),
-               std::isfinite(share) ? fmt::format("{:.1f}%", 100 * share) : "", row["kernel"].text());
-  }
+  const RowPrinter print({{"calls_per_step", "calls", 7, 1},
+                          {"us_per_call", "us/call", 9, 1},
+                          {"us_per_step", "us/step", 9, 1},
+                          {"share_percent", "share %", 7, 1},
+                          {"fraction_of_copy_bandwidth", "of copy", 7, 3},
+                          {"kernel", "kernel", 0}},
+                         false);
+  for (const Metrics& row : profile.kernels) print(row);
   for (const auto& [key, value] : profile.step) fmt::print("{} {:.6g}\n", key, value.number());
 }
 
-int bench_kernels(const CommandLine& line, const Setup& setup) {
-  Options options = setup.options;
-  options.json = false;  // of the profile, not of the manifest
-  Run run(line, options, to_json(setup.scene));
-  const auto simulation = make_simulation(setup.scene, make_cloth(setup.scene));
-  const StepProfile profile = profile_of_steps(*simulation, options.quick ? kQuickSteps : kSteps);
-  run.manifest().device = simulation->device();
-  run.manifest().state_hash = fmt::format("{:016x}", simulation->state_hash());
-  for (const auto& [key, value] : profile.step) run.metric(key, value);
-  write_table(run, profile.kernels);
-  run.finish();
-  if (!setup.options.json) {
-    print(profile);
-    return 0;
+// Numbers of threads to compare; none: as the scene has it.
+std::vector<int> compared_threads(Request& request, const Run& run) {
+  const Numbers& asked = request.own.profile_threads;
+  Scene& scene = request.setup.scene;
+  if (asked.empty()) return {scene.threads};
+  if (scene.device == DeviceChoice::cuda)
+    throw Error::request("profile-threads compares threads of the CPU: device = cuda must be auto or cpu");
+  scene.device = DeviceChoice::cpu;
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const std::vector<int> threads = threads_within(asked, processors);
+  if (threads.empty())
+    throw Error::request(fmt::format("profile-threads: this machine has {} processors", processors));
+  if (threads.size() < asked.size())
+    run.progress(fmt::format("{} processors: larger numbers of threads are left out", processors));
+  return threads;
+}
+
+void print_json(const std::vector<ThreadProfile>& profiles) {
+  Json list = Json::array();
+  for (const ThreadProfile& of : profiles) {
+    Json entry = to_json(of.profile.step);
+    entry["threads"] = of.threads;
+    for (const Metrics& row : of.profile.kernels) entry["kernels"].push_back(to_json(row));
+    list.push_back(std::move(entry));
   }
-  Json entry = to_json(profile.step);
-  for (const Metrics& row : profile.kernels) entry["kernels"].push_back(to_json(row));
-  std::cout << Json::array({entry}).dump(2) << std::endl;
+  std::cout << list.dump(2) << std::endl;
+}
+
+int bench_kernels(Request& request) {
+  Run run(request.line, table_options(request.setup), to_json(request.setup.scene));
+  const std::vector<int> threads = compared_threads(request, run);
+  const Cloth cloth = make_cloth(request.setup.scene);
+  std::vector<ThreadProfile> profiles;
+  std::vector<Metrics> kernels;
+  for (const int number : threads) {
+    profiles.push_back(profile_with(number, request.setup.scene, cloth, request.steps()));
+    const ThreadProfile& of = profiles.back();
+    const std::string prefix = threads.size() > 1 ? fmt::format("{}_threads.", number) : "";
+    for (const auto& [key, value] : of.profile.step) run.metric(prefix + key, value);
+    for (Metrics row : of.profile.kernels) {
+      row.set("threads", number);
+      kernels.push_back(std::move(row));
+    }
+    if (request.json()) continue;
+    if (threads.size() == 1)
+      print(of.profile);
+    else
+      fmt::print("{:3} threads {:9.3f} ms/step\n", number, of.profile.step.number("ms_per_step"));
+    std::fflush(stdout);
+  }
+  run.manifest().device = profiles.back().device;
+  run.manifest().state_hash = profiles.back().state_hash;
+  write_table(run, kernels);
+  if (threads.size() > 1 && !request.setup.options.no_images) run.plot("plot_threads", thread_plot(profiles));
+  run.finish();
+  if (request.json()) print_json(profiles);
   return 0;
 }
 
-int bench_parts(const CommandLine& line, const Setup& setup, BenchOptions own) {
-  Options options = setup.options;
-  options.json = false;  // of its rows, not of the manifest
-  Run run(line, options, to_json(bind(kRows, own)));
+int bench_parts(Request& request) {
+  const RowPrinter print({{"ms_per_step", "ms/step", 8, 2},
+                          {"launches_per_step", "launches", 8},
+                          {"newton_iterations_per_step", "newton", 6, 1},
+                          {"solver_iterations_per_step", "linear", 7, 1},
+                          {"bytes_per_triangle", "bytes/triangle", 14},
+                          {"scene", "scene", 16},
+                          {"without", "without", 20},
+                          {"stopped", "stopped", 0}},
+                         request.json());
+  Run run(request.line, table_options(request.setup), request.own_keys());
+  const BenchOptions& own = request.own;
+  const PartsChoice choice{own.parts_after, request.single_steps()};
+  const Budget budget(own.budget);
   std::vector<Metrics> rows;
-  if (!setup.options.json) fmt::print("ms/step launches newton  linear bytes/triangle scene without\n");
-  for (const std::string& name : split(own.parts_scenes))
-    for (const Metrics& row : cost_of_parts(hard_scene(name, own.parts_triangles, setup.scene),
-                                            own.parts_after, options.quick ? kQuickSteps : kSteps)) {
+  for (const std::string& name : listed(own.parts_scenes, hard_scene_names()))
+    for (const Metrics& row :
+         cost_of_parts(hard_scene(name, own.parts_triangles, request.setup.scene), choice, budget, print))
       rows.push_back(row);
-      if (setup.options.json) continue;
-      fmt::print("{:7.2f} {:8.0f} {:6.1f} {:7.1f} {:14.0f} {} {}\n", row.number("ms_per_step"),
-                 row.number("launches_per_step"), row.number("newton_iterations_per_step"),
-                 row.number("solver_iterations_per_step"), row.number("bytes_per_triangle"), name,
-                 row["stopped"].text().empty() ? row["without"].text() : row["stopped"].text());
-      std::fflush(stdout);
-    }
-  write_table(run, rows);
-  run.finish();
-  if (setup.options.json) print_json(rows);
+  finish_table(run, request.setup, rows);
   return 0;
 }
 
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
+    own.sizes_triangles = {200, 800};
     own.elements = std::min(own.elements, kQuickElements);
     own.hard_steps = std::min(own.hard_steps, kQuickHardSteps);
     own.hard_triangles = std::min(own.hard_triangles, kQuickHardTriangles);
@@ -302,25 +321,14 @@ int run_bench(const CommandLine& line) {
   });
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
-  if (own.hard) return bench_hard_steps(line, setup, own);
-  if (own.profile) return bench_kernels(line, setup);
-  if (own.parts) return bench_parts(line, setup, own);
-  if (own.laws) return bench_laws(line, setup, static_cast<int>(own.elements));
-  std::vector<Metrics> rows;
-  const Cloth cloth = make_cloth(setup.scene);
-  Scene scene = setup.scene;
-  scene.substeps = common_substeps(setup.scene, cloth);
-  if (!setup.options.json)
-    fmt::print("triangles precision element law substeps iterations ms/step bytes/triangle device\n");
-  for (const Case& c : kCases) {
-    take(c, scene);
-    const auto simulation = make_simulation(scene, cloth);
-    rows.push_back(
-        measure(*simulation, scene, cloth.mesh.faces(), setup.options.quick ? kQuickSteps : kSteps));
-    if (!setup.options.json) print(rows.back());
-  }
-  if (setup.options.json) print_json(rows);
-  return 0;
+  Request request{line, setup, own};
+  if (own.hard) return bench_hard_steps(request);
+  if (own.profile) return bench_kernels(request);
+  if (own.parts) return bench_parts(request);
+  if (own.laws && !own.laws_triangles.empty()) return bench_laws_in_steps(request);
+  if (own.laws) return bench_laws(request);
+  if (own.sizes) return bench_sizes(request);
+  return bench_elements(request);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "experiments/drape/apparatus.h"
 #include "experiments/fold/specimen.h"
 #include "experiments/workbench/app/experiment.h"
+#include "sim/scene/assets.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -48,12 +49,18 @@ HardScene draping(int triangles, const Scene& like) {
 
 }  // namespace
 
+std::vector<std::string> hard_scene_names() {
+  std::vector<std::string> names = list_assets("scenes");
+  names.insert(names.end(), {"crease", "drape", "fold"});
+  return names;
+}
+
 HardScene hard_scene(const std::string& name, int triangles, const Scene& like) {
   if (name == "fold") return folding(triangles, like);
   if (name == "crease") return creasing(triangles, like);
   if (name == "drape") return draping(triangles, like);
   Scene scene = default_scene();
-  apply_scene_file(scene, name, {});
+  apply_scene_file(scene, name, {}, {"metric"});  // which are of the scene's own run
   scene.triangles = triangles;
   scene.device = like.device;
   scene.threads = like.threads;

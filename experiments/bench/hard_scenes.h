@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/scene/cloth.h"
 
@@ -18,6 +19,8 @@ struct HardScene {
 // of assets/scenes or a TOML file.  About as many triangles; device, threads and precision are those of
 // `like`. Throws Error::request, Error::machine.
 HardScene hard_scene(const std::string& name, int triangles, const Scene& like);
+// All that are shipped: scenes of assets/scenes, then the specimens.
+std::vector<std::string> hard_scene_names();
 
 inline constexpr const char* kLimpest = "polyester-faille";
 

@@ -10,40 +10,86 @@
 namespace hysteron::experiments {
 namespace {
 
-// What a step takes; not known of a scene that stops.
-void measure(Metrics& row, const HardScene& of, const Scene& scene, double after, int steps) {
-  const auto simulation = make_simulation(scene, of.cloth);
-  simulation->advance(std::max(1, static_cast<int>(std::lround(after / scene.step))));
-  const DeviceCounts work_before = simulation->device_work();
-  const SolverCounts solved_before = simulation->solver_counts();
-  const double ms = ms_per_step(*simulation, steps);
-  const DeviceCounts work = simulation->device_work() - work_before;
-  const SolverCounts solved = simulation->solver_counts();
-  const auto per_step = [&](long count) { return static_cast<double>(count) / steps; };
-  row.set("device", simulation->device());
-  row.set("bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / of.cloth.mesh.faces());
-  row.set("launches_per_step", per_step(work.loops));
-  row.set("synchronizations_per_step", per_step(work.synchronizations));
-  row.set("newton_iterations_per_step", per_step(solved.newton - solved_before.newton));
-  row.set("solver_iterations_per_step", per_step(solved.linear - solved_before.linear));
-  row.set("ms_per_step", ms);
-}
+constexpr const char* kLedgerLoops[] = {"implicit ledger", "viscous loss"};
 
-Metrics row_of(const HardScene& of, const Scene& scene, const std::string& without, double after, int steps) {
-  Metrics row = {
-      {"scene", of.name}, {"without", without}, {"triangles", of.cloth.mesh.faces()}, {"device", ""}};
-  for (const char* unknown : {"bytes_per_triangle", "launches_per_step", "synchronizations_per_step",
-                              "newton_iterations_per_step", "solver_iterations_per_step", "ms_per_step"})
-    row.set(unknown, NAN);
-  row.set("stopped", "");
-  try {
-    measure(row, of, scene, after, steps);
-  } catch (const Error& error) {
-    if (error.exit_code() != 3) throw;  // not of the run, but of the machine or the request
-    row.set("stopped", error.what());
+class PartsOfScene {
+ public:
+  PartsOfScene(const HardScene& of, const PartsChoice& choice, const Budget& budget)
+      : of_(of), choice_(choice), budget_(budget) {}
+
+  Metrics as_it_is() {
+    const Stopwatch clock;
+    Metrics row = row_of(of_.scene, "", [&](Simulation& simulation) { look_for_ledger(simulation); });
+    seconds_ = clock.seconds();
+    whole_ = row;
+    return row;
   }
-  return row;
-}
+
+  Metrics without(const Omission& omission) {
+    Scene scene = of_.scene;
+    omission.leave_out(scene);
+    return row_of(scene, omission.part, {});
+  }
+
+  Metrics without_ledger() const {
+    Metrics row = whole_;
+    row.set("without", "energy ledger");
+    const auto less = [&](const char* key, double by) { row.set(key, row.number(key) - by); };
+    less("bytes_per_triangle", ledger_bytes_ / of_.cloth.mesh.faces());
+    less("launches_per_step", ledger_launches_);
+    less("ms_per_step", ledger_ms_);
+    for (const char* key : {"ms_per_step_fastest", "ms_per_step_slowest"}) row.set(key, NAN);
+    return row;
+  }
+
+ private:
+  Metrics row_of(const Scene& scene, const std::string& without,
+                 const std::function<void(Simulation&)>& afterwards) {
+    Metrics row = {{"scene", of_.name},
+                   {"without", without},
+                   {"triangles", of_.cloth.mesh.faces()},
+                   {"device", ""},
+                   {"bytes_per_triangle", NAN}};
+    set(row, StepCost{});
+    row.set("stopped", budget_.refusal(seconds_));
+    if (!row["stopped"].text().empty()) return row;
+    try {
+      measure(scene, row, afterwards);
+    } catch (const Error& error) {
+      if (error.exit_code() != 3) throw;  // not of the run, but of the machine or the request
+      row.set("stopped", error.what());
+    }
+    return row;
+  }
+
+  void measure(const Scene& scene, Metrics& row, const std::function<void(Simulation&)>& afterwards) {
+    const auto simulation = make_simulation(scene, of_.cloth);
+    simulation->advance(std::max(1, static_cast<int>(std::lround(choice_.after / scene.step))));
+    set(row, cost_of_steps(*simulation, choice_.steps, 1));
+    row.set("device", simulation->device());
+    row.set("bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / of_.cloth.mesh.faces());
+    if (afterwards) afterwards(*simulation);
+  }
+
+  void look_for_ledger(Simulation& simulation) {
+    for (const ScenePart& part : simulation.parts())
+      if (part.name == "energy ledger") ledger_bytes_ = static_cast<double>(part.bytes);
+    const KernelCosts costs = loops_of_steps(simulation, choice_.steps);
+    for (const char* loop : kLedgerLoops) {
+      const auto found = costs.find(loop);
+      if (found == costs.end()) continue;
+      ledger_launches_ += static_cast<double>(found->second.calls) / choice_.steps;
+      ledger_ms_ += 1e3 * found->second.seconds / choice_.steps;
+    }
+  }
+
+  const HardScene& of_;
+  const PartsChoice choice_;
+  const Budget& budget_;
+  Metrics whole_;
+  double seconds_ = 0;  // that its row took
+  double ledger_bytes_ = 0, ledger_launches_ = 0, ledger_ms_ = 0;
+};
 
 }  // namespace
 
@@ -64,19 +110,25 @@ std::vector<Omission> omissions() {
        [](Scene& s) {
          std::erase_if(s.param, [](const auto& p) { return p.first.starts_with("fatigue."); });
        }},
+      {"friction in the plane", [](const Scene& s) { return !s.fabric.in_plane.empty(); },
+       [](Scene& s) { s.fabric.in_plane = {}; }},
       {"damping of bending", [](const Scene& s) { return s.fabric.damping > 0; },
        [](Scene& s) { s.fabric.damping = 0; }},
       {"drag of the air", [](const Scene& s) { return s.air_drag > 0; }, [](Scene& s) { s.air_drag = 0; }}};
 }
 
-std::vector<Metrics> cost_of_parts(const HardScene& of, double after, int steps) {
-  std::vector<Metrics> rows = {row_of(of, of.scene, "", after, steps)};
-  for (const Omission& omission : omissions()) {
-    if (!omission.is_there(of.scene)) continue;
-    Scene scene = of.scene;
-    omission.leave_out(scene);
-    rows.push_back(row_of(of, scene, omission.part, after, steps));
-  }
+std::vector<Metrics> cost_of_parts(const HardScene& of, const PartsChoice& choice, const Budget& budget,
+                                   const std::function<void(const Metrics&)>& measured) {
+  PartsOfScene parts(of, choice, budget);
+  std::vector<Metrics> rows;
+  const auto add = [&](Metrics row) {
+    measured(row);
+    rows.push_back(std::move(row));
+  };
+  add(parts.as_it_is());
+  for (const Omission& omission : omissions())
+    if (omission.is_there(of.scene)) add(parts.without(omission));
+  add(parts.without_ledger());
   return rows;
 }
 

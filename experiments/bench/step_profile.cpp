@@ -1,8 +1,8 @@
 #include "experiments/bench/step_profile.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+
+#include "experiments/bench/wall_clock.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -22,46 +22,84 @@ Metrics row_of(const std::string& name, const KernelCost& cost, int steps, doubl
 
 }  // namespace
 
-double ms_per_step(Simulation& simulation, int steps) {
+StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts) {
+  const DeviceCounts work_before = simulation.device_work();
+  const SolverCounts solved_before = simulation.solver_counts();
+  std::vector<double> ms;
   simulation.wait();
-  const auto start = std::chrono::steady_clock::now();
+  for (int batch = 0; batch < batches; ++batch) {
+    const Stopwatch clock;
+    simulation.advance(steps);
+    simulation.wait();
+    ms.push_back(1e3 * clock.seconds() / steps / parts);
+  }
+  std::sort(ms.begin(), ms.end());
+  const DeviceCounts work = simulation.device_work() - work_before;
+  const SolverCounts solved = simulation.solver_counts();
+  const auto of_one = [&](long count) { return static_cast<double>(count) / batches / steps / parts; };
+  return {.ms = ms[ms.size() / 2],
+          .ms_fastest = ms.front(),
+          .ms_slowest = ms.back(),
+          .launches = of_one(work.loops),
+          .synchronizations = of_one(work.synchronizations),
+          .allocations = of_one(work.allocations),
+          .newton_iterations = of_one(solved.newton - solved_before.newton),
+          .solver_iterations = of_one(solved.linear - solved_before.linear)};
+}
+
+void set(Metrics& row, const StepCost& cost) {
+  row.set("ms_per_step", cost.ms);
+  row.set("ms_per_step_fastest", cost.ms_fastest);
+  row.set("ms_per_step_slowest", cost.ms_slowest);
+  row.set("launches_per_step", cost.launches);
+  row.set("synchronizations_per_step", cost.synchronizations);
+  row.set("allocations_per_step", cost.allocations);
+  row.set("newton_iterations_per_step", cost.newton_iterations);
+  row.set("solver_iterations_per_step", cost.solver_iterations);
+}
+
+KernelCosts loops_of_steps(Simulation& simulation, int steps) {
+  simulation.profile();
   simulation.advance(steps);
-  simulation.wait();
-  return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / steps;
+  return simulation.kernel_costs();
+}
+
+double stated_bytes(const KernelCosts& costs) {
+  double bytes = 0;
+  for (const auto& [name, cost] : costs) bytes += cost.bytes;
+  return bytes;
 }
 
 StepProfile profile_of_steps(Simulation& simulation, int steps) {
   simulation.advance(steps);  // warm caches, and away from the start
-  const double ms = ms_per_step(simulation, steps);
+  const double ms = cost_of_steps(simulation, 1, steps).ms;
   simulation.profile();
-  const DeviceCounts before = simulation.device_work();
-  const SolverCounts solved_before = simulation.solver_counts();
-  const double ms_profiled = ms_per_step(simulation, steps);
-  const DeviceCounts work = simulation.device_work() - before;
-  const SolverCounts solved = simulation.solver_counts();
+  const StepCost cost = cost_of_steps(simulation, 1, steps);
   const KernelCosts costs = simulation.kernel_costs();
   const double bandwidth = simulation.copy_bandwidth();
 
   KernelCost all;
-  for (const auto& [name, cost] : costs) all.seconds += cost.seconds;
+  for (const auto& [name, kernel] : costs) all.seconds += kernel.seconds;
   StepProfile profile;
-  for (const auto& [name, cost] : costs)
-    profile.kernels.push_back(row_of(name, cost, steps, all.seconds, bandwidth));
+  for (const auto& [name, kernel] : costs)
+    profile.kernels.push_back(row_of(name, kernel, steps, all.seconds, bandwidth));
   std::sort(profile.kernels.begin(), profile.kernels.end(), [](const Metrics& a, const Metrics& b) {
     return a.number("us_per_step") > b.number("us_per_step");
   });
-  const auto per_step = [&](long count) { return static_cast<double>(count) / steps; };
+  const double bytes = stated_bytes(costs) / steps;
   profile.step = {{"steps", steps},
                   {"ms_per_step", ms},
-                  {"ms_per_step_profiled", ms_profiled},
+                  {"ms_per_step_profiled", cost.ms},
                   {"ms_per_step_in_kernels", 1e3 * all.seconds / steps},
-                  {"launches_per_step", per_step(work.loops)},
-                  {"synchronizations_per_step", per_step(work.synchronizations)},
-                  {"allocations_per_step", per_step(work.allocations)},
-                  {"newton_iterations_per_step", per_step(solved.newton - solved_before.newton)},
-                  {"solver_iterations_per_step", per_step(solved.linear - solved_before.linear)},
+                  {"launches_per_step", cost.launches},
+                  {"synchronizations_per_step", cost.synchronizations},
+                  {"allocations_per_step", cost.allocations},
+                  {"newton_iterations_per_step", cost.newton_iterations},
+                  {"solver_iterations_per_step", cost.solver_iterations},
                   {"us_per_launch", 1e6 * simulation.launch_seconds()},
-                  {"copy_bandwidth_GB_per_s", 1e-9 * bandwidth}};
+                  {"bytes_per_step", bytes},
+                  {"copy_bandwidth_GB_per_s", 1e-9 * bandwidth},
+                  {"fraction_of_copy_bandwidth", bytes / (1e-3 * ms) / bandwidth}};
   return profile;
 }
 

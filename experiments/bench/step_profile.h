@@ -1,6 +1,7 @@
-// Where the time of a step goes, kernel by kernel: the profile of a scene's steps.
+// What a step takes and asks of its device, and where its time goes, kernel by kernel.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -9,20 +10,35 @@
 
 namespace hysteron::experiments {
 
+// Of one step, as a mean over all that were timed; not known by default.
+struct StepCost {
+  double ms = NAN, ms_fastest = NAN, ms_slowest = NAN;  // the median, least and most of the batches
+  double launches = NAN, synchronizations = NAN, allocations = NAN;
+  double newton_iterations = NAN, solver_iterations = NAN;
+};
+
+// Advances by `batches` times `steps`, each batch timed by itself.  `parts`: of how many each step consists
+// whose cost is asked for, as of substeps.
+StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts = 1);
+// Sets all of it in a row: "ms_per_step", "launches_per_step", ...
+void set(Metrics& row, const StepCost& cost);
+
+// Loops by their names, of so many steps.  From then on the simulation is profiled, and slower for it.
+KernelCosts loops_of_steps(Simulation& simulation, int steps);
+// What they must move at least: a kernel's bytes are each array that its loop reads or writes, once.  Kernels
+// whose loops do not state them count as nothing.
+double stated_bytes(const KernelCosts& costs);
+
 // Of the steps that were profiled.
 struct StepProfile {
   Metrics step;                  // what a step takes and asks of its device
   std::vector<Metrics> kernels;  // one row per kernel, the slowest first
 };
 
-// Advances by so many steps; the time of one [ms].
-double ms_per_step(Simulation& simulation, int steps);
-
 // Advances by `steps` to warm up, by as many unprofiled for the time of a step, and by as many profiled.
 //
-// A kernel's bytes are what its loop must move at least, each array that it reads or writes once; kernels
-// whose loops do not state them have none.  What one kernel leaves in the cache for the next counts as moved:
-// small cloths may exceed the bandwidth of a copy, which does not fit.
+// What one kernel leaves in the cache for the next counts as moved: small cloths may exceed the bandwidth of
+// a copy, which does not fit.
 StepProfile profile_of_steps(Simulation& simulation, int steps);
 
 }  // namespace hysteron::experiments

@@ -23,10 +23,6 @@ constexpr std::size_t kMostPanels = 24;
 const char* const kColorNames[render::kMethodColors] = {"blue",     "vermilion", "green", "pink",
                                                         "sky blue", "orange",    "black"};
 
-std::string hex(const render::Rgb8& color) {
-  return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
-}
-
 // A metric as plots show it: "tip drop over length", "lost to friction in bending [mJ]".
 struct ShownMetric {
   std::string name, words, label;
@@ -97,7 +93,8 @@ class StudyPlots {
   void add_series(std::vector<render::Series>& series, const std::string& name, std::size_t color,
                   const std::vector<std::size_t>& which, std::size_t x,
                   const std::vector<double>& numbers) const {
-    render::Series dots{name, {}, {}, render::Series::Style::points, hex(render::method_color(color))};
+    render::Series dots{
+        name, {}, {}, render::Series::Style::points, render::hex(render::method_color(color))};
     std::map<double, std::pair<double, int>> sums;
     for (const std::size_t r : which) {
       if (std::isnan(numbers[r])) continue;
@@ -263,10 +260,10 @@ class StudyPlots {
     if (!(low <= high)) return;
     const double part = (high - low) / kParts;
     for (int k = 0; k < kParts; ++k)
-      page.kinds.push_back(
-          {fmt::format("{:.3g} to {:.3g}", low + k * part, low + (k + 1) * part),
-           hex(render::map_color8(render::ColorMap::sequential,
-                                  kDarkest + (1 - kDarkest) * static_cast<float>(k) / (kParts - 1)))});
+      page.kinds.push_back({fmt::format("{:.3g} to {:.3g}", low + k * part, low + (k + 1) * part),
+                            render::hex(render::map_color8(
+                                render::ColorMap::sequential,
+                                kDarkest + (1 - kDarkest) * static_cast<float>(k) / (kParts - 1)))});
     for (std::size_t m = 0; m < maps.size(); ++m) {
       render::HeatMap map{maps[m].first, {}};
       for (const auto& row : means[m]) {
