@@ -129,6 +129,16 @@ TEST(HardScenes, BringTheSpecimensOfOtherExperimentsAndSceneFilesOnOneDevice) {
   }
 }
 
+TEST(HardScenes, AreAllShippedOnesOnceAndTheSpecimens) {
+  const std::vector<std::string> names = hard_scene_names();
+  EXPECT_EQ(names.size(), list_assets("scenes").size() + 3);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  Scene like = default_scene();
+  like.device = DeviceChoice::cpu;
+  for (const std::string& name : list_assets("scenes"))
+    EXPECT_GT(hard_scene(name, 60, like).cloth.mesh.faces(), 30) << name;
+}
+
 TEST(HardScenes, DrapeTheLimpestOfTheShippedFabrics) {
   std::map<double, std::string> by_rigidity;
   for (const std::string& name : list_assets("fabrics"))
