@@ -11,13 +11,6 @@
 namespace hysteron::render {
 namespace {
 
-// What a file holds, in quotes even over several lines, in one line of a message.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  return text;
-}
-
 size_t column_named(const std::vector<std::string>& names, const std::string& wanted,
                     const std::string& attempt) {
   std::string all;
@@ -25,15 +18,14 @@ size_t column_named(const std::vector<std::string>& names, const std::string& wa
     if (names[i] == wanted || names[i].substr(0, names[i].find(" [")) == wanted) return i;
     all += (i ? ", " : "") + names[i];
   }
-  throw Error::request(fmt::format("{}: no column \"{}\"; there are: {}", attempt, wanted, one_line(all)));
+  throw Error::request(fmt::format("{}: no column \"{}\"; there are: {}", attempt, wanted, all));
 }
 
 double number_in(const std::string& cell, const std::string& attempt, int line) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
-  if (*end != '\0')
-    throw Error::request(fmt::format("{}:{}: \"{}\" is no number", attempt, line, one_line(cell)));
+  if (*end != '\0') throw Error::request(fmt::format("{}:{}: \"{}\" is no number", attempt, line, cell));
   return value;
 }
 

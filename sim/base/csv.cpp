@@ -23,10 +23,7 @@ std::string without_unit(std::string_view name) {
   return std::string(trimmed(name.substr(0, name.find('['))));
 }
 
-// `what` comes from the file: it may hold anything.
-Error error_at(const std::string& file, int line, std::string what) {
-  std::replace_if(
-      what.begin(), what.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+Error error_at(const std::string& file, int line, const std::string& what) {
   return Error::request(fmt::format("{}:{}: {}", file, line, what));
 }
 

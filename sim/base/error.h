@@ -1,15 +1,17 @@
 // The one exception type: every failure is a single line for the user and an exit code for scripts.
 #pragma once
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace hysteron {
 
-// Thrown wherever the program cannot do what was asked.  The message is one line: what was attempted, the
-// value with its unit, the file and line where it stands, what is allowed or what to do.  What a handler has
-// to know of it stands in fields beside the message, which nobody takes apart.
+// Thrown wherever the program cannot do what was asked.  The message is one line, whatever the file or flag
+// that it quotes holds: what was attempted, the value with its unit, the file and line where it stands, what
+// is allowed or what to do.  What a handler has to know of it stands in fields beside the message, which
+// nobody takes apart.
 class Error : public std::runtime_error {
  public:
   // The machine failed (file, disk, GPU, renderer): exit code 1.
@@ -43,7 +45,13 @@ class Error : public std::runtime_error {
   const std::string& experiment() const { return experiment_; }  // "" if its message names none
 
  private:
-  Error(int exit_code, const std::string& message) : std::runtime_error(message), exit_code_(exit_code) {}
+  Error(int exit_code, const std::string& message)
+      : std::runtime_error(one_line(message)), exit_code_(exit_code) {}
+  static std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    return text.substr(0, text.find_last_not_of(' ') + 1);
+  }
   Error with_message(const std::string& message) const {
     Error error(exit_code_, message);
     error.key_ = key_;

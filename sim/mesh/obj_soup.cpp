@@ -112,12 +112,6 @@ Lines scan(const std::string& text, const std::string& what) {
   return lines;
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  return text.substr(0, text.find_last_not_of(' ') + 1);
-}
-
 // Faces of three or four corners in the file's order, which the loader keeps.
 class Faces {
  public:
@@ -127,7 +121,7 @@ class Faces {
     std::string warning, error;
     std::istringstream in(lines.resolved);
     if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
-      throw Error::request(what + ": " + one_line(error));
+      throw Error::request(what + ": " + error);
     for (const auto& shape : shapes) {
       auto corner = shape.mesh.indices.begin();
       for (const int corners : shape.mesh.num_face_vertices) {

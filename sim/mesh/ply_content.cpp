@@ -48,8 +48,15 @@ std::int64_t binary_integer(std::istream& in, std::size_t bytes, bool big_endian
          (with_sign && value >= half ? static_cast<std::int64_t>(2 * half) : 0);
 }
 
+// The largest number of items that a list can count.
+std::int64_t most_items(const PlyProperty& list) {
+  const int bits = 8 * static_cast<int>(bytes_of(list.count_type)) - !list.count_type.starts_with('u');
+  return (std::int64_t{1} << bits) - 1;
+}
+
 // Whether a list that begins here has room in what is left of the file: the reader allocates what it
-// announces, and goes through all of it behind the end.
+// announces, and goes through all of it behind the end.  A number that the type of the count does not hold
+// wraps there.
 bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file_bytes, std::istream& in) {
   const std::streamoff begin = in.tellg();
   std::int64_t count = -1;
@@ -58,7 +65,7 @@ bool has_room(const PlyProperty& list, const PlyHeader& header, std::size_t file
   else
     count =
         binary_integer(in, bytes_of(list.count_type), header.big_endian, !list.count_type.starts_with('u'));
-  if (begin < 0 || in.fail() || count < 0) return false;
+  if (begin < 0 || in.fail() || count < 0 || count > most_items(list)) return false;
   in.clear();  // the end of the file, where the list is empty
   const std::size_t left = file_bytes - static_cast<std::size_t>(in.tellg());
   in.seekg(begin);

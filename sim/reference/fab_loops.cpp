@@ -110,9 +110,9 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     if (words[c.direction].empty() || words[c.test].empty())
       throw Error::request(where + " names no direction or no test").in(reader);
     FabLoops& loops = loops_of(all, words[c.direction], words[c.test]);
-    const auto branch = static_cast<std::size_t>(number(c.branch));
-    if (branch == loops.branches.size()) loops.branches.emplace_back();
-    if (branch + 1 != loops.branches.size())
+    const double branch = number(c.branch);
+    if (branch == static_cast<double>(loops.branches.size())) loops.branches.emplace_back();
+    if (loops.branches.empty() || branch + 1 != static_cast<double>(loops.branches.size()))
       throw Error::request(where + ": branch " + words[c.branch] + " does not follow branch " +
                            std::to_string(loops.branches.size()) + " - 1")
           .in(reader);

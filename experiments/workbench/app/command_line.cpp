@@ -94,11 +94,6 @@ void refuse_stray_word(const std::string& word, const std::vector<Experiment>& e
                        (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
 }
 
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 CommandLine taken_apart(const Command& command, std::string shell_command) {
   CommandLine line{command.experiment->name, std::move(shell_command), {}, command.names};
   if (!command.experiment->run) return line;
@@ -173,7 +168,7 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
     program.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    const Error refused = Error::request(one_line(error.what()));
+    const Error refused = Error::request(error.what());
     throw chosen() ? refused.in(chosen()->experiment->name) : refused;
   }
   if (!program.remaining().empty()) refuse_stray_word(program.remaining().front(), known);

@@ -49,6 +49,19 @@ std::string_view checked_body(const fs::path& file, std::string_view all) {
   return body;
 }
 
+// Its seal holds by chance, or somebody has made it.
+CheckpointOwner owner_in(Archive& archive, const fs::path& file) {
+  CheckpointOwner owner;
+  try {
+    visit(archive, owner);
+  } catch (const Error&) {
+    refuse(file, "it is damaged");
+  }
+  for (const std::string& keys : {owner.scene, owner.choices})
+    if (!nlohmann::json::parse(keys, nullptr, false).is_object()) refuse(file, "it is damaged");
+  return owner;
+}
+
 void refuse_another(const fs::path& file, const CheckpointOwner& there, const CheckpointOwner& here) {
   const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
     if (a != b) refuse(file, "its " + std::string(what) + " is " + a + ", not " + b);
@@ -74,6 +87,7 @@ std::string differing_keys(const std::string& json, const std::string& other) {
   std::string names;
   int count = 0;
   const auto add = [&](const std::string& pointer) {
+    if (pointer.empty()) return;  // an empty object becomes one entry without a name
     if (++count > kShown) return;
     std::string path = pointer.substr(1);
     for (char& c : path)
@@ -106,9 +120,7 @@ std::optional<std::string> read_checkpoint(const fs::path& file, const Checkpoin
   const std::string all = whole_file(file, "cannot resume from " + file.string(), kMost);
   const std::string_view body = checked_body(file, all);
   Archive archive(body);
-  CheckpointOwner there;
-  visit(archive, there);
-  refuse_another(file, there, owner);
+  refuse_another(file, owner_in(archive, file), owner);
   return std::string(archive.rest());
 }
 

@@ -20,5 +20,10 @@ TEST(Error, OfNothingInParticularHasItsMessageAlone) {
   EXPECT_EQ(error.key() + error.value() + error.experiment(), "");
 }
 
+TEST(Error, IsOneLineWhateverItQuotes) {
+  EXPECT_STREQ(Error::request("law = a\r\n\tb must be c\n").in("swing").what(),
+               "swing: law = a   b must be c");
+}
+
 }  // namespace
 }  // namespace hysteron
