@@ -66,6 +66,34 @@ TEST(Program, SaysInOneLineThatAPathLeadsToItself) {
                                                                  ": Too many levels of symbolic links\n");
 }
 
+TEST(Program, NeedsNoHomeAndNoPlaceForTemporaryFiles) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
+  const std::string line = "env -u HOME TMPDIR=/nonexistent " HYSTERON_PROGRAM
+                           " swing --quick --triangles 40 --seconds 0.02 --no-images --quiet --out " +
+                           out + " >/dev/null 2>" + err;
+  EXPECT_EQ(std::system(line.c_str()), 0) << text_of(err);
+  EXPECT_EQ(text_of(err), "");
+}
+
+// The first run and the one that replaces it.
+TEST(Program, LeavesTenThousandFilesOfOthersInItsFolderAlone) {
+  const Folder folder;
+  constexpr int kFiles = 10000;
+  const fs::path out = folder.path() / "out";
+  fs::create_directory(out);
+  for (int i = 0; i < kFiles; ++i) std::ofstream(out / ("note" + std::to_string(i)));
+  for (int run = 0; run < 2; ++run) {
+    const Outcome outcome =
+        program("swing --quick --triangles 40 --seconds 0.02 --no-images --quiet --out " + out.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  const auto notes =
+      std::count_if(fs::directory_iterator(out), fs::directory_iterator(),
+                    [](const auto& entry) { return entry.path().filename().string().starts_with("note"); });
+  EXPECT_EQ(notes, kFiles);
+}
+
 TEST(Program, ListsTheFabricsWithTheirSource) {
   const Outcome outcome = program("list fabrics");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -27,9 +28,9 @@ namespace {
 
 // Without those that change no file of a run, or whose outcome is in the scene.
 std::string choices_of(Keys keys) {
-  static const std::set<std::string> kOthers = {"scene",       "out",        "quick",  "explain",
-                                                "quiet",       "json",       "errors", "errors.draws",
-                                                "errors.jobs", "checkpoint", "resume", "dump-scene"};
+  static const std::set<std::string> kOthers = {
+      "scene",        "out",         "quick",      "explain", "quiet",      "json",      "errors",
+      "errors.draws", "errors.jobs", "checkpoint", "resume",  "dump-scene", "max-memory"};
   std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
   return to_json(keys).dump();
 }
@@ -49,6 +50,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   }
   check_scene(setup.scene);
   check_options(setup.options);
+  check_memory(setup);
   if (setup.options.errors) check_errors(line.experiment);
   setup.choices = choices_of(extra);
   setup.asked = asked_text(setup.scene);

@@ -34,6 +34,7 @@ struct Options {
   int errors_jobs = 0;                 // errors.jobs  repeats at a time, 0: as many as fit
   double checkpoint = 0;               // checkpoint   [s] of wall clock between two; 0: none
   bool resume = false;                 // resume       go on from OUT/checkpoint
+  double max_memory = 0;               // max-memory   [MB] that the run may take; 0: what the machine has
   bool quick = false;                  // quick      a small version of the same question
   std::string dump_scene;              // dump-scene write the resolved scene as TOML, and stop
   bool explain = false;                // explain    print what the scene includes, and stop

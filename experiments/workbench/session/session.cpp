@@ -8,6 +8,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/compare/errors.h"
@@ -70,6 +71,11 @@ const Setup& checked(const Setup& setup) {
   return setup;
 }
 
+const Cloth& fitting(const Setup& setup, const Cloth& cloth) {
+  check_memory(setup, cloth.mesh.faces());
+  return cloth;
+}
+
 }  // namespace
 
 void explain(const Cloth& cloth, const Simulation& simulation) {
@@ -98,11 +104,12 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     : line_(line),
       setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
-      simulation_(make_simulation(setup.scene, cloth_)),
+      simulation_(make_simulation(setup.scene, fitting(setup, cloth_))),
       rest_angle_(rest_angles(cloth_.mesh)),
       recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
+    std::cout << text_of(memory_need(setup, cloth_.mesh.faces())) << std::endl;
     return;
   }
   if (!setup.options.dump_scene.empty()) {
