@@ -2,29 +2,29 @@
 
 #include <zlib.h>
 
-#include "experiments/workbench/pages/gallery.h"
-#include "experiments/workbench/pages/report.h"
-#include "experiments/workbench/pages/text_table.h"
+#include <cstring>
+
+#include "experiments/sweep/study.h"
+#include "experiments/workbench/app/recorded_command.h"
+#include "experiments/workbench/app/scene_source.h"
+#include "experiments/workbench/session/checkpoint.h"
 #include "render/image.h"
 #include "render/plot.h"
+#include "sim/base/archive.h"
 #include "sim/base/csv.h"
+#include "sim/base/fnv1a.h"
 #include "sim/identification/series.h"
-#include "sim/mesh/builders.h"
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/mesh/garment.h"
 #include "sim/mesh/surface.h"
+#include "sim/reference/fab_loops.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::fuzz {
 namespace {
 namespace fs = std::filesystem;
-
-const std::vector<std::string> kNumbers = {"0",   "-1",          "1e300",       "-1e300",     "nan",
-                                           "inf", "99999999999", "-2147483648", "4294967295", "1e-320"};
-
-std::vector<std::string> with_numbers(std::vector<std::string> words) {
-  words.insert(words.end(), kNumbers.begin(), kNumbers.end());
-  return words;
-}
+using experiments::Setup;
 
 void read_scene(const fs::path& file) {
   Scene scene = default_scene();
@@ -32,12 +32,45 @@ void read_scene(const fs::path& file) {
   check_scene(scene);
 }
 
-// A copy of the file under a name of its own, in a folder of results beside it.
-fs::path placed(const fs::path& file, const char* name) {
-  const fs::path folder = file.parent_path() / "results" / "run";
-  fs::create_directories(folder);
-  fs::copy_file(file, folder / name, fs::copy_options::overwrite_existing);
-  return folder;
+Format toml() {
+  return {"toml", "toml", ".toml", {read_scene, [](const fs::path& file) {
+                                      read_fabric(file.string(), "--fabric");
+                                    }}};
+}
+
+Format study() {
+  return {"study", "study", ".toml", {[](const fs::path& file) { experiments::read_study(file.string()); }}};
+}
+
+Format obj() {
+  return {"obj",
+          "obj",
+          ".obj",
+          {[](const fs::path& file) { read_obj(file.string(), 0); },
+           [](const fs::path& file) { read_obj(file.string(), 1e-3); },
+           [](const fs::path& file) { read_pattern(file.string(), 0); },
+           [](const fs::path& file) { read_surface(file.string()); }}};
+}
+
+Format ply() {
+  return {"ply", "ply", ".ply", {[](const fs::path& file) { read_surface(file.string()); }}};
+}
+
+Format csv() {
+  constexpr double kRipple = 0.05;
+  return {"csv",
+          "csv",
+          ".csv",
+          {[](const fs::path& file) {
+             read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
+           },
+           [](const fs::path& file) { read_whole_csv(file, "report"); },
+           [](const fs::path& file) { read_words(file); },
+           [](const fs::path& file) { read_series(file, kRipple, "fit"); },
+           [](const fs::path& file) { read_kes_series(file, kRipple, "fit"); },
+           [](const fs::path& file) { read_fab(file, TesterUnits::si, "fit"); },
+           [](const fs::path& file) { read_fab(file, TesterUnits::fab, "fab"); },
+           [](const fs::path& file) { render::series_from_csv(file, "curvature", "moment", ""); }}};
 }
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
@@ -46,7 +79,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// With the check sums of what its chunks are now: otherwise no reader looks further.
+// Without them no reader looks further.
 std::string with_check_sums(std::string png) {
   for (std::size_t at = 8; at + 12 <= png.size();) {
     const std::size_t length = big_endian(png, at);
@@ -59,95 +92,78 @@ std::string with_check_sums(std::string png) {
   return png;
 }
 
-Format toml() {
-  return {"toml",
-          with_numbers({"[",
-                        "]",
-                        "[[",
-                        "]]",
-                        "{",
-                        "}",
-                        "=",
-                        ",",
-                        ".",
-                        "\"",
-                        "'",
-                        "\"\"\"",
-                        "'''",
-                        "\\u0041",
-                        "\xC3\xA9",
-                        "#",
-                        "\n",
-                        "1979-05-27T07:32:00Z",
-                        "0x1F",
-                        "true",
-                        "[[[pin]]",
-                        "a=[[}",
-                        "a.a.a.a.a.a.a.a",
-                        "[[phase]]\n",
-                        "[[obstacle]]\n",
-                        "\"hang + 0.1\""}),
-          {read_scene, [](const fs::path& file) { read_fabric(file.string(), "--fabric"); }}};
-}
-
-Format obj() {
-  return {"obj",
-          with_numbers({"\nf ", "\nv ", "\nvt ", "\nvn ", "/", "//", "1/1/1", "\r\n", "\nl 1 2", "\np 1",
-                        "\nt a 9999999/1/1", "\ng x", "\nusemtl y", "\nmtllib z.mtl", "\\\n", "+1", "-3"}),
-          {[](const fs::path& file) { read_obj(file.string(), 0); },
-           [](const fs::path& file) { read_obj(file.string(), 1e-3); },
-           [](const fs::path& file) { read_surface(file.string()); }}};
-}
-
-Format ply() {
-  return {"ply",
-          with_numbers({"\nelement vertex 2147483648", "\nelement face ", "\nproperty list uchar int x",
-                        "\nproperty list uint uint vertex_indices", "\nproperty double x", "\nend_header\n",
-                        "\nformat ascii 1.0", "binary_big_endian", "binary_little_endian", "float", "char",
-                        "uint", "list", "\ncomment", std::string(4, '\xFF'), std::string(4, '\0')}),
-          {[](const fs::path& file) { read_surface(file.string()); }}};
-}
-
-Format csv() {
-  const auto chart = [](const fs::path& file) {
-    placed(file, "table.csv");
-    experiments::report_page(placed(file, "metrics.csv"));
-    experiments::gallery_page(file.parent_path() / "results");
-  };
-  return {"csv",
-          with_numbers({",", "\n", "\"", "\"\"", "curvature [1/m]", "moment [N]", "time [s]", "[", "]",
-                        "1/cm", "\xEF\xBB\xBF", ";", "\r"}),
-          {[](const fs::path& file) {
-             read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
-           },
-           [](const fs::path& file) { read_series(file, 0.05, "fuzz"); },
-           [](const fs::path& file) { read_words(file); },
-           [](const fs::path& file) { render::series_from_csv(file, "curvature", "moment", ""); }, chart}};
-}
-
 Format png() {
-  std::vector<std::string> words = {"IHDR", "IDAT", "PLTE", "tRNS", "IEND"};
-  for (const char byte : {'\0', '\1', '\x7F', '\xFF'})
-    for (const std::size_t count : {1, 4}) words.emplace_back(count, byte);
-  return {"png", words, {[](const fs::path& file) { render::read_png(file); }}, with_check_sums};
+  return {"png", "png", ".png", {[](const fs::path& file) { render::read_png(file); }}, with_check_sums};
 }
 
-Format json() {
-  return {"json",
-          with_numbers({"null", "true", "{", "}", "[", "]", "\"", ":", ",", "{}", "[]", "\"\"", "\\u0000",
-                        "\\", "\"metrics\"", "\"scene\"", "\"fabric\"", "\"law\"", std::string(200, '[')}),
-          {[](const fs::path& file) { experiments::report_page(placed(file, "manifest.json")); },
+// What `rerun`, `verify` and --scene take from it.
+Format manifest() {
+  return {"manifest",
+          "manifest",
+          ".json",
+          {[](const fs::path& file) {
+             Setup setup{default_scene(), {}};
+             experiments::apply_scene(setup, "swing", file.string(),
+                                      experiments::bind_options(setup.options));
+             check_scene(setup.scene);
+             experiments::check_options(setup.options);
+           },
            [](const fs::path& file) {
-             placed(file, "again.json");
-             experiments::gallery_page(file.parent_path() / "results");
+             experiments::line_that_repeats(experiments::recorded_run(file.string()));
            }}};
 }
 
+// Of the run that a stored one is of.
+experiments::CheckpointOwner owner() { return {"0.1.0", "swing", "cpu", R"({"step":0.01})", "{}", 1}; }
+
+// As a run begins to read it.
+void read_state(const fs::path& file) {
+  const std::string state = experiments::read_checkpoint(file, owner()).value_or("");
+  Archive archive{state};
+  std::vector<std::string> files;
+  std::string started;
+  double elapsed = 0;
+  std::vector<std::pair<std::string, double>> seconds;
+  std::vector<double> values;
+  archive(files);
+  archive(started);
+  archive(elapsed);
+  archive(seconds);
+  archive(values);
+}
+
+std::string sealed(std::string bytes) {
+  constexpr std::size_t kHead = 22;  // magic and format
+  std::uint64_t seal[2] = {};
+  if (bytes.size() < kHead + sizeof seal) return bytes;
+  const std::size_t body = kHead + sizeof seal;
+  seal[0] = bytes.size() - body;
+  seal[1] = fnv1a(&bytes[body], bytes.size() - body);
+  std::memcpy(&bytes[kHead], seal, sizeof seal);
+  return bytes;
+}
+
+Format checkpoint() { return {"checkpoint", "checkpoint", "", {read_state}, sealed}; }
+
 }  // namespace
 
-const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {toml(), obj(), ply(), csv(), png(), json()};
-  return all;
+std::vector<Format> formats() {
+  return {toml(), study(), obj(), ply(), csv(), png(), manifest(), checkpoint()};
+}
+
+int taken(const Format& format, const fs::path& file) {
+  int count = 0;
+  for (const auto& reader : format.readers) {
+    try {
+      reader(file);
+      ++count;
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      if (message.empty() || message.find_first_of("\n\r") != message.npos)
+        throw std::runtime_error("an error of several lines or none: " + message);
+    }
+  }
+  return count;
 }
 
 }  // namespace hysteron::fuzz

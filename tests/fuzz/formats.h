@@ -1,4 +1,4 @@
-// What is read of the files that a user names, and what such files may contain.
+// What is read of the files that a user names.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,19 @@
 namespace hysteron::fuzz {
 
 struct Format {
-  std::string name;                                                        // and ending of its seeds
-  std::vector<std::string> words;                                          // see Mutation
+  std::string name, seeds;                                                 // and of the folder of its seeds
+  std::string ending;                                                      // of its files, ".obj"
   std::vector<std::function<void(const std::filesystem::path&)>> readers;  // each may throw an Error
-  std::function<std::string(std::string)> repaired = nullptr;  // what half of the files go through first
+  std::function<std::string(std::string)> repaired = nullptr;  // with check sums of what is there now
 };
 
-const std::vector<Format>& formats();
+// OBJ, PLY, TOML, CSV, PNG, manifests and checkpoints.
+std::vector<Format> formats();
+// What a page shows of a manifest, and of a table beside one.
+std::vector<Format> pages();
+
+// How many of the readers took it, the others having refused it by an Error of one line.  Throws what
+// anything else threw.
+int taken(const Format& format, const std::filesystem::path& file);
 
 }  // namespace hysteron::fuzz
