@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/identification/fab_cycles.h"
@@ -15,19 +14,18 @@ namespace {
 using Style = render::Series::Style;
 
 constexpr const char* kCycleColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
+constexpr const char* kSheetColor = "#222222";
 constexpr double kMillimetre = 1e3;
 
 const char* color_of(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
 
-// Both branches of a cycle, one behind the other.
-render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle, Style style) {
-  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
-  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
-    for (std::size_t i = 0; i < force[b].size(); ++i) {
-      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
-      series.y.push_back(force[b][i]);
-    }
-  return series;
+// Around the middle between its ends, which a shape and its mirror image share.
+void add_line(const std::vector<Eigen::Vector2d>& line, double up, render::Series& series) {
+  const double middle = (line.front().x() + line.back().x()) / 2;
+  for (const Eigen::Vector2d& point : line) {
+    series.x.push_back(kMillimetre * (point.x() - middle));
+    series.y.push_back(kMillimetre * up * point.y());
+  }
 }
 
 double rms_of(const BranchForces& a, const BranchForces& b) {
@@ -59,17 +57,23 @@ TesterUnits tester_units(const std::string& name) {
       .of("units", name);
 }
 
+std::vector<CycleReading> readings(const FabLoops& loops, const BranchForces& force, int cycle) {
+  const std::string name = "_cycle" + std::to_string(cycle + 1);
+  return {{"area" + name + "_J_per_m", loop_area(loops, force, cycle)},
+          {"peak_force" + name + "_N_per_m", peak_force(loops, force, cycle)},
+          {"force_range" + name + "_N_per_m", force_range(force, cycle)}};
+}
+
 void add_metrics(Run& run, const ComparedLoops& compared) {
   const BranchForces measured = compared.measured_forces();
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
     const auto add = [&](const std::string& before, const BranchForces& force) {
-      const std::string name = "_cycle" + std::to_string(cycle + 1);
-      run.metric(before + "area" + name + "_J_per_m", loop_area(compared.loops, force, cycle));
-      run.metric(before + "peak_force" + name + "_N_per_m", peak_force(compared.loops, force, cycle));
-      run.metric(before + "force_range" + name + "_N_per_m", force_range(force, cycle));
+      for (const auto& [name, value] : readings(compared.loops, force, cycle))
+        run.metric(before + name, value);
     };
     add("", compared.run.force);
     if (compared.measured) add("measured_", measured);
+    if (compared.sheet) add("sheet_", compared.sheet->force);
   }
   if (compared.measured) {
     run.metric("difference_rms_N_per_m", rms_of(compared.run.force, measured));
@@ -88,6 +92,7 @@ void write_loops(Run& run, const std::string& name, const ComparedLoops& compare
   std::vector<CsvField> head = {"direction", "test",           "branch", "clamp_distance_m",
                                 "force_N",   "gauge_length_m", "width_m"};
   if (compared.measured) head.emplace_back("measured_force_N");
+  if (compared.sheet) head.emplace_back("sheet_force_N");
   CsvFile file(run.path(name), head);
   const BranchForces measured = compared.measured_forces();
   for (std::size_t b = 0; b < loops.branches.size(); ++b)
@@ -100,9 +105,21 @@ void write_loops(Run& run, const std::string& name, const ComparedLoops& compare
                                    loops.gauge,
                                    loops.width};
       if (compared.measured) row.emplace_back(measured[b][i] * loops.width);
+      if (compared.sheet) row.emplace_back(compared.sheet->force[b][i] * loops.width);
       file.row(row);
     }
   file.commit();
+}
+
+render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle,
+                         render::Series::Style style) {
+  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
+  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
+    for (std::size_t i = 0; i < force[b].size(); ++i) {
+      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
+      series.y.push_back(force[b][i]);
+    }
+  return series;
 }
 
 void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {
@@ -113,6 +130,13 @@ void draw_loops(Run& run, const std::string& name, const std::string& title, con
     model.label = "cycle " + std::to_string(cycle + 1) +
                   fmt::format(", {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.run.force, cycle));
     plot.series.push_back(model);
+    if (compared.sheet) {
+      render::Series sheet = series_of(compared.loops, compared.sheet->force, cycle, Style::dashed);
+      sheet.label =
+          fmt::format("sheet, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.sheet->force, cycle));
+      sheet.color = kSheetColor;
+      plot.series.push_back(sheet);
+    }
     if (!compared.measured) continue;
     render::Series data = series_of(compared.loops, measured, cycle, Style::points);
     data.label = fmt::format("measured, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, measured, cycle));
@@ -132,13 +156,17 @@ void draw_shapes(Run& run, const std::string& name, const std::string& title, co
     if (i > 0) series.label = "cycle " + std::to_string((i + 1) / 2) + (back ? ", back" : ", out");
     series.style = back ? Style::dashed : Style::line;
     if (i > 0) series.color = color_of(static_cast<int>(i - 1) / 2);
-    const auto& line = compared.run.shapes[i];
-    for (const Eigen::Vector2d& point : line) {
-      series.x.push_back(kMillimetre * (point.x() - line.back().x() / 2));
-      series.y.push_back(kMillimetre * up * point.y());
-    }
+    add_line(compared.run.shapes[i], up, series);
     plot.series.push_back(series);
   }
+  if (compared.sheet)
+    for (const auto& line : compared.sheet->shapes) {
+      render::Series series{.label = &line == &compared.sheet->shapes[0] ? "sheet" : "", .x = {}, .y = {}};
+      series.style = Style::points;
+      series.color = kSheetColor;
+      add_line(line, up, series);
+      plot.series.push_back(series);
+    }
   run.plot(name, plot);
 }
 

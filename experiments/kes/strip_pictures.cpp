@@ -2,12 +2,13 @@
 
 #include <fmt/core.h>
 
-#include "render/look.h"
+#include "experiments/specimens/jaw.h"
 
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kJawLength = 2.5e-3, kJawOverhang = 0.6e-3, kJawThickness = 0.7e-3;  // [m]
+constexpr double kJawLength = 2.5e-3;  // [m]
+constexpr JawSize kJaw{.overhang = 0.6e-3, .thickness = 0.7e-3};
 
 constexpr float kFieldOfView = 28;                 // [degree]
 constexpr double kReach = 9.5e-3;                  // of clamp and jaw to either side [m]
@@ -20,17 +21,6 @@ render::Box framed(double turn, float width, double half_height) {
           {12e-3f, width, static_cast<float>(middle + half_height)}};
 }
 
-// A jaw that grips the strip up to `edge`; bodies are drawn smaller by the look's inset.
-Obstacle jaw(double from, double to, double width) {
-  const double inset = render::Look{}.obstacle_inset;
-  Obstacle box;
-  box.kind = ObstacleKind::box;
-  box.center = {(from + to) / 2, width / 2, 0};
-  box.size = Eigen::Vector3d((to - from) / 2, width / 2 + kJawOverhang, kJawThickness / 2).array() + inset;
-  box.rim = 0.3 * inset;
-  return box;
-}
-
 }  // namespace
 
 StripPictures::StripPictures(const Options& options, const ClampedStrip& strip)
@@ -38,7 +28,8 @@ StripPictures::StripPictures(const Options& options, const ClampedStrip& strip)
   setup_.options.size = "960x720";
   setup_.options.camera_direction = {0.4, -1.0, 0.3};
   const double width = strip.scene.cloth.width, d = strip.spacing;
-  setup_.scene.obstacle = {jaw(-kJawLength, d, width), jaw(kGauge, kGauge + d + kJawLength, width)};
+  setup_.scene.obstacle = {jaw(-kJawLength, d, width, kJaw),
+                           jaw(kGauge, kGauge + d + kJawLength, width, kJaw)};
   setup_.scene.obstacle[1].motion = strip.scene.pin[1].motion;
   const std::vector<std::size_t>& turn = strip.walk.start;
   rows_ = {turn[1] / 2, turn[1], (turn[1] + turn[2]) / 2, turn[2]};

@@ -9,7 +9,6 @@
 namespace hysteron {
 namespace {
 
-constexpr double kGravity = 9.80665;  // [m/s^2]
 constexpr double kElement = 0.33e-3;  // length of an element [m]: forces to 0.1 % at a gauge of 2 cm
 constexpr int kFewestElements = 32, kMostElements = 256;  // of half a strip
 constexpr double kStep = 0.02;  // of the clamps, of the gauge: history in between is monotone
@@ -31,7 +30,7 @@ class Work {
 };
 
 FabRun bent(const FabLoops& loops, const FabStrip& strip, int branches) {
-  const double weight = kGravity * strip.density;
+  const double weight = kStandardGravity * strip.density;
   const int elements =
       std::clamp(static_cast<int>(std::lround(loops.gauge / 2 / kElement)), kFewestElements, kMostElements);
   BuckledStripTest test({strip.bending, loops.gauge, loops.bends_up() ? weight : -weight, elements},

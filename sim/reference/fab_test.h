@@ -9,6 +9,8 @@
 
 namespace hysteron {
 
+inline constexpr double kStandardGravity = 9.80665;  // [m/s^2]
+
 struct FabStrip {
   StopsLaw bending;    // [N m] against curvature; of the direction along which the strip is cut
   StopsLaw stretch;    // [N/m] against strain
