@@ -1,6 +1,8 @@
 // Compiled by nvcc only.
 #include "sim/device/cuda.h"
 
+#include <cstdlib>
+
 #if __has_include(<nvtx3/nvToolsExt.h>)
 #include <nvtx3/nvToolsExt.h>
 #define HYST_NVTX(call) call
@@ -10,7 +12,16 @@
 
 namespace hysteron {
 
-Cuda::Cuda(int device) : index(device) {
+namespace {
+
+bool may_use_graphs() {
+  const char* asked = std::getenv("HYSTERON_CUDA_GRAPHS");
+  return !asked || std::string(asked) != "0";
+}
+
+}  // namespace
+
+Cuda::Cuda(int device) : index(device), graphs(may_use_graphs()) {
   check_cuda(cudaSetDevice(index), "select device");
   check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
   check_cuda(cudaMalloc(&arrived, sizeof(unsigned)), "allocate");

@@ -31,6 +31,7 @@ struct Cuda {
   int partial_size = 0;
   unsigned* arrived = nullptr;  // blocks that have delivered their partial sums
   void* staging = nullptr;      // pinned memory of the host
+  bool graphs;                  // loops may be graphs (while_loop.h); HYSTERON_CUDA_GRAPHS=0: none
   std::unique_ptr<KernelProfile<Cuda>> profile;
 
   explicit Cuda(int device);

@@ -40,10 +40,10 @@ class WhileLoop<Cuda> {
   // Repeats the loops that order() orders until *done, in the GPU's memory, is not 0; from then on they must
   // change nothing, for a round may follow.  Orders of one key are the same loops over the same memory: they
   // are captured once, after a first round in which they may allocate what later ones use.  False where the
-  // driver cannot, and where kernels are profiled one by one: the caller goes on.
+  // driver cannot, where it must not, and where kernels are profiled one by one: the caller goes on.
   template <class Order>
   bool run(Cuda& cuda, const std::vector<const void*>& key, const int* done, const Order& order) {
-    if (cuda.profile) return false;
+    if (cuda.profile || !cuda.graphs) return false;
     cudaGraphExec_t loop = known(key, cuda.partial);
     if (!loop && works_) {
       order();

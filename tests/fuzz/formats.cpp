@@ -48,7 +48,7 @@ Format obj() {
           ".obj",
           {[](const fs::path& file) { read_obj(file.string(), 0); },
            [](const fs::path& file) { read_obj(file.string(), 1e-3); },
-           [](const fs::path& file) { read_pattern(file.string(), 0); },
+           [](const fs::path& file) { read_pattern(file.string(), 0, 1); },
            [](const fs::path& file) { read_surface(file.string()); }}};
 }
 

@@ -52,7 +52,7 @@ const Headlines kAll[] = {
      .all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}", 1, kNoErrors},
              {"node_count", "folds", "", "{:.0f}", 1, kNoErrors},
              {"bending_length_m", "bending length", "mm", "{:.2f}", kMilli, kNoErrors}}},
-    {.experiment = "run", .asked = true},
+    {.experiment = "run", .all = {}, .asked = true},
     {.experiment = "sweep",
      .all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
              {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}},

@@ -85,7 +85,9 @@ TEST(Panels, SeamIsAsLongAsTheMeanOfItsSides) {
       tube({.second = [](const Vector2d& at) { return Vector2d(1.5 * at.x(), at.y() + 1); }});
   const double cell = PanelTube::kLength / PanelTube::kAlong;
   for (int e = 0; e < mesh.interior_edges; ++e)
-    if (is_seam(mesh, e)) EXPECT_EQ(mesh.edge_length(e), (cell + 1.5 * cell) / 2);
+    if (is_seam(mesh, e)) {
+      EXPECT_EQ(mesh.edge_length(e), (cell + 1.5 * cell) / 2);
+    }
 }
 
 TEST(Panels, TravelAsTextureCoordinates) {
