@@ -126,9 +126,8 @@ double height_of(const FabRun& run) {  // to which the strip buckles at most [m]
   return height;
 }
 
-SheetRun tested_sheet(Run& run, const TestFlags& flags, const Fabric& fabric, const ComparedLoops& compared,
+SheetRun tested_sheet(Run& run, const TestFlags& flags, const FabSheet& sheet, const ComparedLoops& compared,
                       const std::string& title) {
-  const FabSheet sheet = fab_sheet(compared.loops, fabric, flags.sheet);
   SheetPictures pictures(run, flags.options, sheet, compared.loops, height_of(compared.run));
   const auto watch = [&](const SheetRow& row, Simulation& simulation) {
     if (row.row + 1 == compared.loops.branches[row.branch].distance.size())
@@ -138,14 +137,15 @@ SheetRun tested_sheet(Run& run, const TestFlags& flags, const Fabric& fabric, co
   };
   const SheetRun result = test_sheet(sheet, compared.loops, watch);
   if (!flags.options.no_images) pictures.finish(title);
+  run.manifest().element = name_of(sheet.scene.element);
+  run.manifest().law = sheet.scene.law;
   return result;
 }
 
-SheetRepeats verify_by_sheet(Run& run, const TestFlags& flags, ComparedLoops& compared,
+SheetRepeats verify_by_sheet(Run& run, const TestFlags& flags, const FabSheet& sheet, ComparedLoops& compared,
                              const std::string& title) {
-  const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
-  compared.sheet = tested_sheet(run, flags, fabric, compared, title);
-  SheetRepeats repeats = repeated(compared.loops, fabric, flags.sheet);
+  compared.sheet = tested_sheet(run, flags, sheet, compared, title);
+  SheetRepeats repeats = repeated(compared.loops, sheet.scene.fabric, flags.sheet);
   if (!flags.options.no_images) draw_difference(run, title, compared);
   return repeats;
 }
@@ -161,17 +161,19 @@ int run_test(const CommandLine& line) {
   if (flags.on == "strip") refuse_sheet_keys(line);
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
-  const FabFabric fabric = read_fab_fabric(flags.fabric, "--fabric");
-  const FabStrip strip = fabric.strip(flags.direction);
+  const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
+  const FabStrip strip = fab_fabric(fabric).strip(flags.direction);
   const bool measured = !flags.data.empty();
   const FabLoops loops = measured ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab"),
                                                flags.direction, flags.test)
                                   : loops_without_data(flags);
+  std::optional<FabSheet> sheet;
+  if (flags.on == "sheet") sheet = fab_sheet(loops, fabric, flags.sheet);
   Run run(line, flags.options, to_json(keys));
   ComparedLoops compared(loops, run_fab(loops, strip), measured);
   const std::string title = fabric.name + ", " + loops.name();
   std::optional<SheetRepeats> repeats;
-  if (flags.on == "sheet") repeats = verify_by_sheet(run, flags, compared, title);
+  if (sheet) repeats = verify_by_sheet(run, flags, *sheet, compared, title);
   add_metrics(run, compared);
   if (repeats) add_sheet_metrics(run, compared, *repeats);
   write_loops(run, "fab.csv", compared);

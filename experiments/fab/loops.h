@@ -28,6 +28,7 @@ struct ComparedLoops {
 TesterUnits tester_units(const std::string& name);
 
 struct CycleReading {
+  const char* what;  // "area"
   std::string name;  // "area_cycle1_J_per_m"
   double value;
 };

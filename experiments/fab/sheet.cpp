@@ -7,6 +7,7 @@
 
 #include "experiments/specimens/clamped_mesh.h"
 #include "sim/base/error.h"
+#include "sim/identification/fab_fabric.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -16,9 +17,16 @@ using Clock = std::chrono::steady_clock;
 constexpr double kHardly = 1e-6;  // of the fabric's thresholds: friction that slips at once carries nothing
 constexpr int kPieces = 256;      // of a slope that is summed up
 
-double warp_angle_of(const std::string& direction) {  // [degree]
-  if (direction == "L" || direction == "warp") return 0;
-  return direction == "W" || direction == "weft" ? 90 : 45;
+double warp_angle_of(StripDirection direction) {  // [degree]
+  switch (direction) {
+    case StripDirection::warp:
+      return 0;
+    case StripDirection::weft:
+      return 90;
+    case StripDirection::bias:
+      break;
+  }
+  return 45;
 }
 
 // The fabric with friction that carries nothing and remembers where the cloth is.
@@ -79,7 +87,7 @@ Scene scene_of(const FabLoops& loops, const Fabric& fabric, const SheetShape& sh
   scene.param = {{"memory", "stops"}, {"stops", std::to_string(kMostStops)}};
   scene.cloth.shape = "strip";
   scene.cloth.width = shape.width > 0 ? shape.width : loops.width;
-  scene.cloth.warp_angle = warp_angle_of(loops.direction);
+  scene.cloth.warp_angle = warp_angle_of(strip_direction(loops.direction));
   scene.mesh = shape.mesh;
   scene.integrator = Integrator::quasi_static;
   scene.linear_solver = Preconditioning::cholesky;

@@ -34,9 +34,9 @@ struct FabSheet {
   double side = 1;     // 1: buckles up, -1: down
 };
 
-// Bends as FabFabric::strip() says of the loops' direction; of a fabric whose stops differ along warp and
-// weft, a strip on the bias by both at once.  A fabric's permanent set is left out, as the strip has none.
-// Error::request for meshes that do not exist and for tests that stretch.
+// Cut along the loops' direction; of a fabric whose stops differ along warp and weft, a strip on the bias
+// bends by both at once.  A fabric's permanent set is left out, as the elastica has none.  Error::request for
+// directions and meshes that do not exist and for tests that stretch.
 FabSheet fab_sheet(const FabLoops& loops, const Fabric& fabric, const SheetShape& shape);
 
 struct SheetRun {

@@ -46,10 +46,17 @@ BranchForces difference(const BranchForces& a, const BranchForces& b) {
 
 // A reading of the sheet beside the elastica's, and what it changes by with the repeats.
 struct Verified {
-  std::string name;
-  double strip, sheet, mesh_error, step_error;
-  double percent() const { return 100 * (sheet / strip - 1); }
+  CycleReading strip;
+  double sheet, mesh_error, step_error;
+  double percent(double of) const { return 100 * of / std::abs(strip.value); }
+  double difference_percent() const { return percent(sheet - strip.value); }
 };
+
+// Of a cycle without friction the area is what rounding leaves of it: no number to be compared with.
+bool is_rounding(const CycleReading& reading, const FabLoops& loops, const BranchForces& force) {
+  constexpr double kRounding = 1e-6;  // relative
+  return std::abs(reading.value) < kRounding * loops.gauge * largest(force);
+}
 
 std::vector<Verified> verified(const ComparedLoops& compared, const SheetRepeats& repeats, int cycle) {
   const FabLoops &all = compared.loops, &some = repeats.every_other;
@@ -60,9 +67,9 @@ std::vector<Verified> verified(const ComparedLoops& compared, const SheetRepeats
   const auto far_apart = readings(some, repeats.far_apart.force, cycle);
   std::vector<Verified> result;
   for (std::size_t i = 0; i < strip.size(); ++i)
-    result.push_back({strip[i].name, strip[i].value, sheet[i].value,
-                      std::abs(sheet[i].value - coarse[i].value),
-                      std::abs(near[i].value - far_apart[i].value)});
+    if (!is_rounding(strip[i], all, compared.run.force))
+      result.push_back({strip[i], sheet[i].value, std::abs(sheet[i].value - coarse[i].value),
+                        std::abs(near[i].value - far_apart[i].value)});
   return result;
 }
 
@@ -78,9 +85,10 @@ SheetRepeats repeated(const FabLoops& loops, const Fabric& fabric, SheetShape sh
 void add_sheet_metrics(Run& run, const ComparedLoops& compared, const SheetRepeats& repeats) {
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle)
     for (const Verified& v : verified(compared, repeats, cycle)) {
-      run.metric("sheet_" + v.name + "_difference_percent", v.percent());
-      run.metric("sheet_" + v.name + "_mesh_error", v.mesh_error);
-      run.metric("sheet_" + v.name + "_step_error", v.step_error);
+      const std::string name = "sheet_" + v.strip.name;
+      run.metric(name + "_difference_percent", v.difference_percent());
+      run.metric(name + "_mesh_error", v.mesh_error);
+      run.metric(name + "_step_error", v.step_error);
     }
   const SheetRun& sheet = *compared.sheet;
   run.metric("sheet_largest_force_difference_percent",
@@ -112,12 +120,11 @@ void draw_difference(Run& run, const std::string& title, const ComparedLoops& co
 
 void print_sheet(const ComparedLoops& compared, const SheetRepeats& repeats) {
   for (int cycle = 0; cycle < compared.loops.cycles(); ++cycle) {
-    const std::vector<Verified> of = verified(compared, repeats, cycle);
-    fmt::print("  sheet, cycle {}:", cycle + 1);
-    for (const auto& [v, what] : {std::pair{of.front(), "area"}, {of.back(), "force range"}})
-      fmt::print(" {} {:+.2f} % (mesh {:.2f} %, step {:.3f} %)", what, v.percent(),
-                 100 * v.mesh_error / v.strip, 100 * v.step_error / v.strip);
-    fmt::print("\n");
+    std::string line = fmt::format("sheet, cycle {}:", cycle + 1);
+    for (const Verified& v : verified(compared, repeats, cycle))
+      line += fmt::format(" {} {:+.2f} % (mesh {:.2f}, step {:.3f}),", v.strip.what, v.difference_percent(),
+                          v.percent(v.mesh_error), v.percent(v.step_error));
+    fmt::print("  {}\n", line.substr(0, line.size() - 1));
   }
 }
 

@@ -133,7 +133,7 @@ StopsLaw of_three_numbers(const VirginCurve& curve) {
   return law;
 }
 
-// M = sqrt(q) M_law(sqrt(q) K): the metric by which cloth bends along weft.
+// M = sqrt(q) M_law(sqrt(q) K): the metric by which cloth bends along weft and bias.
 StopsLaw scaled(StopsLaw law, double q) {
   law.spring *= q;
   for (double& threshold : law.thresholds) threshold /= std::sqrt(q);
@@ -161,28 +161,46 @@ void write_fab_fabric(const std::filesystem::path& file, const FabIdentification
   target.commit();
 }
 
+StripDirection strip_direction(const std::string& name) {
+  if (name == "L" || name == "warp") return StripDirection::warp;
+  if (name == "W" || name == "weft") return StripDirection::weft;
+  if (name == "B" || name == "bias") return StripDirection::bias;
+  throw Error::request("direction = " + name + " must be L (warp) | W (weft) | B (bias)")
+      .of("fab.direction", name);
+}
+
 FabStrip FabFabric::strip(const std::string& direction) const {
-  if (direction == "L" || direction == "warp") return {warp, warp_tension, density};
-  if (direction == "W" || direction == "weft") return {weft, weft_tension, density};
-  if (direction == "B" || direction == "bias")
-    return {mean_of(warp, weft), mean_of(warp_tension, weft_tension), density};
-  throw Error::request("direction = " + direction + " must be L (warp) | W (weft) | B (bias)")
-      .of("fab.direction", direction);
+  switch (strip_direction(direction)) {
+    case StripDirection::warp:
+      return {warp, warp_tension, density};
+    case StripDirection::weft:
+      return {weft, weft_tension, density};
+    case StripDirection::bias:
+      break;
+  }
+  return {bias ? *bias : mean_of(warp, weft), mean_of(warp_tension, weft_tension), density};
+}
+
+FabFabric fab_fabric(const Fabric& fabric) {
+  const Spectrum &stops = fabric.bending.stops, &weft = fabric.bending.weft_stops;
+  FabFabric result;
+  result.name = fabric.name;
+  result.density = fabric.density;
+  result.warp = stops.empty() ? of_three_numbers(fabric.virgin_curve())
+                              : StopsLaw{fabric.b2, stops.thresholds, stops.stiffnesses};
+  if (weft.empty()) {
+    result.weft = scaled(result.warp, fabric.weft_bending);
+    result.bias = scaled(result.warp, fabric.bias_bending);
+  } else {
+    result.weft = {fabric.weft_bending * fabric.b2, weft.thresholds, weft.stiffnesses};
+  }
+  result.warp_tension = in_plane_law(fabric, Along::warp).tension;
+  result.weft_tension = in_plane_law(fabric, Along::weft).tension;
+  return result;
 }
 
 FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin) {
-  const Fabric read = read_fabric(name_or_file, origin).fabric;
-  const Spectrum &stops = read.bending.stops, &weft = read.bending.weft_stops;
-  FabFabric fabric;
-  fabric.name = read.name;
-  fabric.density = read.density;
-  fabric.warp = stops.empty() ? of_three_numbers(read.virgin_curve())
-                              : StopsLaw{read.b2, stops.thresholds, stops.stiffnesses};
-  fabric.weft = weft.empty() ? scaled(fabric.warp, read.weft_bending)
-                             : StopsLaw{read.weft_bending * read.b2, weft.thresholds, weft.stiffnesses};
-  fabric.warp_tension = in_plane_law(read, Along::warp).tension;
-  fabric.weft_tension = in_plane_law(read, Along::weft).tension;
-  return fabric;
+  return fab_fabric(read_fabric(name_or_file, origin).fabric);
 }
 
 }  // namespace hysteron

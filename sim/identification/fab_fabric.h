@@ -15,6 +15,7 @@
 #include "sim/identification/fab_bending.h"
 #include "sim/identification/fab_tension.h"
 #include "sim/identification/fabric_file.h"
+#include "sim/scene/scene.h"
 
 namespace hysteron {
 
@@ -29,18 +30,28 @@ struct FabIdentification {
 void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
                       const FabricNotes& notes);
 
+// Along which a strip is cut.
+enum class StripDirection { warp, weft, bias };
+
+// Of "L" or "warp", "W" or "weft", "B" or "bias"; Error::request for others.
+StripDirection strip_direction(const std::string& name);
+
 // The laws that a strip cut along one of three directions follows.
 struct FabFabric {
   std::string name;
   double density = 0;                   // [kg/m^2]
   StopsLaw warp, weft;                  // of bending
+  std::optional<StopsLaw> bias;         // of bending, where something is known of it
   StopsLaw warp_tension, weft_tension;  // of stretch
 
-  // "L" and "warp", "W" and "weft"; "B" and "bias": half of each, the mean of the rigidities (Cooper 1960
-  // with a twisting rigidity of that mean).  Error::request for others.
+  // Along a bias of which nothing is known, half of each: the mean of the rigidities (Cooper 1960 with a
+  // twisting rigidity of that mean).  Throws as strip_direction().
   FabStrip strip(const std::string& direction) const;
 };
 
+// Without stops of its own along weft, a fabric bends along weft and bias as weft-bending and bias-bending
+// say.
+FabFabric fab_fabric(const Fabric& fabric);
 // By name (assets/fabrics) or file.  Throws as read_fabric().
 FabFabric read_fab_fabric(const std::string& name_or_file, const std::string& origin);
 

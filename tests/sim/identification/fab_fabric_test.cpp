@@ -68,5 +68,19 @@ TEST(FabFabric, WithoutStopsBendsAsItsThreeNumbersSay) {
   EXPECT_NEAR(law.friction(), curve.friction_moment(), kRounding * curve.friction_moment());
 }
 
+// Along a direction of rigidity q friction slides at moments sqrt(q) times those along warp.
+TEST(FabFabric, WithoutStopsBendsAlongWeftAndBiasAsItsRatiosSay) {
+  Fabric fabric;
+  fabric.weft_bending = 1.4, fabric.bias_bending = 1.6;
+  const FabFabric tested = fab_fabric(fabric);
+  const StopsLaw warp = tested.strip("L").bending;
+  constexpr double kRounding = 1e-12;
+  for (const auto& [direction, q] : {std::pair{"W", 1.4}, {"B", 1.6}}) {
+    const StopsLaw law = tested.strip(direction).bending;
+    EXPECT_NEAR(law.spring / (q * warp.spring), 1, kRounding) << direction;
+    EXPECT_NEAR(law.friction() / (std::sqrt(q) * warp.friction()), 1, kRounding) << direction;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron
