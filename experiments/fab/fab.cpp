@@ -136,7 +136,7 @@ SheetRun tested_sheet(Run& run, const TestFlags& flags, const FabSheet& sheet, c
     if (!flags.options.no_images) pictures.watch(row, simulation);
   };
   const SheetRun result = test_sheet(sheet, compared.loops, watch);
-  if (!flags.options.no_images) pictures.finish(title);
+  if (!flags.options.no_images) pictures.finish("Sheet between clamps, " + title);
   run.manifest().element = name_of(sheet.scene.element);
   run.manifest().law = sheet.scene.law;
   return result;

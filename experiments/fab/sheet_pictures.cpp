@@ -21,7 +21,7 @@ constexpr int kCells = kFrames;   // of a cycle there
 SheetPictures::SheetPictures(Run& run, const Options& options, const FabSheet& sheet, const FabLoops& loops,
                              double height)
     : run_(run), sheet_(sheet), loops_(loops), setup_{sheet.scene, options} {
-  setup_.options.camera_direction = {0.5, -1.0, 0.4};
+  setup_.options.camera_direction = {0.25, -1.0, 0.35};
   const double width = sheet.scene.cloth.width, length = sheet.scene.cloth.length;
   setup_.scene.obstacle = {jaw(-kJawLength, sheet.spacing, width, kJaw),
                            jaw(length - sheet.spacing, length + kJawLength, width, kJaw)};
