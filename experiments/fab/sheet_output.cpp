@@ -10,23 +10,29 @@
 namespace hysteron::experiments {
 namespace {
 
-// Every second of a branch's values, and the last.
-std::vector<double> every_second(const std::vector<double>& values) {
+// Recorded clamps may turn within a branch, and friction remembers where.
+bool turns_at(const std::vector<double>& distance, std::size_t i) {
+  return (distance[i] - distance[i - 1]) * (distance[i + 1] - distance[i]) < 0;
+}
+
+// Every second of the values at a branch's distances, its end and the turns within.
+std::vector<double> every_second(const std::vector<double>& values, const std::vector<double>& distance) {
   std::vector<double> kept;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (i % 2 == 0 || i + 1 == values.size()) kept.push_back(values[i]);
+    if (i % 2 == 0 || i + 1 == values.size() || turns_at(distance, i)) kept.push_back(values[i]);
   return kept;
 }
 
-BranchForces every_second(const BranchForces& force) {
+BranchForces every_second(const BranchForces& force, const FabLoops& loops) {
   BranchForces kept;
-  for (const auto& branch : force) kept.push_back(every_second(branch));
+  for (std::size_t b = 0; b < force.size(); ++b)
+    kept.push_back(every_second(force[b], loops.branches[b].distance));
   return kept;
 }
 
 FabLoops every_second(FabLoops loops) {
   for (FabBranch& branch : loops.branches)
-    branch = {every_second(branch.distance), every_second(branch.force)};
+    branch = {every_second(branch.distance, branch.distance), every_second(branch.force, branch.distance)};
   return loops;
 }
 
@@ -63,7 +69,7 @@ std::vector<Verified> verified(const ComparedLoops& compared, const SheetRepeats
   const auto strip = readings(all, compared.run.force, cycle);
   const auto sheet = readings(all, compared.sheet->force, cycle);
   const auto coarse = readings(all, repeats.coarse.force, cycle);
-  const auto near = readings(some, every_second(repeats.coarse.force), cycle);
+  const auto near = readings(some, every_second(repeats.coarse.force, all), cycle);
   const auto far_apart = readings(some, repeats.far_apart.force, cycle);
   std::vector<Verified> result;
   for (std::size_t i = 0; i < strip.size(); ++i)

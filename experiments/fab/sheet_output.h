@@ -10,7 +10,7 @@ namespace hysteron::experiments {
 // Two repeats of a test by which its errors are known.
 struct SheetRepeats {
   SheetRun coarse;       // with a quarter of the triangles
-  SheetRun far_apart;    // and with every second row only, the ends of branches included
+  SheetRun far_apart;    // and with every second row only, the turns of the clamps included
   FabLoops every_other;  // those rows
 };
 // `shape`: that of the test itself.

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "experiments/fab/sheet_output.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/identification/fab_fabric.h"
 
@@ -153,6 +154,21 @@ TEST(FabSheet, CutAlongWeftPushesByTheRigidityOfWeft) {
   const double warp = tested(along, fabric, narrow(12)).force[0].back();
   along.direction = "W";
   EXPECT_NEAR(tested(along, fabric, narrow(12)).force[0].back() / warp, 0.6, kStretch);
+}
+
+// A clamp that goes on outwards before it comes back, as a tester's does: its turn decides where friction
+// slides next.
+TEST(FabSheetRepeats, WithEverySecondRowStillTurnWhereTheClampsTurn) {
+  constexpr double kNewton = 1e-5;  // relative, of forces
+  FabLoops twice = loops("D1", {4e-3, 5e-3});
+  double& turn = twice.branches[2].distance[1];
+  turn = twice.branches[2].distance[0] + 2e-4;
+  const SheetRepeats repeats = repeated(twice, with_friction(), narrow(16));
+  const std::vector<double>& kept = repeats.every_other.branches[2].distance;
+  EXPECT_LT(kept.size(), twice.branches[2].distance.size());
+  EXPECT_EQ(kept[1], turn);
+  EXPECT_EQ(kept[2], twice.branches[2].distance[2]);
+  EXPECT_NEAR(repeats.far_apart.force[2][2] / repeats.coarse.force[2][2], 1, kNewton);
 }
 
 // Free edges let it twist as it bends, which the clamps hinder.
