@@ -100,8 +100,8 @@ struct Setting {
 
   // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
   // would leave, which is no more than the step's, so that d is never zero on the way.
-  // Inlined, though it holds the whole law several times over: called on a GPU, it wrote beyond the stack that
-  // nvcc 13.0 had given it.
+  // Inlined, though it holds the whole law several times over: called on a GPU, it wrote beyond the stack
+  // that nvcc 13.0 had given it.
   HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
     constexpr int kMostSteps = 40, kMostHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
