@@ -25,6 +25,15 @@ std::vector<std::string> metrics_of_any(const std::vector<SweepColumn>& runs) {
   return names;
 }
 
+// By the runs' scenes.
+std::vector<std::string> asked_of_any(const std::vector<SweepColumn>& runs) {
+  std::vector<std::string> names;
+  for (const SweepColumn& run : runs)
+    for (const std::string& name : run.manifest ? run.manifest->asked_metrics : std::vector<std::string>{})
+      if (!std::count(names.begin(), names.end(), name)) names.push_back(name);
+  return names;
+}
+
 bool differs(const std::vector<SweepColumn>& runs, const std::string& metric) {
   std::vector<double> known = numbers_of(runs, metric);
   std::erase_if(known, [](double x) { return std::isnan(x); });
@@ -79,6 +88,7 @@ std::vector<std::string> metrics_shown(const Study& study, const std::vector<Swe
   const std::vector<std::string> known = metrics_of_any(runs);
   std::vector<std::string> wanted = study.metrics;
   if (wanted.empty()) wanted = headlines_of(study.experiment).with_errors();
+  if (wanted.empty()) wanted = asked_of_any(runs);
   std::erase_if(wanted,
                 [&](const std::string& name) { return !std::count(known.begin(), known.end(), name); });
   if (!wanted.empty()) return wanted;

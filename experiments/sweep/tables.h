@@ -13,8 +13,8 @@ namespace hysteron::experiments {
 // `stopped`: why it is not complete.  What is not known is empty.
 TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs);
 
-// The metrics that the study names, or the headlines of its experiment, or else the first few that differ
-// between runs; of those that any run has.
+// The metrics that the study names, or the headlines of its experiment, or those that the runs' scenes ask
+// for, or else the first few that differ between runs; of those that any run has.
 std::vector<std::string> metrics_shown(const Study& study, const std::vector<SweepColumn>& runs);
 
 // Of the runs of equal values but for the seed: each axis, `draws`, and METRIC_mean with its standard error,

@@ -108,7 +108,7 @@ Adjacency close_neighbours(const Surface& s) {
 std::vector<char> choose_roots(const Surface& s) {
   std::vector<char> root(s.size(), 0), near(s.size(), 0);  // near: within one edge of a root
   const Adjacency close = close_neighbours(s);
-  const auto& [start, item] = close;
+  const std::vector<int>&start = close.start, &item = close.item;
   const auto is_free = [&](int i) {
     bool is = !near[i];
     for (int j = start[i]; is && j < start[i + 1]; ++j) is = !near[item[j]];

@@ -1,11 +1,11 @@
 // One frame of a cloth as OBJ or PLY.
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/base/number_text.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
@@ -20,15 +20,10 @@ void check_counts(const std::string& file, const ClothMesh& mesh, std::size_t po
                        std::to_string(values) + " values for " + std::to_string(n) + " vertices");
 }
 
-void append(std::string& text, double value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
 template <int N>
 void append_line(std::string& text, const char* key, const Eigen::Matrix<double, N, 1>& x) {
   text += key;
-  for (int i = 0; i < N; ++i) text += ' ', append(text, x[i]);
+  for (int i = 0; i < N; ++i) text += ' ' + number_text(x[i]);
   text += '\n';
 }
 

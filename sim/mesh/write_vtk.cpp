@@ -1,11 +1,11 @@
 // Source of the format: VTK File Formats, "XML File Formats" (docs.vtk.org): the data of every array stands
 // behind its own length in bytes, at the offset that its element states.
 #include <bit>
-#include <charconv>
 #include <cstdint>
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/base/number_text.h"
 #include "sim/mesh/vtk.h"
 
 namespace hysteron {
@@ -50,11 +50,6 @@ std::string polygons(const ClothMesh& mesh, Appended& appended) {
          appended.element("Int32", "offsets", 1, ends) + "</Polys>\n";
 }
 
-std::string shortest(double number) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
-}
-
 std::string points(const std::vector<Eigen::Vector3d>& position, Appended& appended) {
   std::vector<double> numbers;
   for (const Eigen::Vector3d& x : position) numbers.insert(numbers.end(), x.begin(), x.end());
@@ -88,7 +83,8 @@ void write_pvd(const std::string& file, const std::vector<std::pair<double, std:
   out.stream() << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                   "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const auto& [time, name] : instants)
-    out.stream() << "<DataSet timestep=\"" << shortest(time) << "\" part=\"0\" file=\"" << name << "\"/>\n";
+    out.stream() << "<DataSet timestep=\"" << number_text(time) << "\" part=\"0\" file=\"" << name
+                 << "\"/>\n";
   out.stream() << "</Collection>\n</VTKFile>\n";
   out.commit();
 }

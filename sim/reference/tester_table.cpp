@@ -40,7 +40,7 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
 
 TextTable read_tester_table(const std::filesystem::path& file, const std::string& first_column,
                             const std::string& reader) {
-  std::string text = whole_file(file.string(), reader);
+  std::string text = whole_file(file, "cannot read " + file.string());
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   std::istringstream lines(text);
   TextTable table;

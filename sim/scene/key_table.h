@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sim/base/enum_names.h"
+#include "sim/base/number_text.h"
 
 namespace hysteron {
 
@@ -134,8 +135,6 @@ nlohmann::ordered_json to_json(const Keys& keys);
 // two).
 std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
 
-// Shortest text that reads back as the same number.
-std::string number_text(double x);
 std::string join(const std::vector<std::string>& words, const std::string& separator);
 
 }  // namespace hysteron

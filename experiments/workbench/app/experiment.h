@@ -52,7 +52,7 @@ struct Setup {
   std::vector<std::string> own_tables =
       {};  // arrays of tables of a scene file that the experiment reads itself
   std::vector<std::string> asked_metrics =
-      {};  // of the scene file: --errors finds theirs beside the headlines'
+      {};  // of the scene file: said at the end, and --errors finds theirs, beside the headlines'
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

@@ -22,7 +22,7 @@ struct Headlines {
   bool own_mesh = false;             // the experiment cuts its mesh, whatever --mesh and --seed say
   std::string release{};             // key of how the cloth is let go, where that matters
   std::vector<std::string> paths{};  // its values; the first that is not the run's is the other path
-  bool asked = false;                // each scene file asks for its own metrics (Setup::asked_metrics)
+  bool asked = false;                // each scene file asks for its own metrics (Manifest::asked_metrics)
 
   // Those whose errors can be measured.
   std::vector<std::string> with_errors() const;

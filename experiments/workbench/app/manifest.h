@@ -174,6 +174,7 @@ struct Manifest {
   std::string film_missing;  // why; "" if it is not
   std::vector<std::string> plots_missing, errors_missing;
   Metrics metrics;
+  std::vector<std::string> asked_metrics;  // those that its scene file asks for
   std::vector<std::string> files;
   bool complete = false;
 

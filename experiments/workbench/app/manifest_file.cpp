@@ -95,6 +95,7 @@ void add_what_some_have(const Manifest& m, Json& json) {
   if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
   if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
   if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
+  if (!m.asked_metrics.empty()) json["asked_metrics"] = m.asked_metrics;
 }
 
 // Null if there is nothing.
@@ -248,6 +249,7 @@ void take_what_some_have(const Json& json, Manifest& m) {
   m.film_missing = text_at(json, "film_missing");
   m.plots_missing = texts_at(json, "plots_missing");
   m.errors_missing = texts_at(json, "errors_missing");
+  m.asked_metrics = texts_at(json, "asked_metrics");
 }
 
 // The first key without which a JSON is no manifest; "" if it has all.

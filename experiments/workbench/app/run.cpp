@@ -88,6 +88,7 @@ std::string program_version() {
 Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept)
     : Run(line, setup.options, to_json(setup.scene), kept) {
   manifest_.options = std::make_shared<const Json>(Json::parse(setup.choices));
+  manifest_.asked_metrics = setup.asked_metrics;
   if (!setup.asked.empty())
     manifest_.asked = std::make_shared<const Json>(asked_patch(*manifest_.keys, setup.asked));
 }

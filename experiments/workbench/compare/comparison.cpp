@@ -34,6 +34,7 @@ void write_comparison_table(Run& run, const std::string& varied, const std::vect
   CsvFile file(run.path("table.csv"), head);
   for (const SweepColumn& column : columns) {
     const Metrics found = column.metrics();
+    if (column.manifest) run.manifest().asked_metrics = column.manifest->asked_metrics;
     std::vector<CsvField> fields = {column.name};
     for (const std::string& key : keys) {
       fields.push_back(found[key].is_number() ? CsvField(found[key].number()) : CsvField(""));

@@ -53,7 +53,7 @@ std::string visible_gpu(int gpu) {
 std::vector<std::string> command_of(const SweepColumn& column, const SweepJobs& jobs, int threads, int gpu) {
   std::vector<std::string> words = {"env"};
   if (gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(gpu));
-  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // Eigen's and Mesa's own threads
+  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // libraries' and Mesa's own threads
     words.push_back(others + std::to_string(threads));
   words.push_back(fs::read_symlink("/proc/self/exe").string());
   for (const std::string& word : words_of(column.line)) words.push_back(word);

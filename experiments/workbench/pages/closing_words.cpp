@@ -7,6 +7,8 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/error_words.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "experiments/workbench/pages/metrics.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -48,12 +50,27 @@ Metrics metrics_of(const std::string& name, const Metrics& metrics) {
   return own;
 }
 
-std::string one_line(const std::string& experiment, const Metrics& metrics) {
+// A result that was asked for: "recovery angle", "86.0 degree".
+struct Finding {
+  std::string words, value;
+};
+
+// Headlines of the manifest's experiment and what its scene asks for, as far as they are among `metrics`.
+std::vector<Finding> findings_in(const Manifest& manifest, const Metrics& metrics) {
+  std::vector<Finding> findings;
+  for (const Headline& headline : headlines_of(question_of(manifest)).all)
+    findings.push_back({headline.words, value_words(headline, metrics)});
+  for (const std::string& name : manifest.asked_metrics)
+    if (metrics.contains(name))
+      findings.push_back({split_unit(name).name, metric_words(metrics, name).text()});
+  std::erase_if(findings, [](const Finding& finding) { return finding.value.empty(); });
+  return findings;
+}
+
+std::string one_line(const Manifest& manifest, const Metrics& metrics) {
   std::string text;
-  for (const Headline& headline : headlines_of(experiment).all) {
-    const std::string value = value_words(headline, metrics);
-    if (!value.empty()) text += (text.empty() ? "" : "; ") + std::string(headline.words) + " " + value;
-  }
+  for (const auto& [words, value] : findings_in(manifest, metrics))
+    text += (text.empty() ? "" : "; ") + words + " " + value;
   const std::string unrest = unrest_words(metrics);
   return text + (text.empty() || unrest.empty() ? "" : "; ") + unrest;
 }
@@ -72,14 +89,10 @@ std::string unrest_words(const Metrics& metrics) {
 
 std::string result_words(const Manifest& manifest) {
   const Metrics& metrics = manifest.metrics;
-  const std::string experiment = question_of(manifest);
   std::string text;
-  for (const Headline& headline : headlines_of(experiment).all) {
-    const std::string value = value_words(headline, metrics);
-    if (!value.empty()) text += row(headline.words, value);
-  }
+  for (const auto& [words, value] : findings_in(manifest, metrics)) text += row(words, value);
   for (const std::string& name : names_in(metrics)) {
-    const std::string line = one_line(experiment, metrics_of(name, metrics));
+    const std::string line = one_line(manifest, metrics_of(name, metrics));
     if (!line.empty()) text += row(name, line);
   }
   const std::string unrest = unrest_words(metrics);

@@ -13,8 +13,8 @@ namespace hysteron::experiments {
 // `settled`, `fastest_m_per_s` and `settling_limit_m_per_s`; "" otherwise.
 std::string unrest_words(const Metrics& metrics);
 
-// Lines on the results that the manifest's experiment is asked for, each with its errors where it has them; a
-// line for each law or fabric of several.
+// Lines on the results that the manifest's experiment and its scene are asked for, each with its errors where
+// it has them; a line for each law or fabric of several.
 std::string result_words(const Manifest& manifest);
 
 // result_words(), and the run's folder, page and pictures, as far as they are there.

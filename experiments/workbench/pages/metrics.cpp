@@ -3,28 +3,23 @@
 #include <algorithm>
 #include <map>
 
-#include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
-namespace {
 
-// A metric's unit stands elsewhere.
-HeadlineWords words_of(const Metrics& metrics, const std::string& key) {
+HeadlineWords metric_words(const Metrics& metrics, const std::string& key) {
   if (is_headline(metrics, key)) return headline_words(metrics, key);
   return {shown(metrics[key]), split_unit(key).unit, ""};
 }
-
-}  // namespace
 
 std::string metric_cards(const Metrics& metrics) {
   std::vector<Card> cards;
   for (const auto& [key, value] : metrics) {
     if (key.find('.') != key.npos || !headline_of(metrics, key).empty()) continue;
-    const HeadlineWords words = words_of(metrics, key);
+    const HeadlineWords words = metric_words(metrics, key);
     cards.push_back({words.value, joined({words.unit, words.errors}, " "), split_unit(key).name});
   }
   return html_cards(cards);
@@ -58,7 +53,7 @@ std::string metric_table(const Metrics& metrics) {
   for (const std::string& name : names) {
     rows.push_back({name});
     for (const std::string& key : keys) {
-      const HeadlineWords words = of[name].contains(key) ? words_of(of[name], key) : HeadlineWords{};
+      const HeadlineWords words = of[name].contains(key) ? metric_words(of[name], key) : HeadlineWords{};
       rows.back().push_back(joined({words.value, words.errors}, " "));
     }
   }

@@ -4,8 +4,12 @@
 #include <string>
 
 #include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/pages/error_words.h"
 
 namespace hysteron::experiments {
+
+// Value, unit and, for a headline, errors of any metric.
+HeadlineWords metric_words(const Metrics& metrics, const std::string& key);
 
 // Metrics of the run itself.
 std::string metric_cards(const Metrics& metrics);

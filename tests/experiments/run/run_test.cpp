@@ -131,10 +131,18 @@ TEST_F(Scenes, AreComparedInOneFrame) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json linear = Json::parse(text_of(out() / "linear/manifest.json"));
   const Json prandtl = Json::parse(text_of(out() / "prandtl/manifest.json"));
+  EXPECT_NE(outcome.out.find("linear                        side "), std::string::npos) << outcome.out;
   EXPECT_EQ(linear["experiment"], "run");
   EXPECT_EQ(linear["options"]["camera"]["box"].size(), 6u);
   EXPECT_EQ(linear["options"]["camera"], prandtl["options"]["camera"]);
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
+}
+
+// Two points of a cloth that falls freely stay as far apart as they are.
+TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
+  const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
+  EXPECT_NE(outcome.out.find("  side                          0.2 m\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(Json::parse(text_of(out() / "manifest.json"))["asked_metrics"], Json({"side_m"}));
 }
 
 const std::string kCornerHeight = R"([[metric]]

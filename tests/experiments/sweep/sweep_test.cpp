@@ -99,6 +99,21 @@ TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
   EXPECT_EQ(run("--only k0=81").exit_code, 2);
 }
 
+// The corner, let go, falls further than the middle of the side that is held.
+TEST_F(Sweep, OfASceneShowsTheMetricsThatItAsksFor) {
+  write_text(folder_.path() / "held.toml",
+             "triangles = 64\nstep = 0.01\nseconds = 0.05\n[cloth]\nlength = 0.2\n"
+             "[[pin]]\nlow = [-1, -1, -1]\nhigh = [0.01, 1, 1]\n"
+             "[[metric]]\nname = \"corner\"\nkind = \"height\"\npoint = [0.2, 0.2, 0]\n");
+  write(
+      "experiment = \"run\"\nseeds = 2\n[scene]\nscene = \"held.toml\"\nmesh = \"random\"\n"
+      "no-images = true\ndevice = \"cpu\"\n[[axis]]\nkey = \"fabric.b2\"\nvalues = [1e-6, 2e-6]\n");
+  const Outcome outcome = run("");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(read_words(folder_.path() / "out/means.csv").head,
+            (std::vector<std::string>{"fabric.b2", "draws", "corner_m_mean", "corner_m_stderr"}));
+}
+
 TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   const fs::path flow = folder_.path() / "flow";
   ASSERT_EQ(run("--snakemake " + flow.string()).exit_code, 0);

@@ -2,8 +2,11 @@
 #include "sim/reference/elastica.h"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 
 namespace hysteron {
 namespace {
@@ -30,6 +33,18 @@ constexpr Known kKnown[] = {{0.1, 0.0124984}, {1, 0.1234714},   {10, 0.7001997},
 
 TEST(Elastica, DropsAsFarAsTheTableSays) {
   for (const Known& known : kKnown) EXPECT_NEAR(drop(known.gamma, 200) / known.drop, 1, 4e-4) << known.gamma;
+}
+
+// The number of threads is for a run to say: those that dense algebra would start by itself stay alive.
+TEST(Elastica, StartsNoThreads) {
+  const auto threads = [] {
+    using Entry = std::filesystem::directory_iterator;
+    return std::distance(Entry("/proc/self/task"), Entry());
+  };
+  omp_set_num_threads(4);
+  const auto before = threads();
+  drop(10, 400);
+  EXPECT_EQ(threads(), before);
 }
 
 TEST(Elastica, IsOfSecondOrder) {

@@ -88,6 +88,14 @@ TEST(FabLoops, ThatAreNotThereAreNamed) {
   EXPECT_NE(refusal([&] { find_loops(all, "B", "D1"); }).find("L D1"), std::string::npos);
 }
 
+TEST(FabLoops, OfAFileThatIsNotThereSayWhichFile) {
+  const Folder folder;
+  const std::string missing = folder.file("missing.csv");
+  const Error error = test::error_of([&] { read_fab(missing, TesterUnits::si, "t"); });
+  EXPECT_EQ(error.exit_code(), 1);
+  EXPECT_EQ(error.what(), "cannot read " + missing + ": No such file or directory");
+}
+
 // The clamps' work is what the strip stores and loses.
 TEST(FabRun, BalancesTheWorkOfTheClamps) {
   const FabStrip strip{{2e-6, {4, 32, 128}, {2e-5, 1e-6, 4e-7}}, {30, {0.01, 0.05}, {100, 20}}, 0.3};

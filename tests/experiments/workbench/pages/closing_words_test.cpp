@@ -74,6 +74,23 @@ TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {
   expect_in(words, "  prandtl                       drape coefficient 86.0 %\n");
 }
 
+TEST(ResultWords, NameWhatASceneAsksFor) {
+  Manifest manifest = manifest_with("run", {{"gap_m", 0.0125}, {"gap_m_step_error", 2e-5}, {"fold_deg", 40}});
+  EXPECT_EQ(result_words(manifest), "");
+  manifest.asked_metrics = {"fold_deg", "gap_m"};
+  expect_in(result_words(manifest),
+            "  fold                          40 °\n"
+            "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n");
+}
+
+TEST(ResultWords, OfAComparisonNameWhatItsSceneAsksFor) {
+  Manifest manifest = manifest_with("compare", {{"linear.gap_m", 0.25}, {"prandtl.gap_m", 0.5}});
+  manifest.scene.compared = "run";
+  manifest.asked_metrics = {"gap_m"};
+  expect_in(result_words(manifest), "  linear                        gap 0.25 m\n");
+  expect_in(result_words(manifest), "  prandtl                       gap 0.5 m\n");
+}
+
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {
   Manifest manifest = drape_manifest({});
   manifest.complete = false;
