@@ -41,13 +41,15 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
       laws += quotation.file.starts_with("tests/examples/law/");
       experiments += quotation.file.starts_with("tests/examples/experiment/");
       obstacles += quotation.file.starts_with("tests/examples/obstacle/");
-      others += std::regex_search(quotation.file, std::regex("^tests/examples/(hinge|consumer|python)/"));
+      others +=
+          std::regex_search(quotation.file, std::regex("^tests/examples/(hinge|consumer|paraview|python)/"));
     }
   }
   EXPECT_EQ(laws, 3) << "header, line, test";
   EXPECT_EQ(experiments, 3) << "source, its CMakeLists.txt, test";
   EXPECT_EQ(obstacles, 2) << "row, distance";
-  EXPECT_EQ(others, 5) << "hinge loop, program of a simulation, its CMakeLists.txt, two scripts of Python";
+  EXPECT_EQ(others, 6)
+      << "hinge loop, program of a simulation, its CMakeLists.txt, scripts of Python and ParaView";
 }
 
 TEST(Quotations, WithoutAnEndOrWithOtherTextAreFound) {
