@@ -90,7 +90,8 @@ LawParameters parameters_of(const std::string& law, const std::vector<std::strin
   LawParameters own;
   for (const auto& [name, value] : given) {
     if (has(law, name)) own[name] = value;
-    if (std::none_of(laws.begin(), laws.end(), [&](const std::string& other) { return has(other, name); }))
+    if (std::none_of(laws.begin(), laws.end(),
+                     [&, &name = name](const std::string& other) { return has(other, name); }))
       throw Error::request("none of the laws has a parameter " + name + " (--param)")
           .of("param", name + "=" + value);
   }
