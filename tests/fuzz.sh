@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # tests/fuzz.sh [SECONDS [FORMAT...]]: libFuzzer on the readers of each format (default: all of them, two at a time) for
 # so many seconds (default 600), with AddressSanitizer and UndefinedBehaviorSanitizer.  Builds them in build-fuzz/ with
-# clang (Debian: clang-14 libclang-rt-14-dev).  What it learns stays in build-fuzz/corpus, what
-# ends a reader, or takes it 5 s or 2 GiB, in build-fuzz/found, to be put into tests/fuzz/refused or seeds once it is
-# mended.  Exits 1 where there is any.
+# clang (Debian: clang-14 libclang-rt-14-dev).  What it learns stays in build-fuzz/corpus, what ends a reader, or takes
+# it 5 s or 2 GiB, in build-fuzz/found, to be put into tests/fuzz/refused or seeds once it is mended.  Exits 1 where
+# there is any.
 set -euo pipefail
 tests="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 build="$tests/../build-fuzz"
