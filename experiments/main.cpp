@@ -7,6 +7,7 @@
 
 #include "experiments/workbench/app/command_line.h"
 #include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/closing_words.h"
 #include "sim/base/error.h"
@@ -45,6 +46,7 @@ int main(int count, char** words) {
     experiment = line->experiment;
     const Experiment& chosen = experiment_named(experiment);
     if (!chosen.run) throw Error::request("not built yet");
+    choose_gpu(*line);
     const int exit_code = chosen.run(*line);
     say_last_words(line);
     if (!std::cout.flush()) throw Error::machine("cannot write to standard output");

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "experiments/rerun/recorded_workflow.h"
+#include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
@@ -102,6 +103,7 @@ int run_rerun(const CommandLine& line) {
       repeated.flags.push_back(flag);
   repeated.flags.push_back({"out", out});
   repeated.command = command_of(repeated);
+  choose_gpu(repeated);
   const int exit_code = experiment.run(repeated);
   if (last_text(line.flags, "quiet", "") != "true") say_outcome(run.manifest, out);
   return exit_code;

@@ -13,12 +13,12 @@
 #include <thread>
 #include <utility>
 
+#include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/version.h"
 #include "experiments/workbench/compare/variants.h"
 #include "sim/base/atomic_file.h"
-#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/base/parallel.h"
 #include "sim/base/process.h"
@@ -41,13 +41,6 @@ std::vector<std::string> words_of(const CommandLine& line) {
 
 Json asked(const SweepColumn& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
-}
-
-// The name of the GPU with that number among those that this process itself is allowed.
-std::string visible_gpu(int gpu) {
-  const char* allowed = std::getenv("CUDA_VISIBLE_DEVICES");
-  const std::vector<std::string> names = split(allowed ? allowed : "");
-  return gpu < static_cast<int>(names.size()) ? names[gpu] : std::to_string(gpu);
 }
 
 std::vector<std::string> command_of(const SweepColumn& column, const SweepJobs& jobs, int threads, int gpu) {

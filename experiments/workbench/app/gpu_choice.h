@@ -1,0 +1,17 @@
+// Which of several GPUs a run takes: those that CUDA_VISIBLE_DEVICES leaves, counted from 0.
+#pragma once
+
+#include <string>
+
+#include "experiments/workbench/app/command_line.h"
+
+namespace hysteron::experiments {
+
+// What CUDA calls that GPU among those that this process is allowed.
+std::string visible_gpu(int gpu);
+
+// `--device cuda:N` becomes `cuda`, for which this process and those that it starts see GPU N alone.  To be
+// called before anything asks for GPUs.
+void choose_gpu(CommandLine& line);
+
+}  // namespace hysteron::experiments

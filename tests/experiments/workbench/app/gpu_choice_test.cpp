@@ -1,0 +1,73 @@
+#include "experiments/workbench/app/gpu_choice.h"
+
+#include <cstdlib>
+#include <optional>
+
+#include "gtest/gtest.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr char kAllowed[] = "CUDA_VISIBLE_DEVICES";
+
+class GpuChoice : public testing::Test {
+ protected:
+  void TearDown() override { allow(before_); }
+
+  static void allow(const std::optional<std::string>& gpus) {
+    if (gpus)
+      setenv(kAllowed, gpus->c_str(), 1);
+    else
+      unsetenv(kAllowed);
+  }
+  static std::optional<std::string> allowed() {
+    const char* text = std::getenv(kAllowed);
+    return text ? std::optional<std::string>(text) : std::nullopt;
+  }
+  static CommandLine on(const std::string& device) {
+    return {"swing", "hysteron swing", {{"seconds", "1"}, {"device", device}}, {}};
+  }
+
+ private:
+  std::optional<std::string> before_ = allowed();
+};
+
+TEST_F(GpuChoice, LeavesTheChosenOneOfThoseThatAreAllowed) {
+  const std::pair<std::optional<std::string>, const char*> cases[] = {{std::nullopt, "1"}, {"3,5", "5"}};
+  for (const auto& [gpus, seen] : cases) {
+    allow(gpus);
+    CommandLine line = on("cuda:1");
+    choose_gpu(line);
+    EXPECT_EQ(line.flags[1].text, "cuda");
+    EXPECT_EQ(line.command, "hysteron swing");
+    EXPECT_EQ(allowed(), seen);
+  }
+}
+
+TEST_F(GpuChoice, ChangesNothingWhereNoneIsNamed) {
+  for (const char* device : {"auto", "cpu", "cuda", "cudax"}) {
+    allow("2");
+    CommandLine line = on(device);
+    choose_gpu(line);
+    EXPECT_EQ(line.flags[1].text, device);
+    EXPECT_EQ(allowed(), "2");
+  }
+}
+
+TEST_F(GpuChoice, IsRefusedInOneLineWhereThereIsNoSuchGpu) {
+  allow("4,7");
+  const auto refused = [](const char* device) {
+    return test::refusal([&] {
+      CommandLine line = on(device);
+      choose_gpu(line);
+    });
+  };
+  EXPECT_NE(refused("cuda:2").find("leaves 2, numbered from 0 on"), std::string::npos);
+  for (const char* device : {"cuda:", "cuda:x", "cuda:-1", "cuda:1.5", "cuda:99999"})
+    EXPECT_NE(refused(device).find("the number of a GPU"), std::string::npos) << device;
+  EXPECT_EQ(allowed(), "4,7");
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
