@@ -82,6 +82,7 @@ inline void group(Cpu& cpu, Scratch<Cpu>& scratch, const int* key, int n, int ro
 template <class Call>
 void with_cub_memory(Cuda& cuda, Scratch<Cuda>& scratch, const Kernel& kernel, const Call& call) {
   ++device_counts.loops;
+  if (cuda.batch) cuda.batch->send();
   std::size_t bytes = 0;
   check_cuda(call(nullptr, bytes), kernel.name);
   char* memory = scratch.memory.reserve(bytes);

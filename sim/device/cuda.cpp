@@ -21,19 +21,22 @@ bool may_use_graphs() {
 
 }  // namespace
 
-Cuda::Cuda(int device) : index(device), graphs(may_use_graphs()) {
+Cuda::Cuda(int device) : index(device), batch(CudaBatch::current()), graphs(may_use_graphs()) {
   check_cuda(cudaSetDevice(index), "select device");
-  check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
+  if (batch)
+    stream = batch->stream();
+  else
+    check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
   check_cuda(cudaMalloc(&arrived, sizeof(unsigned)), "allocate");
   check_cuda(cudaMemset(arrived, 0, sizeof(unsigned)), "allocate");
   check_cuda(cudaHostAlloc(&staging, kStaged, cudaHostAllocDefault), "allocate on the host");
 }
 
 Cuda::~Cuda() {
-  cudaFree(partial);
-  cudaFree(arrived);
-  cudaFreeHost(staging);
-  cudaStreamDestroy(stream);
+  free(partial);
+  free(arrived);
+  free_host(staging);
+  if (!batch) cudaStreamDestroy(stream);
 }
 
 std::string Cuda::description() const {

@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/device/cpu.h"
+#include "sim/device/cuda_batch.h"
 
 namespace hysteron {
 
@@ -25,6 +26,7 @@ struct Cuda {
   static constexpr bool kGpu = true;
   static constexpr std::size_t kStaged = 4096;  // the most bytes of a download through `staging`
   int index = 0;                                // among the CUDA devices
+  CudaBatch* batch = nullptr;                   // which launches the loops; null: each is launched at once
   cudaStream_t stream = nullptr;
   std::size_t bytes = 0;
   double* partial = nullptr;  // scratch of for_each_sum, one slot per block and term
@@ -40,8 +42,22 @@ struct Cuda {
   Cuda& operator=(const Cuda&) = delete;
   std::string description() const;
   int cuda_device() const { return index; }
+  // Memory that loops which have been ordered may use still.
+  void free(void* memory) const {
+    if (batch)
+      batch->free_later(memory);
+    else
+      cudaFree(memory);
+  }
+  void free_host(void* memory) const {
+    if (batch)
+      batch->free_host_later(memory);
+    else
+      cudaFreeHost(memory);
+  }
   void synchronize() const {
     ++device_counts.synchronizations;
+    if (batch) return batch->wait();
     check_cuda(cudaStreamSynchronize(stream), "synchronize");
   }
 };
@@ -70,20 +86,51 @@ class KernelProfile<Cuda> {
   KernelCosts costs_;
 };
 
-template <class Body>
-__global__ void for_each_kernel(int n, const Body body) {
-  const int i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i < n) body(i);
+// A loop is an object that a kernel takes by value; its blocks are part of it.
+template <class Loop>
+__global__ void loop_kernel(const Loop loop) {
+  loop();
+}
+
+template <class Loop>
+__global__ void batched_loop_kernel(const BatchedLoop* ordered) {
+  run_batched<Loop>(ordered);
+}
+
+template <class Loop>
+void launch(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
+  ++device_counts.loops;
+  if (cuda.batch) {
+    constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
+                                              cudaStream_t stream) {
+      batched_loop_kernel<Loop><<<dim3(blocks, members), kThreadsPerBlock, 0, stream>>>(ordered);
+    };
+    return cuda.batch->order(kBatched, kernel.name, loop);
+  }
+  const Profiled<Cuda> profiled(cuda, kernel);
+  loop_kernel<<<loop.blocks, kThreadsPerBlock, 0, cuda.stream>>>(loop);
+  check_cuda(cudaGetLastError(), kernel.name);
+}
+
+inline unsigned blocks_for(int n, int per_block = kThreadsPerBlock) {
+  return (n + per_block - 1) / per_block;
 }
 
 template <class Body>
+struct EachLoop {
+  unsigned blocks;
+  int n;
+  Body body;
+
+  __device__ void operator()() const {
+    const int i = blockIdx.x * blockDim.x + threadIdx.x;
+    if (i < n) body(i);
+  }
+};
+
+template <class Body>
 void for_each(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
-  if (n == 0) return;
-  ++device_counts.loops;
-  const Profiled<Cuda> profiled(cuda, kernel);
-  const int blocks = (n + kThreadsPerBlock - 1) / kThreadsPerBlock;
-  for_each_kernel<<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(n, body);
-  check_cuda(cudaGetLastError(), kernel.name);
+  if (n > 0) launch(cuda, kernel, EachLoop<Body>{blocks_for(n), n, body});
 }
 
 // Tree sum over the block in a fixed order; the result is valid in thread 0.
@@ -105,48 +152,58 @@ __device__ void block_sum(Sums<K>& sums) {
 // One launch: the block that arrives last adds all partial sums in block order, so the bits do not depend on
 // the order in which blocks ran.
 template <int K, class Body, class Finish>
-__global__ void for_each_sum_kernel(int n, const Body body, const Finish finish, double* partial,
-                                    unsigned* arrived) {
-  Sums<K> sums;
-  for (int i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += gridDim.x * blockDim.x) body(i, sums);
-  block_sum(sums);
-  __shared__ bool last;
-  if (threadIdx.x == 0) {
-    for (int k = 0; k < K; ++k) partial[blockIdx.x * K + k] = sums.term[k];
+struct SumLoop {
+  unsigned blocks;
+  int n;
+  Body body;
+  Finish finish;
+  double* partial;
+  unsigned* arrived;
+
+  __device__ void operator()() const {
+    Sums<K> sums;
+    for (int i = blockIdx.x * blockDim.x + threadIdx.x; i < n; i += blocks * blockDim.x) body(i, sums);
+    block_sum(sums);
+    __shared__ bool last;
+    if (threadIdx.x == 0) {
+      for (int k = 0; k < K; ++k) partial[blockIdx.x * K + k] = sums.term[k];
+      __threadfence();
+      last = atomicAdd(arrived, 1u) == blocks - 1;
+    }
+    __syncthreads();
+    if (!last) return;
     __threadfence();
-    last = atomicAdd(arrived, 1u) == gridDim.x - 1;
+    Sums<K> total;
+    for (int b = threadIdx.x; b < static_cast<int>(blocks); b += blockDim.x)
+      for (int k = 0; k < K; ++k) total.term[k] += __ldcg(&partial[b * K + k]);
+    block_sum(total);
+    if (threadIdx.x == 0) {
+      *arrived = 0;
+      finish(total);
+    }
   }
-  __syncthreads();
-  if (!last) return;
-  __threadfence();
-  Sums<K> total;
-  for (int b = threadIdx.x; b < static_cast<int>(gridDim.x); b += blockDim.x)
-    for (int k = 0; k < K; ++k) total.term[k] += __ldcg(&partial[b * K + k]);
-  block_sum(total);
-  if (threadIdx.x == 0) {
-    *arrived = 0;
-    finish(total);
-  }
-}
+};
 
 inline constexpr int kSumBlocks =
     528;  // four blocks for each multiprocessor of an H100; fixed for the bits' sake
 
+// With so many blocks, but at most `most`, for which there is scratch.
+template <int K, class Body, class Finish>
+void launch_sum(Cuda& cuda, const Kernel& kernel, int n, unsigned blocks, int most, const Body& body,
+                const Finish& finish) {
+  if (cuda.partial_size < most * K) {
+    ++device_counts.allocations;
+    if (cuda.partial) cuda.free(cuda.partial);
+    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * most * K), kernel.name);
+    cuda.partial_size = most * K;
+  }
+  blocks = std::clamp(blocks, 1u, static_cast<unsigned>(most));
+  launch(cuda, kernel, SumLoop<K, Body, Finish>{blocks, n, body, finish, cuda.partial, cuda.arrived});
+}
+
 template <int K, class Body, class Finish>
 void for_each_sum(Cuda& cuda, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
-  ++device_counts.loops;
-  if (cuda.partial_size < kSumBlocks * K) {
-    ++device_counts.allocations;
-    if (cuda.partial) check_cuda(cudaFree(cuda.partial), kernel.name);
-    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * kSumBlocks * K), kernel.name);
-    cuda.partial_size = kSumBlocks * K;
-  }
-  const Profiled<Cuda> profiled(cuda, kernel);
-  int blocks = (n + kThreadsPerBlock - 1) / kThreadsPerBlock;
-  blocks = blocks < 1 ? 1 : (blocks > kSumBlocks ? kSumBlocks : blocks);
-  for_each_sum_kernel<K>
-      <<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(n, body, finish, cuda.partial, cuda.arrived);
-  check_cuda(cudaGetLastError(), kernel.name);
+  launch_sum<K>(cuda, kernel, n, blocks_for(n), kSumBlocks, body, finish);
 }
 
 inline void* device_allocate(Cuda& cuda, std::size_t bytes) {
@@ -159,16 +216,45 @@ inline void* device_allocate(Cuda& cuda, std::size_t bytes) {
 }
 inline void device_free(Cuda& cuda, void* memory, std::size_t bytes) {
   cuda.bytes -= bytes;
-  cudaFree(memory);
+  cuda.free(memory);
 }
+
+struct CopyLoop {
+  unsigned blocks;
+  int size;  // [bytes]
+  const char* from;
+  char* to;
+
+  __device__ void operator()() const {
+    const int i = blockIdx.x * blockDim.x + threadIdx.x;
+    if (i < size) to[i] = from[i];
+  }
+};
+
+// Of few bytes, between places that the GPU can reach.
+inline void copy_in_batch(Cuda& cuda, const char* name, void* to, const void* from, std::size_t bytes) {
+  const int size = static_cast<int>(bytes);
+  launch(cuda, name,
+         CopyLoop{blocks_for(size), size, static_cast<const char*>(from), static_cast<char*>(to)});
+}
+
+// In a batch what is small travels with the loops.
 inline void device_upload(Cuda& cuda, void* to, const void* from, std::size_t bytes) {
+  if (cuda.batch && bytes <= Cuda::kStaged)
+    return copy_in_batch(cuda, "upload", to, cuda.batch->copy_of(from, bytes), bytes);
+  if (cuda.batch) cuda.batch->send();
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, cuda.stream), "upload");
   cuda.synchronize();
 }
 // The driver copies what is small much faster into pinned memory.
 inline void device_download(Cuda& cuda, void* to, const void* from, std::size_t bytes) {
   void* target = bytes <= Cuda::kStaged ? cuda.staging : to;
-  check_cuda(cudaMemcpyAsync(target, from, bytes, cudaMemcpyDeviceToHost, cuda.stream), "download");
+  if (cuda.batch && target != to) {
+    copy_in_batch(cuda, "download", target, from, bytes);
+  } else {
+    if (cuda.batch) cuda.batch->send();
+    check_cuda(cudaMemcpyAsync(target, from, bytes, cudaMemcpyDeviceToHost, cuda.stream), "download");
+  }
   cuda.synchronize();
   if (target != to) std::memcpy(to, target, bytes);
 }
@@ -179,6 +265,6 @@ inline void* host_allocate(Cuda&, std::size_t bytes) {
   check_cuda(cudaHostAlloc(&memory, bytes, cudaHostAllocDefault), "allocate on the host");
   return memory;
 }
-inline void host_free(Cuda&, void* memory) { cudaFreeHost(memory); }
+inline void host_free(Cuda& cuda, void* memory) { cuda.free_host(memory); }
 
 }  // namespace hysteron

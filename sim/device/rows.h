@@ -87,20 +87,22 @@ void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body
 inline constexpr int kRowsPerBlock = kThreadsPerBlock / Warp::kCount;
 
 template <class Body>
-__global__ void for_each_row_kernel(int rows, const Body body, const int* stop) {
-  if (stop && *stop) return;
-  const int i = blockIdx.x * kRowsPerBlock + threadIdx.x / Warp::kCount;
-  if (i < rows) body(i, Warp{});
-}
+struct RowLoop {
+  unsigned blocks;
+  int rows;
+  Body body;
+  const int* stop;
+
+  __device__ void operator()() const {
+    if (stop && *stop) return;
+    const int i = blockIdx.x * kRowsPerBlock + threadIdx.x / Warp::kCount;
+    if (i < rows) body(i, Warp{});
+  }
+};
 
 template <class Body>
 void for_each_row(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const int* stop = nullptr) {
-  if (rows == 0) return;
-  ++device_counts.loops;
-  const Profiled<Cuda> profiled(cuda, kernel);
-  const int blocks = (rows + kRowsPerBlock - 1) / kRowsPerBlock;
-  for_each_row_kernel<<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(rows, body, stop);
-  check_cuda(cudaGetLastError(), kernel.name);
+  if (rows > 0) launch(cuda, kernel, RowLoop<Body>{blocks_for(rows, kRowsPerBlock), rows, body, stop});
 }
 
 // Warps take rows in turn, which makes for_each_sum()'s elements of them.
@@ -118,18 +120,8 @@ inline constexpr int kRowSumBlocks = 3 * kSumBlocks;
 
 template <int K, class Body, class Finish>
 void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
-  ++device_counts.loops;
-  if (cuda.partial_size < kRowSumBlocks * K) {
-    ++device_counts.allocations;
-    if (cuda.partial) check_cuda(cudaFree(cuda.partial), kernel.name);
-    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * kRowSumBlocks * K), kernel.name);
-    cuda.partial_size = kRowSumBlocks * K;
-  }
-  const Profiled<Cuda> profiled(cuda, kernel);
-  const int blocks = std::clamp((rows + kRowsPerBlock - 1) / kRowsPerBlock, 1, kRowSumBlocks);
-  for_each_sum_kernel<K><<<blocks, kThreadsPerBlock, 0, cuda.stream>>>(
-      rows * Warp::kCount, LaneOfRow<Body>{body}, finish, cuda.partial, cuda.arrived);
-  check_cuda(cudaGetLastError(), kernel.name);
+  launch_sum<K>(cuda, kernel, rows * Warp::kCount, blocks_for(rows, kRowsPerBlock), kRowSumBlocks,
+                LaneOfRow<Body>{body}, finish);
 }
 #endif
 

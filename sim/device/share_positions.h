@@ -59,6 +59,10 @@ class CudaGlPositions : public GlPositions {
 template <class Real>
 std::unique_ptr<GlPositions> share_positions(Cuda& cuda, const Buffer<Vec3<Real>, Cuda>& x,
                                              unsigned gl_buffer, int gl_device, std::string& reason) {
+  if (cuda.batch) {
+    reason = "the simulation is one of a batch";
+    return nullptr;
+  }
   if (gl_device != cuda.index) {
     reason = "OpenGL does not draw on CUDA device " + std::to_string(cuda.index);
     return nullptr;

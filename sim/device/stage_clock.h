@@ -49,6 +49,7 @@ class StageClock<Cuda> {
   void begin(Stage) { record(); }
   void end(Stage stage) {
     record();
+    if (cuda_.batch) return;
     stage_.push_back(stage);
     if (stage_.size() == kPending) collect();
   }
@@ -63,6 +64,7 @@ class StageClock<Cuda> {
  private:
   static constexpr std::size_t kPending = 2048;  // stages timed before the host has to look
   void record() {
+    if (cuda_.batch) return;  // whose launches are not one member's
     if (used_ == event_.size()) {
       event_.emplace_back();
       check_cuda(cudaEventCreate(&event_.back()), "stage clock");

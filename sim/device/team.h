@@ -79,32 +79,67 @@ inline constexpr int kTeamBlocks = 8;  // the largest cluster that every GPU wit
 inline constexpr int kTeamThreads = 1024;
 
 template <class Body>
-__global__ void __launch_bounds__(kTeamThreads)
-    for_each_team_kernel(const __grid_constant__ Body body, const int* stop) {
-  if (stop && *stop) return;
-  const CudaTeam team;
-  body(blockIdx.x / team.blocks(), team);
+struct TeamLoop {
+  unsigned blocks;
+  Body body;
+  const int* stop;
+
+  __device__ void operator()() const {
+    if (stop && *stop) return;
+    const CudaTeam team;
+    body(blockIdx.x / team.blocks(), team);
+  }
+};
+
+template <class Loop>
+__global__ void __launch_bounds__(kTeamThreads) team_kernel(const __grid_constant__ Loop loop) {
+  loop();
+}
+
+template <class Loop>
+__global__ void __launch_bounds__(kTeamThreads) batched_team_kernel(const BatchedLoop* ordered) {
+  run_batched<Loop>(ordered);
+}
+
+// Blocks of a team on this GPU, by what the kernel was compiled for.
+template <class... Arguments>
+unsigned blocks_of_team(void (*kernel)(Arguments...)) {
+  cudaFuncAttributes compiled{};
+  check_cuda(cudaFuncGetAttributes(&compiled, kernel), "team");
+  constexpr int kHopper = 90;
+  return compiled.ptxVersion >= kHopper ? kTeamBlocks : 1;
+}
+
+template <class Argument>
+void launch_teams(void (*kernel)(Argument), dim3 grid, cudaStream_t stream, unsigned team_blocks,
+                  const std::remove_const_t<Argument>& argument) {
+  cudaLaunchAttribute cluster{};
+  cluster.id = cudaLaunchAttributeClusterDimension;
+  cluster.val.clusterDim = {team_blocks, 1, 1};
+  cudaLaunchConfig_t config{};
+  config.gridDim = grid;
+  config.blockDim = kTeamThreads;
+  config.stream = stream;
+  config.attrs = &cluster;
+  config.numAttrs = team_blocks > 1 ? 1 : 0;
+  check_cuda(cudaLaunchKernelEx(&config, kernel, argument), "team");
 }
 
 template <class Body>
 void for_each_team(Cuda& cuda, const Kernel& kernel, int teams, const Body& body, const int* stop = nullptr) {
   if (teams == 0) return;
+  using Loop = TeamLoop<Body>;
   ++device_counts.loops;
   const Profiled<Cuda> profiled(cuda, kernel);
-  cudaFuncAttributes compiled{};
-  check_cuda(cudaFuncGetAttributes(&compiled, for_each_team_kernel<Body>), kernel.name);
-  constexpr int kHopper = 90;
-  const unsigned blocks = compiled.ptxVersion >= kHopper ? kTeamBlocks : 1;
-  cudaLaunchAttribute cluster{};
-  cluster.id = cudaLaunchAttributeClusterDimension;
-  cluster.val.clusterDim = {blocks, 1, 1};
-  cudaLaunchConfig_t launch{};
-  launch.gridDim = teams * blocks;
-  launch.blockDim = kTeamThreads;
-  launch.stream = cuda.stream;
-  launch.attrs = &cluster;
-  launch.numAttrs = blocks > 1 ? 1 : 0;
-  check_cuda(cudaLaunchKernelEx(&launch, for_each_team_kernel<Body>, body, stop), kernel.name);
+  const unsigned team_blocks = blocks_of_team(team_kernel<Loop>);
+  const Loop loop{teams * team_blocks, body, stop};
+  if (!cuda.batch) return launch_teams(team_kernel<Loop>, loop.blocks, cuda.stream, team_blocks, loop);
+  constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
+                                            cudaStream_t stream) {
+    launch_teams<const BatchedLoop*>(batched_team_kernel<Loop>, dim3(blocks, members), stream,
+                                     blocks_of_team(batched_team_kernel<Loop>), ordered);
+  };
+  cuda.batch->order(kBatched, kernel.name, loop);
 }
 #endif
 

@@ -43,6 +43,10 @@ class WhileLoop<Cuda> {
   // driver cannot, where it must not, and where kernels are profiled one by one: the caller goes on.
   template <class Order>
   bool run(Cuda& cuda, const std::vector<const void*>& key, const int* done, const Order& order) {
+    if (cuda.batch) {
+      cuda.batch->repeat(done, order);
+      return true;
+    }
     if (cuda.profile || !cuda.graphs) return false;
     cudaGraphExec_t loop = known(key, cuda.partial);
     if (!loop && works_) {

@@ -1,0 +1,147 @@
+// Many small cloths on one GPU: what their simulations order is gathered, and loops that they have in common
+// are launched once for all of them.  Included by cuda.h.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstring>
+#include <functional>
+#include <new>
+#include <vector>
+
+#include "sim/device/fibers.h"
+
+namespace hysteron {
+
+// A loop of one member in the GPU's memory.
+struct BatchedLoop {
+  const void* loop;
+  const int* stop;  // nothing runs once *stop is not 0; null: whatever happens
+};
+
+// The blocks (., y) take the loop of the y-th member.
+template <class Loop>
+__device__ void run_batched(const BatchedLoop* ordered) {
+  const BatchedLoop mine = ordered[blockIdx.y];
+  if (mine.stop && *mine.stop) return;
+  const Loop loop = *static_cast<const Loop*>(mine.loop);
+  if (blockIdx.x < loop.blocks) loop();
+}
+
+// Simulations whose jobs take turns on one thread, each until it waits for the GPU.  Then all that they have
+// ordered is launched: loops that are next for several members in one launch.  A member's loops keep their
+// order and their blocks, so that its bits are those of a run by itself.
+class CudaBatch {
+ public:
+  // Launches one kernel for so many members, with so many blocks each.
+  using Launch = void (*)(const BatchedLoop*, unsigned blocks, unsigned members, cudaStream_t);
+
+  CudaBatch(int device, int members);
+  ~CudaBatch();
+  CudaBatch(const CudaBatch&) = delete;
+  CudaBatch& operator=(const CudaBatch&) = delete;
+
+  // Runs job(i) for each member i; devices that a job makes belong to this batch.  Throws what the first of
+  // the jobs has thrown, after all have ended.
+  void run(const std::function<void(int)>& job);
+  // The one whose job the calling thread runs; null: none.
+  static CudaBatch* current();
+
+  cudaStream_t stream() const { return stream_; }
+
+  template <class Loop>
+  void order(Launch launch, const char* name, const Loop& loop) {
+    static_assert(alignof(Loop) <= kAlignment);
+    const Place place = room(sizeof(Loop));
+    new (place.host) Loop(loop);
+    member().orders.push_back({launch, name, place.device, loop.blocks, nullptr, 0});
+  }
+  // What orders() orders is repeated until *done, in the GPU's memory, is not 0; from then on it must change
+  // nothing.
+  template <class Orders>
+  void repeat(const int* done, const Orders& orders) {
+    make_room();
+    const std::size_t first = member().orders.size();
+    member().orders.push_back({nullptr, "loop on the device", nullptr, 0, done, 0});
+    member().repeats = true;
+    orders();
+    member().repeats = false;
+    member().orders[first].end = static_cast<int>(member().orders.size());
+  }
+  // Until the GPU has done what this member has ordered.
+  void wait() { fibers_.wait(); }
+  // The same if anything is ordered that has not been launched.
+  void send() {
+    if (!member().orders.empty()) wait();
+  }
+  // Bytes of the host in the GPU's memory, until this member waits.
+  const char* copy_of(const void* bytes, std::size_t size) {
+    const Place place = room(size);
+    std::memcpy(place.host, bytes, size);
+    return static_cast<const char*>(place.device);
+  }
+  // Loops that have been ordered may use it still.
+  void free_later(void* memory) { garbage_.push_back({memory, false}); }
+  void free_host_later(void* memory) { garbage_.push_back({memory, true}); }
+
+ private:
+  static constexpr std::size_t kAlignment = 16, kArena = std::size_t(1) << 16;
+  struct Order {
+    Launch launch;  // null: repeats the orders up to `end` until *done
+    const char* name;
+    const void* loop;
+    unsigned blocks;
+    const int* done;
+    int end;
+  };
+  struct Member {
+    std::vector<Order> orders;
+    std::size_t used = 0;  // of its arena
+    bool repeats = false;
+  };
+  struct Place {
+    void* host;
+    const void* device;
+  };
+  // Orders of one member that are not in a launch yet.
+  struct Pending {
+    int member, next, end;
+    const int* stop;
+  };
+  // One launch; without a kernel, the launches up to `end` until all its members are done.
+  struct Group {
+    Launch launch;
+    const char* name;
+    std::size_t first;
+    unsigned members, blocks;
+    std::size_t end;
+  };
+  struct Garbage {
+    void* memory;
+    bool of_host;
+  };
+
+  Member& member() { return member_[fibers_.current()]; }
+  Place room(std::size_t size);
+  void make_room();
+  void launch_all();
+  void gather(std::vector<Pending> pending);
+  void upload();
+  void launch(std::size_t first, std::size_t end);
+  void launch_repeatedly(const Group& group, std::size_t first);
+  void collect_garbage();
+
+  int device_;
+  cudaStream_t stream_ = nullptr;
+  Fibers fibers_;
+  std::vector<Member> member_;
+  char *arena_ = nullptr, *arena_on_gpu_ = nullptr;  // kArena bytes for each member
+  std::vector<Group> group_;
+  std::vector<BatchedLoop> loop_;
+  BatchedLoop *pinned_loop_ = nullptr, *loop_on_gpu_ = nullptr;
+  std::size_t loop_room_ = 0;
+  int* all_done_ = nullptr;  // pinned
+  std::vector<Garbage> garbage_;
+};
+
+}  // namespace hysteron

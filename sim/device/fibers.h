@@ -1,0 +1,40 @@
+// Functions that take turns on one thread.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace hysteron {
+
+// Each job has a stack of its own and runs until it waits or ends, then the next one does.  What this program
+// keeps for each thread, device_counts, and what C++ does, exceptions that are being handled, each job has
+// for itself.
+class Fibers {
+ public:
+  Fibers();
+  ~Fibers();
+  Fibers(const Fibers&) = delete;
+  Fibers& operator=(const Fibers&) = delete;
+
+  // Runs job(i) for i in [0, count) to their ends.  Whenever all that have not ended wait, and once more when
+  // all have ended, it calls all_wait() and lets them go on.  Throws what the first of them has thrown, after
+  // all have ended; what all_wait() throws is thrown in each job that waits.
+  void run(int count, const std::function<void(int)>& job, const std::function<void()>& all_wait);
+  // Of the job that calls it.
+  void wait();
+  int current() const { return current_; }  // -1: none runs
+
+ private:
+  struct Fiber;
+  static void begin();
+  void go_on(Fiber& fiber);
+  void switch_to_caller(Fiber& fiber);
+
+  std::vector<std::unique_ptr<Fiber>> fiber_;
+  const std::function<void(int)>* job_ = nullptr;
+  std::exception_ptr failure_;  // of all_wait()
+  int current_ = -1;
+};
+
+}  // namespace hysteron
