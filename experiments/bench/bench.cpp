@@ -1,6 +1,7 @@
 // Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --sizes: by the number of
 // triangles; with --laws: of the laws alone, or in whole steps; with --hard: of steps that Newton's method
-// finds hard; with --profile: of the kernels of a step; with --parts: of what a scene's model is made of.
+// finds hard; with --profile: of the kernels of a step; with --parts: of what a scene's model is made of; with --batch:
+// of many cloths together.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "experiments/bench/batch.h"
 #include "experiments/bench/element_costs.h"
 #include "experiments/bench/hard_steps.h"
 #include "experiments/bench/law_cost.h"
@@ -44,6 +46,9 @@ struct BenchOptions {
   std::string parts_scenes = "crumple-fall,crumple-sphere,crease,drape,fold";
   int parts_triangles = 2000;
   double parts_after = 0.1;
+  Numbers batch = {};
+  int batch_threads = 4;
+  double batch_after = 0.1;
   double budget = 120;
 };
 // clang-format off
@@ -64,6 +69,9 @@ const KeyRow<BenchOptions> kRows[] = {
     {"parts-scenes", at<&BenchOptions::parts_scenes>, "", any(), "", "of --parts: as --hard-scenes"},
     {"parts-triangles", at<&BenchOptions::parts_triangles>, "", between(1, 1e6), "", "of --parts"},
     {"parts-after", at<&BenchOptions::parts_after>, "s", at_least(0), "", "of --parts: simulated before steps are timed"},
+    {"batch", at<&BenchOptions::batch>, "", between(1, 65535), "", "so many cloths of this scene together, of which table.csv tells, against one at a time"},
+    {"batch-threads", at<&BenchOptions::batch_threads>, "", between(1, 1024), "", "of --batch: threads of the host that share the cloths"},
+    {"batch-after", at<&BenchOptions::batch_after>, "s", at_least(0), "", "of --batch: simulated before steps are timed"},
     {"budget", at<&BenchOptions::budget>, "s", positive(), "", "of --sizes, --laws-triangles and --parts: wall clock for the table; rows that would not fit are left out and say so"},
 };
 // clang-format on
@@ -310,6 +318,24 @@ int bench_parts(Request& request) {
   return 0;
 }
 
+int bench_together(Request& request) {
+  const RowPrinter print({{"cloths", "cloths", 6},
+                          {"triangles", "triangles", 9},
+                          {"ms_per_step", "ms/step", 9, 3},
+                          {"cloth_steps_per_second", "steps/s", 9},
+                          {"times_one_at_a_time", "times one", 9, 1},
+                          {"solver_iterations_per_step", "linear", 6, 1},
+                          {"setup_seconds", "setup [s]", 9, 2},
+                          {"equal_states", "equal", 5}},
+                         request.json());
+  Run run(request.line, table_options(request.setup), to_json(request.setup.scene));
+  run.note("bench", request.own_keys());
+  const BenchOptions& own = request.own;
+  const BatchChoice choice{own.batch, own.batch_threads, own.batch_after, request.single_steps()};
+  finish_table(run, request.setup, times_together(request.setup.scene, choice, print));
+  return 0;
+}
+
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
@@ -323,6 +349,7 @@ int run_bench(const CommandLine& line) {
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
   Request request{line, setup, own};
   if (own.hard) return bench_hard_steps(request);
+  if (!own.batch.empty()) return bench_together(request);
   if (own.profile) return bench_kernels(request);
   if (own.parts) return bench_parts(request);
   if (own.laws && !own.laws_triangles.empty()) return bench_laws_in_steps(request);

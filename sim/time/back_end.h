@@ -1,6 +1,7 @@
 // What the CPU build and the GPU build of the numerical sources each offer to host code.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,9 @@ double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
 // Cost of a law's loop alone; threads 0 = all.  Error::machine without a GPU.
 LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision, int threads);
 LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision);
+
+// Jobs that take turns on the calling thread (together.h).
+void run_on_gpu_together(int count, const std::function<void(int)>& job);
 
 std::string cpu_description();
 int gpu_count(std::string& reason);  // usable GPUs; why there are none

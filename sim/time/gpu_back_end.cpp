@@ -18,6 +18,8 @@ LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Preci
                                       : law_cost<double>(gpu, choice, dimension, elements);
 }
 
+void run_on_gpu_together(int count, const std::function<void(int)>& job) { CudaBatch(0, count).run(job); }
+
 int gpu_count(std::string& reason) { return cuda_device_count(reason); }
 
 std::string gpu_description(int index) { return "cuda: " + Cuda(index).description(); }

@@ -4,18 +4,24 @@
 
 namespace hysteron {
 
-std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
-                                                const StepLimits&) {
+namespace {
+
+[[noreturn]] void refuse() {
   std::string reason;
   gpu_count(reason);
   throw Error::machine("device = cuda: " + reason);
 }
 
-LawCost gpu_law_cost(const LawChoice&, int, int, Precision) {
-  std::string reason;
-  gpu_count(reason);
-  throw Error::machine("device = cuda: " + reason);
+}  // namespace
+
+std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
+                                                const StepLimits&) {
+  refuse();
 }
+
+LawCost gpu_law_cost(const LawChoice&, int, int, Precision) { refuse(); }
+
+void run_on_gpu_together(int, const std::function<void(int)>&) { refuse(); }
 
 int gpu_count(std::string& reason) {
   reason = "this build has no CUDA back end";

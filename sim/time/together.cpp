@@ -1,0 +1,21 @@
+#include "sim/time/together.h"
+
+#include <algorithm>
+
+#include "sim/base/parallel.h"
+#include "sim/time/back_end.h"
+
+namespace hysteron {
+
+void run_together(bool on_gpu, int count, int threads, const std::function<void(int)>& job) {
+  if (count <= 0) return;
+  const int shares = std::clamp(threads, 1, count);
+  if (!on_gpu) return in_parallel(count, shares, [&](std::size_t i) { job(static_cast<int>(i)); });
+  in_parallel(shares, shares, [&](std::size_t share) {
+    const int first = static_cast<int>(share);
+    const int members = (count - first + shares - 1) / shares;
+    run_on_gpu_together(members, [&](int member) { job(first + member * shares); });
+  });
+}
+
+}  // namespace hysteron

@@ -1,0 +1,16 @@
+// Many small simulations at once.
+#pragma once
+
+#include <functional>
+
+namespace hysteron {
+
+// job(i) for i in [0, count), each of which makes simulations of its own and advances them, on `threads`
+// threads of the host.  On a GPU the jobs of a thread take turns: while one of them waits the next goes on,
+// and loops that several have ordered are launched once for all of them, so that many small cloths fill a GPU
+// that each by itself would leave idle.  On a CPU each thread takes one job after the other.  Every
+// simulation gets the bits that it has by itself.  Throws what a job has thrown when all have ended;
+// Error::machine without a GPU.
+void run_together(bool on_gpu, int count, int threads, const std::function<void(int)>& job);
+
+}  // namespace hysteron
