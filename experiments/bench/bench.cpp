@@ -1,7 +1,7 @@
 // Time and memory of a step: a square of 0.5 m, hanging from two corners.  With --sizes: by the number of
 // triangles; with --laws: of the laws alone, or in whole steps; with --hard: of steps that Newton's method
-// finds hard; with --profile: of the kernels of a step; with --parts: of what a scene's model is made of; with --batch:
-// of many cloths together.
+// finds hard; with --profile: of the kernels of a step; with --parts: of what a scene's model is made of;
+// with --batch: of many cloths together.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,0 +1,144 @@
+// Many small cloths together: every one as if it were alone.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "sim/base/error.h"
+#include "sim/time/back_end.h"
+#include "sim/time/together.h"
+#include "tests/sim/device/primitives.h"
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+using test::Trial;
+
+bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
+
+TEST(Together, OnACpuEveryJobIsTakenOnce) {
+  for (const int count : {0, 1, 7}) {
+    std::vector<int> taken(count);
+    run_together(false, count, 3, [&](int i) { ++taken[i]; });
+    EXPECT_EQ(taken, std::vector<int>(count, 1));
+  }
+}
+
+TEST(Together, AskForAGpuWhereThereIsNone) {
+  std::string reason;
+  if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
+  EXPECT_THROW(run_together(true, 2, 1, [](int) {}), Error);
+}
+
+// Members whose loops differ in length and in how often they are repeated.
+TEST(Together, LoopsOfABatchGiveWhatTheyGiveAlone) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr int kMembers = 9, kTimes = 3;
+  const auto alone = test::gpu_primitives();
+  for (const int threads : {1, 2})
+    run_together(true, kMembers, threads, [&](int i) {
+      const auto member = test::gpu_primitives();
+      const int n = i < 2 ? i : 1 << (2 * i);
+      std::vector<int> count(n + 1);
+      for (int k = 0; k <= n; ++k) count[k] = (k * (i + 1)) % 7;
+      const std::vector<double> values(count.begin(), count.end());
+      test::Rows rows{{0}, count};
+      rows.start.push_back(n);
+      EXPECT_EQ(member->repeated(n, 5 * i, kTimes), std::vector<int>(n, kTimes * 5 * i)) << i;
+      EXPECT_EQ(member->scan(count).start.back(), std::accumulate(count.begin(), count.end(), 0)) << i;
+      EXPECT_EQ(member->group(count, 7).item.size(), count.size()) << i;
+      EXPECT_EQ(member->totals(values).finished, 1) << i;
+      EXPECT_EQ(member->totals(values).sum, std::accumulate(values.begin(), values.end(), 0.0)) << i;
+      EXPECT_EQ(member->row_sums(rows, values).size(), 1u) << i;
+      EXPECT_EQ(member->written_to_host(0.5 + i), 0.5 + i);
+      EXPECT_EQ(member->through_a_buffer(values), values) << i;
+      EXPECT_EQ(member->smallest(values, -1.0 - i), -1.0 - i);
+      EXPECT_EQ(member->relayed(257, i).size(), 514u);
+    });
+  EXPECT_EQ(alone->bytes(), test::gpu_primitives()->bytes());
+}
+
+std::vector<test::Method> methods() {
+  std::vector<test::Method> all;
+  for (const char* integrator : {"semi-implicit", "explicit", "implicit", "bdf2", "tr-bdf2"})
+    all.push_back({"prandtl", "shape", integrator});
+  all.push_back({"wong", "hinge", "implicit"});
+  return all;
+}
+
+// Cloths of one topology, each with a rigidity of its own, so that they need other numbers of iterations.
+Scene member_scene(const test::Method& method, int i) {
+  Scene scene = test::hanging_square(300);
+  scene.law = method.law;
+  scene.element = value_named<BendingElement>(method.element);
+  scene.integrator = value_named<Integrator>(method.integrator);
+  scene.fabric.b1 *= 1 + 0.3 * i;
+  scene.air_drag = 0.02;
+  if (scene.is_implicit()) scene.step = 5e-3;
+  scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {0.05, {0.01, 0, 0.02}, 10}};
+  return scene;
+}
+
+std::uint64_t hash_after(Scene scene, int steps) {
+  scene.device = DeviceChoice::cuda;
+  return Trial(scene).after(steps)->state_hash();
+}
+
+class BatchOnGpu : public testing::TestWithParam<test::Method> {};
+INSTANTIATE_TEST_SUITE_P(Cases, BatchOnGpu, testing::ValuesIn(methods()),
+                         [](const auto& method) { return method.param.name(); });
+
+TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr int kMembers = 5, kSteps = 20;
+  std::vector<std::uint64_t> together(kMembers), alone;
+  run_together(true, kMembers, 2,
+               [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
+  for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(member_scene(GetParam(), i), kSteps));
+  EXPECT_EQ(together, alone);
+  EXPECT_NE(alone[0], alone[1]);
+}
+
+// Lists of pairs grow, are scanned and sorted, and obstacles ask for the smallest step.
+TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr int kMembers = 3, kSteps = 30;
+  const auto scene_of = [](int i) {
+    Scene scene = member_scene({"prandtl", "shape", "implicit"}, i);
+    scene.self_contact = true;
+    Obstacle sphere;
+    sphere.kind = ObstacleKind::sphere;
+    sphere.radius = 0.04;
+    sphere.center = {0.1, 0.05, -0.042};
+    scene.obstacle = {sphere};
+    return scene;
+  };
+  std::vector<std::uint64_t> together(kMembers), alone;
+  run_together(true, kMembers, 1, [&](int i) { together[i] = hash_after(scene_of(i), kSteps); });
+  for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(scene_of(i), kSteps));
+  EXPECT_EQ(together, alone);
+}
+
+TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr int kMembers = 4, kFails = 2, kSteps = 10;
+  const test::Method method{"prandtl", "shape", "implicit"};
+  std::vector<std::uint64_t> together(kMembers);
+  const auto job = [&](int i) {
+    if (i == kFails) {
+      hash_after(member_scene(method, i), 1);
+      throw Error::run("this one fails");
+    }
+    together[i] = hash_after(member_scene(method, i), kSteps);
+  };
+  EXPECT_THROW(run_together(true, kMembers, 1, job), Error);
+  for (int i = 0; i < kMembers; ++i)
+    if (i != kFails) EXPECT_EQ(together[i], hash_after(member_scene(method, i), kSteps)) << i;
+}
+
+}  // namespace
+}  // namespace hysteron
