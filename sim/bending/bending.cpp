@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "sim/bending/stiffness_product.h"
+
 namespace hysteron {
 
 namespace {
@@ -133,18 +135,8 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* prev
 
 template <class Real, class Device>
 void Bending<Real, Device>::compute_rates(const Vec3<Real>* v) {
-  const Eigen::Vector4i* corner = corner_.data();
-  const Real* gradient = gradient_.data();
-  Real* rate = rate_.data();
-  for_each(
-      device_, {"bending rates", bytes_of(corner_, gradient_, rate_) + vertex_bytes()}, hinges_,
-      HYST_KERNEL(int h) {
-        const Eigen::Vector4i c = corner[h];
-        const Real* g = gradient + 8 * h;
-        const Vec3<Real> along = v[c[3]] - v[c[2]];
-        rate[h] = Vec3<Real>(g[0], g[1], g[2]).dot(v[c[0]] - v[c[2]] - g[6] * along) +
-                  Vec3<Real>(g[3], g[4], g[5]).dot(v[c[1]] - v[c[2]] - g[7] * along);
-      });
+  for_each(device_, {"bending rates", bytes_of(corner_, gradient_, rate_) + vertex_bytes()}, hinges_,
+           HingeRates<Real>{corner_.data(), gradient_.data(), v, rate_.data()});
 }
 
 template <class Real, class Device>
@@ -165,29 +157,12 @@ void Bending<Real, Device>::compute_energy_forces() {
   dimension_ == 1 ? gather_torques<1>() : gather_torques<3>();
 }
 
-// Torque of each hinge, and the forces of its gradients.
 template <class Real, class Device>
 template <int D>
 void Bending<Real, Device>::gather_torques() {
-  const int *start = column_start_.data(), *element = column_element_.data();
-  const Real *coefficient = transposed_.data(), *moment_area = moment_area_.data();
-  const Real* gradient = gradient_.data();
-  Vec3<Real>* force = force_.data();
-  for_each(
-      device_, {"bending forces", column_bytes() + bytes_of(moment_area_, gradient_, force_)}, hinges_,
-      HYST_KERNEL(int h) {
-        Real torque = 0;
-        for (int j = start[h]; j < start[h + 1]; ++j)
-          for (int k = 0; k < D; ++k) torque += coefficient[j * D + k] * moment_area[element[j] * D + k];
-        const Real* g = gradient + 8 * h;
-        const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
-        const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
-        const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1);
-        force[4 * h] = f0;
-        force[4 * h + 1] = f1;
-        force[4 * h + 2] = -(f0 + f1 + f3);
-        force[4 * h + 3] = f3;
-      });
+  for_each(device_, {"bending forces", column_bytes() + bytes_of(moment_area_, gradient_, force_)}, hinges_,
+           HingeForces<Real, D>{column_start_.data(), column_element_.data(), transposed_.data(),
+                                moment_area_.data(), gradient_.data(), force_.data()});
 }
 
 template <class Real, class Device>

@@ -15,10 +15,12 @@ namespace hysteron {
 // The stiffness J^T C^T T C J in its factors, on the device.
 template <class Real>
 struct BendingFactors {
-  int elements, dimension;         // D
-  const int *start, *hinge;        // rows of C: elements
-  const Real* coefficient;         // D for each item
-  const Eigen::Vector4i* corner;   // p0, p1, p2, p3 of each hinge
+  int elements, hinges, items, dimension;    // items of C's rows; D
+  const int *start, *hinge;                  // rows of C: elements
+  const Real* coefficient;                   // D for each item
+  const int *column_start, *column_element;  // columns of C: hinges
+  const Real* transposed;                    // D for each of their items
+  const Eigen::Vector4i* corner;             // p0, p1, p2, p3 of each hinge
   const Real *gradient, *tangent;  // J: 8 Reals a hinge (angle.h); T = A dM/dK: D (D + 1)/2 an element
 };
 
@@ -48,8 +50,19 @@ class Bending {
   void add_stiffness_diagonal(Mat3<Real>* diagonal);
   void accept();
   BendingFactors<Real> factors() const {  // of K where linearise() was called last
-    return {elements_,           dimension_,     row_start_.data(), row_hinge_.data(),
-            coefficient_.data(), corner_.data(), gradient_.data(),  tangent_.data()};
+    return {elements_,
+            hinges_,
+            static_cast<int>(row_hinge_.size()),
+            dimension_,
+            row_start_.data(),
+            row_hinge_.data(),
+            coefficient_.data(),
+            column_start_.data(),
+            column_element_.data(),
+            transposed_.data(),
+            corner_.data(),
+            gradient_.data(),
+            tangent_.data()};
   }
 
   // What outlives a step.  Not forces and trials: every step begins with evaluate() or commit().
@@ -71,6 +84,7 @@ class Bending {
   int dimension() const { return dimension_; }
   int elements() const { return elements_; }
   const LawLoop<Real, Device>& law() const { return *law_; }
+  int vertices() const { return static_cast<int>(vertex_start_.size()) - 1; }
   std::size_t bytes() const;  // without the law's history
   std::size_t force_bytes() const { return bytes_of(vertex_start_, vertex_item_, force_); }  // of forces()
 
@@ -94,7 +108,7 @@ class Bending {
  private:
   void make_trials();
   OperatorView<Real> view() const;
-  std::size_t vertex_bytes() const { return (vertex_start_.size() - 1) * sizeof(Vec3<Real>); }
+  std::size_t vertex_bytes() const { return vertices() * sizeof(Vec3<Real>); }
   std::size_t element_bytes() const {
     return bytes_of(area_, row_start_, row_hinge_, coefficient_, direction_);
   }

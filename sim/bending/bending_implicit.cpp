@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/bending/bending.h"
+#include "sim/bending/stiffness_product.h"
 
 namespace hysteron {
 
@@ -76,23 +77,13 @@ template <class Real, class Device>
 void Bending<Real, Device>::apply_stiffness(const Vec3<Real>* p) {
   compute_rates(p);
   const OperatorView<Real> op = view();
-  const Real *rate = rate_.data(), *tangent = tangent_.data();
-  Real* moment_area = moment_area_.data();
   const Kernel stiffness = {"bending stiffness", op.bytes + bytes_of(tangent_, moment_area_)};
-  if (dimension_ == 1) {
-    for_each(
-        device_, stiffness, elements_,
-        HYST_KERNEL(int i) { moment_area[i] = tangent[i] * op.template curvature<1>(i, rate)[0]; });
-  } else {
-    for_each(
-        device_, stiffness, elements_, HYST_KERNEL(int i) {
-          const Vec<Real, 3> k = op.template curvature<3>(i, rate);
-          const Real* t = tangent + 6 * i;
-          moment_area[3 * i] = t[0] * k[0] + t[1] * k[1] + t[3] * k[2];
-          moment_area[3 * i + 1] = t[1] * k[0] + t[2] * k[1] + t[4] * k[2];
-          moment_area[3 * i + 2] = t[3] * k[0] + t[4] * k[1] + t[5] * k[2];
-        });
-  }
+  if (dimension_ == 1)
+    for_each(device_, stiffness, elements_,
+             ElementMoments<Real, 1>{op, rate_.data(), tangent_.data(), moment_area_.data()});
+  else
+    for_each(device_, stiffness, elements_,
+             ElementMoments<Real, 3>{op, rate_.data(), tangent_.data(), moment_area_.data()});
   compute_energy_forces();
 }
 

@@ -202,7 +202,7 @@ void SelfContact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* 
         const Vec3<Real> force = (slides ? f.limit / length : k_t) * e;
         for (int k = 0; k < 4; ++k) slot[4 * p + k] += f.weight[k] * force;
       });
-  const GatheredForces<Real> forces = gathered(rows_);
+  const GatheredForces<Real> forces{rows_.start.data(), rows_.item.data(), slot};
   for_each(
       device_, "self-contact: forces", vertices_, HYST_KERNEL(int i) { gradient[i] += forces.at(i); });
   clock_.end(Stage::contact);
@@ -266,21 +266,16 @@ GatheredForces<Real> SelfContact<Real, Device>::apply_stiffness(const Vec3<Real>
   const PairStiffness<Real>* stiffness = stiffness_.data();
   Vec3<Real>* slot = slot_.data();
   for_each(
-      device_, "self-contact: product", pressing_count_, HYST_KERNEL(int p) {
-        const PairStiffness<Real>& s = stiffness[p];
-        Vec3<Real> apart = Vec3<Real>::Zero();
-        for (int k = 0; k < 4; ++k) apart += s.weight[k] * v[s.v[k]];
-        const Vec3<Real> force = s.block * apart;
-        for (int k = 0; k < 4; ++k) slot[4 * p + k] = s.weight[k] * force;
-      });
+      device_, "self-contact: product", pressing_count_,
+      HYST_KERNEL(int p) { stiffness[p].times(v, slot + 4 * p); });
   clock_.end(Stage::contact);
-  return gathered(stiffness_rows_);
+  return pressing_forces<Real>(slot);
 }
 
 template <class Real, class Device>
 void SelfContact<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
   const PairStiffness<Real>* stiffness = stiffness_.data();
-  const GatheredForces<Real> rows = gathered(stiffness_rows_);
+  const GatheredForces<Real> rows = pressing_forces<Real>(slot_.data());
   for_each(
       device_, "self-contact: diagonal", vertices_, HYST_KERNEL(int i) {
         for (int j = rows.start[i]; j < rows.start[i + 1]; ++j) {

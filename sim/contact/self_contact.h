@@ -33,6 +33,14 @@ struct PairStiffness {
   int v[4];
   Mat3<Real> block;  // between the closest points [N/m]
   Vec<Real, 4> weight;
+
+  // What it makes of the displacements of all vertices: four forces, on its own [N].
+  HYST_HD void times(const Vec3<Real>* displacement, Vec3<Real>* force) const {
+    Vec3<Real> apart = Vec3<Real>::Zero();
+    for (int k = 0; k < 4; ++k) apart += weight[k] * displacement[v[k]];
+    const Vec3<Real> between = block * apart;
+    for (int k = 0; k < 4; ++k) force[k] = weight[k] * between;
+  }
 };
 
 // Entries of pairs' vertices, sorted by vertex.
@@ -82,6 +90,11 @@ class SelfContact {
   std::span<const PairStiffness<Real>> pressing() const {
     return {stiffness_.data(), static_cast<std::size_t>(pressing_count_)};
   }
+  // Four forces of each of these pairs, in any precision, to be gathered.
+  template <class Scalar>
+  GatheredForces<Scalar> pressing_forces(const Vec3<Scalar>* force) const {
+    return {stiffness_rows_.start.data(), stiffness_rows_.item.data(), force};
+  }
   void commit(const Vec3<Real>* x, const Vec3<Real>* before);
 
   // What outlives a step: the list of pairs, which decides the order of sums and when the next one is made,
@@ -109,9 +122,6 @@ class SelfContact {
   Real farthest(const Vec3<Real>* x, const Vec3<Real>* direction, Real step_length);
   int find_pressing(const Vec3<Real>* x);
   BearingRows bearing() const { return {rows_.start.data(), bearing_end_.data(), bearing_item_.data()}; }
-  GatheredForces<Real> gathered(const PairRows<Device>& rows) const {
-    return {rows.start.data(), rows.item.data(), slot_.data()};
-  }
 
  private:
   Device& device_;

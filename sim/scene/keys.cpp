@@ -80,6 +80,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"ramp", at<&S::ramp>, "s", at_least(0), "", "quasi-static: time in which the weight grows to its full value"},
     {"unload", at<&S::unload>, "s", at_least(0), "", "quasi-static: time after the ramp in which the weight falls to zero; 0: it stays"},
     {"linear-solver", at<&S::linear_solver>, "", any(), "", "implicit, bdf2, tr-bdf2, quasi-static: preconditioner of conjugate gradients"},
+    {"linear-precision", at<&S::linear_precision>, "", any(), "", "implicit, bdf2, tr-bdf2, quasi-static, with precision = double: of conjugate gradients; state, forces and energies stay double"},
     {"device", at<&S::device>, "", any(), "", "where the simulation runs; as a flag also cuda:N, GPU N of several"},
     {"precision", at<&S::precision>, "", any(), "", "of the simulation"},
     {"threads", at<&S::threads>, "", between(0, 1024), "", "CPU threads; 0: all cores"},

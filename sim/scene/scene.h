@@ -168,6 +168,7 @@ struct Scene {
   int newton_iterations = 0;
   double tolerance = 0;
   Preconditioning linear_solver = Preconditioning::automatic;
+  Precision linear_precision = Precision::fp64;
   SolverTuning tuning = {};  // no key
   double ramp = 0;
   double unload = 0;
@@ -195,6 +196,8 @@ struct Scene {
     return integrator == Integrator::implicit || integrator == Integrator::bdf2 ||
            integrator == Integrator::tr_bdf2 || integrator == Integrator::quasi_static;
   }
+  // The linear systems of Newton's method, all else in double.
+  bool solves_in_float() const { return precision == Precision::fp64 && linear_precision == Precision::fp32; }
 };
 
 }  // namespace hysteron

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 #include "sim/bending/bending_elements.h"
+#include "sim/bending/float_bending.h"
+#include "sim/contact/float_pairs.h"
 #include "sim/contact/pair_elements.h"
 #include "sim/linear/cholesky_solver.h"
+#include "sim/linear/float_solver.h"
 #include "sim/linear/multigrid_solver.h"
 #include "sim/time/body.h"
 
@@ -20,18 +24,36 @@ std::unique_ptr<LinearSolver<Real, Cpu>> make_cholesky_solver(const Body<Real, C
                                                 std::move(self_contact));
 }
 
-// Of a scene whose choice is made (method_choice.h).
-template <class Real, class Device>
-std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(const Body<Real, Device>& body) {
+// Conjugate gradients in a precision that need not be the body's.
+template <class Real, class BodyReal, class Device>
+std::unique_ptr<LinearSolver<Real, Device>> make_gradient_solver(const Body<BodyReal, Device>& body) {
   const Scene& scene = body.scene;
   Device& device = *body.device;
-  if constexpr (!Device::kGpu)
-    if (scene.linear_solver == Preconditioning::cholesky) return make_cholesky_solver(body);
   if (scene.linear_solver == Preconditioning::block_jacobi)
     return std::make_unique<BlockJacobiSolver<Real, Device>>(device, body.vertices);
   const double rigidity = scene.is_implicit() ? body.bending.law().largest_stiffness() : 0;
   return std::make_unique<MultigridSolver<Real, Device>>(
       device, body.cloth.mesh, make_rest_hierarchy(body.cloth.mesh, body.cloth.held(scene, 0)), rigidity);
+}
+
+template <class Device>
+std::unique_ptr<LinearSolver<double, Device>> make_float_solver(const Body<double, Device>& body) {
+  Device& device = *body.device;
+  std::unique_ptr<FloatStiffness<Device>> bending, self_contact;
+  if (body.scene.is_implicit()) bending = std::make_unique<FloatBending<Device>>(device, body.bending);
+  if (body.self_contact) self_contact = std::make_unique<FloatPairs<Device>>(device, *body.self_contact);
+  return std::make_unique<FloatSolver<Device>>(device, body.matrix, make_gradient_solver<float>(body),
+                                               std::move(bending), std::move(self_contact));
+}
+
+// Of a scene whose choice is made (method_choice.h).
+template <class Real, class Device>
+std::unique_ptr<LinearSolver<Real, Device>> make_linear_solver(const Body<Real, Device>& body) {
+  if constexpr (!Device::kGpu)
+    if (body.scene.linear_solver == Preconditioning::cholesky) return make_cholesky_solver(body);
+  if constexpr (std::is_same_v<Real, double>)
+    if (body.scene.solves_in_float()) return make_float_solver(body);
+  return make_gradient_solver<Real>(body);
 }
 
 }  // namespace hysteron

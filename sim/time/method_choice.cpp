@@ -45,7 +45,12 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   choice.gpu = scene.device != DeviceChoice::cpu && gpus > 0;
   if (!solves_with_newton(scene)) return choice;
   choice.linear_solver = scene.linear_solver;
+  choice.in_float = scene.solves_in_float();
   if (scene.linear_solver == Preconditioning::cholesky) {
+    if (choice.in_float)
+      throw Error::request(
+          "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
+          "multigrid or block-jacobi");
     if (scene.device == DeviceChoice::cuda)
       throw Error::request("linear-solver = cholesky runs on the CPU: device = cuda must be auto or cpu");
     if (choice.gpu) choice.reason = "linear-solver = cholesky runs on the CPU";
@@ -53,7 +58,9 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   }
   if (scene.linear_solver != Preconditioning::automatic) return choice;
   choice.linear_solver = Preconditioning::multigrid;
-  if (scene.device == DeviceChoice::cuda || cloth.mesh.vertices() > kMostVertices) return choice;
+  const bool may_factorise =
+      scene.device != DeviceChoice::cuda && !choice.in_float && cloth.mesh.vertices() <= kMostVertices;
+  if (!may_factorise) return choice;
   const double work = factorisation_work(cloth.mesh, op);
   if (work > kWorkOfVertex * cloth.mesh.vertices() || (choice.gpu && work > kCpuWork)) return choice;
   choice.linear_solver = Preconditioning::cholesky;

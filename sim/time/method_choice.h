@@ -12,6 +12,7 @@ struct MethodChoice {
   bool gpu = false;
   // Of Newton's method; automatic: the integrator does without.
   Preconditioning linear_solver = Preconditioning::automatic;
+  bool in_float = false;    // its systems, in a scene of double precision
   std::string reason = {};  // why the CPU where there is a GPU; empty: no choice of ours
 };
 

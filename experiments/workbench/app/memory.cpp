@@ -19,6 +19,7 @@ constexpr double kProgram = 30 * kMegabyte;  // and the smallest cloths
 // Of double precision, a triangle [bytes].
 constexpr double kCloth = 2300;        // 1300 in loops, the rest on the host
 constexpr double kSolver = 750;        // block rows, multigrid
+constexpr double kInFloat = 400;       // copies of matrix and bending for linear systems in float
 constexpr double kSmallFactor = 1500;  // of a factorisation that is chosen by itself, which is small
 constexpr double kSelfContact = 2000;  // pairs of a cloth that is crumpled
 constexpr double kBlock = 72;          // 3 x 3 numbers
@@ -36,10 +37,11 @@ double factor_blocks(double n) { return n > 1 ? 31. / 4 * n * std::log2(n) : 0; 
 
 double solver_bytes(const Scene& scene, double triangles) {
   if (scene.integrator == Integrator::explicit_euler) return 0;
-  const double rows = kSolver * triangles;
+  const bool in_float = scene.solves_in_float();
+  const double rows = (kSolver + (in_float ? kInFloat : 0)) * triangles;
   if (scene.linear_solver == Preconditioning::cholesky) return rows + kBlock * factor_blocks(triangles / 2);
   const bool may_factor =
-      scene.linear_solver == Preconditioning::automatic && triangles <= kMostTrianglesByFactor;
+      !in_float && scene.linear_solver == Preconditioning::automatic && triangles <= kMostTrianglesByFactor;
   return rows + (may_factor ? kSmallFactor * triangles : 0);
 }
 

@@ -84,7 +84,8 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
   const MethodChoice& method = simulation.method;
   if (!method.reason.empty()) std::cout << method.reason << "\n";
   if (method.linear_solver != Preconditioning::automatic)
-    std::cout << "linear solver " << name_of(method.linear_solver) << "\n";
+    std::cout << "linear solver " << name_of(method.linear_solver) << (method.in_float ? " in float" : "")
+              << "\n";
   const StepLimits limits = simulation.limits();
   std::cout << "substeps " << limits.substeps << " of " << limits.substep << " s";
   if (limits.bending_step > 0)

@@ -84,6 +84,8 @@ TEST(StepProfile, KnowsTheBytesOfEveryLoop) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::semi_implicit,
                                       Integrator::implicit, Integrator::bdf2, Integrator::tr_bdf2})
     scenes.push_back(hanging(integrator, 200));
+  scenes.push_back(hanging(Integrator::implicit, 200));
+  scenes.back().linear_precision = Precision::fp32;
   scenes.push_back(hanging(Integrator::implicit, 20000));  // whose first coarse level is not small
   scenes.back().newton_iterations = 1;
   for (const Scene& scene : scenes)

@@ -81,6 +81,23 @@ TEST_P(ProfileOfSteps, StatesTheBytesOfArraysReadAndWrittenOnce) {
                                           sizeof(int) * (4 * edges + vertices + 1 + 3 * faces));
 }
 
+// Indices stay as they are, of blocks and of bending's forces.
+TEST_P(ProfileOfSteps, HalvesTheNumbersThatAProductReadsInFloat) {
+  Scene scene = hanging("implicit", GetParam());
+  scene.linear_solver = Preconditioning::multigrid;
+  scene.tuning.full_stiffness = 0;  // no softening
+  const auto product = [&](Precision precision) {
+    scene.linear_precision = precision;
+    const Profile profile = profile_of(scene);
+    const KernelCost& cost = profile.costs.at("solve: product");
+    return cost.bytes / static_cast<double>(cost.calls);
+  };
+  const ClothMesh mesh = test::Trial(scene).cloth.mesh;
+  const double rows = mesh.vertices() + 1, edges = static_cast<double>(mesh.edge.size());
+  const double indices = sizeof(int) * (rows + 2 * edges + rows + 4 * mesh.interior_edges);
+  EXPECT_EQ(2 * product(Precision::fp32) - product(Precision::fp64), indices);
+}
+
 // The guess, at constant velocity and with the last acceleration, and one trial per iteration where none is
 // shortened; nothing is evaluated again where it was evaluated last.
 TEST_P(ProfileOfSteps, EvaluatesThePotentialOncePerTrial) {
@@ -123,8 +140,9 @@ TEST_P(ProfileOfSteps, HasNoLoopOfAPartThatTheSceneLacks) {
   ball.center = {0, 0, -10};
   ball.radius = 0.1;
   full.obstacle = {ball};
+  full.linear_precision = Precision::fp32;
   const Profile with = profile_of(full);
-  for (const char* part : {"contact: ", "self-contact: ", "bending reference"}) {
+  for (const char* part : {"contact: ", "self-contact: ", "bending reference", "in float: "}) {
     const auto runs = [&](const Profile& profile) {
       return std::any_of(profile.costs.begin(), profile.costs.end(),
                          [&](const auto& cost) { return cost.first.starts_with(part); });

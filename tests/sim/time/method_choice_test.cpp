@@ -73,6 +73,32 @@ TEST(MethodChoice, RefusesAFactorisationOnAGpuInOneLine) {
   EXPECT_FALSE(choice_for(scene, 1).gpu);
 }
 
+TEST(MethodChoice, SolvesInFloatByConjugateGradients) {
+  Scene scene = sheet(0.2, 0.2, 300);
+  scene.linear_precision = Precision::fp32;
+  EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::multigrid);
+  EXPECT_TRUE(choice_for(scene, 0).in_float);
+  scene.linear_solver = Preconditioning::cholesky;
+  try {
+    choice_for(scene, 0);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 2);
+    EXPECT_NE(std::string(error.what()).find("linear-precision = float"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MethodChoice, HasNothingToDoInFloatWhereAllIsOrNewtonsMethodIsNotUsed) {
+  Scene scene = sheet(0.2, 0.2, 300);
+  scene.linear_precision = Precision::fp32;
+  scene.precision = Precision::fp32;
+  EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::cholesky);
+  EXPECT_FALSE(choice_for(scene, 0).in_float);
+  scene.precision = Precision::fp64;
+  scene.integrator = Integrator::semi_implicit;
+  EXPECT_FALSE(choice_for(scene, 0).in_float);
+}
+
 // A band of half width w nodes: about n w^2/2 blocks' products, 27 multiplications each; a square's
 // separators grow with its side.
 TEST(MethodChoice, CountsWorkThatGrowsWithTheLengthOfAStripButWithTheSquareOfASheet) {

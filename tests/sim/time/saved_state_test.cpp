@@ -24,6 +24,7 @@ struct Saved {
   bool barred = false;    // two layers: a rigid hand leads the upper one through the lower
   bool parts = false;     // stops along warp and weft, branches and set
   bool in_plane = false;  // stops of the membrane
+  Precision linear_precision = Precision::fp64;
 };
 
 const LawParameters kFatigue = {{"fatigue.dc", "0.01"}};
@@ -49,6 +50,15 @@ const Saved kCases[] = {
     {"tr_bdf2_layers", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, true},
     {"tr_bdf2_fp32", "tr-bdf2", "kim", "shape", Precision::fp32},
     {"tr_bdf2_weak_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, false, false, {}, 1e-3},
+    {.name = "tr_bdf2_in_float",
+     .integrator = "tr-bdf2",
+     .law = "chapman",
+     .parts = true,
+     .linear_precision = Precision::fp32},
+    {.name = "implicit_layers_in_float",
+     .integrator = "implicit",
+     .layers = true,
+     .linear_precision = Precision::fp32},
     {"tr_bdf2_barred_hand", "tr-bdf2", "prandtl", "shape", Precision::fp64, 0, true, false, {}, 0, true},
     {"quasi_static", "quasi-static"},
     {.name = "semi_implicit_parts", .integrator = "semi-implicit", .law = "chapman", .parts = true},
@@ -110,6 +120,7 @@ Trial trial_of(const Saved& of) {
   scene.param = of.param;
   scene.element = value_named<BendingElement>(of.element);
   scene.precision = of.precision;
+  scene.linear_precision = of.linear_precision;
   scene.tolerance = of.tolerance;
   if (of.layers) scene.gravity = {4, 1, -9};
   if (of.barred) {

@@ -1,0 +1,109 @@
+#include "sim/linear/float_solver.h"
+
+#include <cmath>
+
+namespace hysteron {
+
+template <class Device>
+FloatSolver<Device>::FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
+                                 std::unique_ptr<LinearSolver<float, Device>> solver,
+                                 std::unique_ptr<FloatStiffness<Device>> bending,
+                                 std::unique_ptr<FloatStiffness<Device>> self_contact)
+    : device_(device),
+      solver_(std::move(solver)),
+      bending_(std::move(bending)),
+      self_contact_(std::move(self_contact)),
+      off_diagonal_(device, pattern.col().size()),
+      diagonal_(device, pattern.row_ptr().size() - 1),
+      rest_diagonal_(device, diagonal_.size()),
+      softening_off_diagonal_(device, off_diagonal_.size()),
+      softening_diagonal_(device, diagonal_.size()),
+      rhs_(device, diagonal_.size()),
+      x_(device, diagonal_.size()),
+      norm_(device, 1) {}
+
+template <class Device>
+LinearSystem<float, Device> FloatSolver<Device>::rounded(const LinearSystem<double, Device>& system) {
+  const auto round_blocks = [&](const char* name, const Mat3<double>* from, auto& to) {
+    round_all(device_, name, 9 * to.size(), from->data(), to.data()->data());
+  };
+  const BlockRowsView<double>& matrix = system.matrix;
+  round_blocks("in float: matrix", matrix.off_diagonal, off_diagonal_);
+  round_blocks("in float: diagonal", matrix.diagonal, diagonal_);
+  LinearSystem<float, Device> result;
+  result.matrix = {matrix.rows, matrix.row_ptr, matrix.col, off_diagonal_.data(), diagonal_.data()};
+  result.bytes = (matrix.rows + 1 + off_diagonal_.size()) * sizeof(int) + bytes_of(off_diagonal_, diagonal_);
+  if (system.rest_diagonal) {
+    round_blocks("in float: diagonal", system.rest_diagonal, rest_diagonal_);
+    result.rest_diagonal = rest_diagonal_.data();
+  }
+  if (system.softening.off_diagonal) {
+    round_all(device_, "in float: softening", softening_off_diagonal_.size(), system.softening.off_diagonal,
+              softening_off_diagonal_.data());
+    round_all(device_, "in float: softening", softening_diagonal_.size(), system.softening.diagonal,
+              softening_diagonal_.data());
+    result.softening = {softening_off_diagonal_.data(), softening_diagonal_.data()};
+    result.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
+  }
+  const auto product = [&](FloatStiffness<Device>& stiffness) {
+    stiffness.round();
+    result.bytes += stiffness.force_bytes();
+    return [&stiffness](const Vec3<float>* p) { return stiffness.apply(p); };
+  };
+  if (system.bending) result.bending = product(*bending_);
+  if (system.self_contact) result.self_contact = product(*self_contact_);
+  return result;
+}
+
+template <class Device>
+void FloatSolver<Device>::scale_down(const char* held, const Vec3<double>* rhs) {
+  double* norm = norm_.data();
+  for_each_sum<1>(
+      device_, {"in float: norm", 2 * rhs_.bytes()}, static_cast<int>(rhs_.size()),
+      HYST_KERNEL(int i, Sums<1>& sums) {
+        if (!held[i]) sums.term[0] += rhs[i].squaredNorm();
+      },
+      HYST_KERNEL(const Sums<1>& total) {
+        using std::sqrt;
+        *norm = total.term[0] > 0 ? sqrt(total.term[0]) : 1.0;
+      });
+  Vec3<float>* scaled = rhs_.data();
+  for_each(
+      device_, {"in float: right-hand side", 3 * rhs_.bytes()}, static_cast<int>(rhs_.size()),
+      HYST_KERNEL(int i) {
+        scaled[i] =
+            held[i] ? Vec3<float>(Vec3<float>::Zero()) : Vec3<float>((rhs[i] / *norm).template cast<float>());
+      });
+}
+
+template <class Device>
+void FloatSolver<Device>::scale_up(Vec3<double>* x) {
+  const Vec3<float>* scaled = x_.data();
+  const double* norm = norm_.data();
+  for_each(
+      device_, {"in float: solution", 3 * x_.bytes()}, static_cast<int>(x_.size()),
+      HYST_KERNEL(int i) { x[i] = *norm * scaled[i].template cast<double>(); });
+}
+
+template <class Device>
+PcgOutcome FloatSolver<Device>::solve(const LinearSystem<double, Device>& system, const char* held,
+                                      const Vec3<double>* rhs, Vec3<double>* x, double tolerance) {
+  const LinearSystem<float, Device> in_float = rounded(system);
+  scale_down(held, rhs);
+  const PcgOutcome outcome =
+      solver_->solve(in_float, held, rhs_.data(), x_.data(), std::max(tolerance, kTightest));
+  scale_up(x);
+  return outcome;
+}
+
+template <class Device>
+std::size_t FloatSolver<Device>::bytes() const {
+  return solver_->bytes() + (bending_ ? bending_->bytes() : 0) +
+         (self_contact_ ? self_contact_->bytes() : 0) +
+         bytes_of(off_diagonal_, diagonal_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
+                  rhs_, x_, norm_);
+}
+
+template class FloatSolver<ThisDevice>;
+
+}  // namespace hysteron

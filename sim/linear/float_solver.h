@@ -1,0 +1,50 @@
+// Linear systems of double precision solved in single precision.
+//
+// Newton's method asks for a direction that is right to its forcing term, which is never below 1e-5: single
+// precision has that, and its iterations move half the bytes.  What the direction is judged by, forces and
+// energies, stays in double, so that the steps end where they would.  Each system is rounded once, number by
+// number, where it was linearised; its right-hand side is divided by its norm first, so that nothing depends
+// on how small the forces have become.
+#pragma once
+
+#include <memory>
+
+#include "sim/linear/float_stiffness.h"
+#include "sim/linear/linear_solver.h"
+
+namespace hysteron {
+
+template <class Device>
+class FloatSolver : public LinearSolver<double, Device> {
+ public:
+  // A tighter tolerance is taken as this one: rounding of the systems leaves no more.
+  static constexpr double kTightest = 1e-5;
+
+  // For matrices of this pattern; bending and self-contact of the systems, null where they have none.
+  FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
+              std::unique_ptr<LinearSolver<float, Device>> solver,
+              std::unique_ptr<FloatStiffness<Device>> bending,
+              std::unique_ptr<FloatStiffness<Device>> self_contact);
+
+  void begin() override { solver_->begin(); }
+  PcgOutcome solve(const LinearSystem<double, Device>& system, const char* held, const Vec3<double>* rhs,
+                   Vec3<double>* x, double tolerance) override;
+  void visit(Archive& archive) override { solver_->visit(archive); }
+  std::size_t bytes() const override;
+
+  // The parts of solve(); public because nvcc allows no device lambda in a private member function.
+  LinearSystem<float, Device> rounded(const LinearSystem<double, Device>& system);
+  void scale_down(const char* held, const Vec3<double>* rhs);
+  void scale_up(Vec3<double>* x);
+
+ private:
+  Device& device_;
+  std::unique_ptr<LinearSolver<float, Device>> solver_;
+  std::unique_ptr<FloatStiffness<Device>> bending_, self_contact_;
+  Buffer<Mat3<float>, Device> off_diagonal_, diagonal_, rest_diagonal_;
+  Buffer<float, Device> softening_off_diagonal_, softening_diagonal_;
+  Buffer<Vec3<float>, Device> rhs_, x_;
+  Buffer<double, Device> norm_;  // of the right-hand side [N]; 1 if that is zero
+};
+
+}  // namespace hysteron

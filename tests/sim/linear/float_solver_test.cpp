@@ -1,0 +1,181 @@
+// Systems of double precision solved in single precision, against a dense solve.
+#include "sim/linear/float_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "sim/mesh/builders.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Field = std::vector<Vector3d>;
+
+// A spring between the first vertex and the last.
+struct Spring : FloatStiffness<Cpu> {
+  static constexpr double kStiffness = 30;
+  int last;
+  std::vector<int> start, item = {0, 1};
+  Vec3<float> force[2];
+
+  explicit Spring(int vertices) : last(vertices - 1), start(vertices + 1, 1) {
+    start.front() = 0;
+    start.back() = 2;
+  }
+  void round() override {}
+  GatheredForces<float> apply(const Vec3<float>* p) override {
+    force[0] = static_cast<float>(kStiffness) * (p[0] - p[last]);
+    force[1] = -force[0];
+    return {start.data(), item.data(), force};
+  }
+  std::size_t force_bytes() const override { return 0; }
+  std::size_t bytes() const override { return 0; }
+};
+
+// A random positive matrix on a mesh's edges, softening and the spring, as self-contact has it.
+struct System {
+  Cpu cpu{1};
+  ClothMesh mesh = make_rectangle(0.3, 0.1, 120, MeshFamily::random, 1);
+  BlockRows<double, Cpu> rows{cpu, mesh};
+  std::vector<double> softening, softening_diagonal;
+  std::vector<char> held;
+  Field rhs;
+  FloatSolver<Cpu> solver;
+
+  System()
+      : softening_diagonal(n(), -1),
+        held(n(), 0),
+        rhs(n()),
+        solver(cpu, rows, std::make_unique<BlockJacobiSolver<float, Cpu>>(cpu, n()), nullptr,
+               std::make_unique<Spring>(n())) {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const BlockRowsView<double> view = rows.view();
+    softening.assign(view.row_ptr[view.rows], 0.1);
+    for (int i = 0; i < view.rows; ++i) {
+      view.diagonal[i] = 14 * Matrix3d::Identity();
+      rhs[i] = {uniform(generator), uniform(generator), uniform(generator)};
+      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j) {
+        if (view.col[j] > i) continue;
+        Matrix3d block;
+        for (double& b : block.reshaped()) b = uniform(generator);
+        view.off_diagonal[j] = block;
+        view.off_diagonal[rows.slot(view.col[j], i)] = block.transpose();
+      }
+    }
+    held[3] = held[17] = 1;
+  }
+
+  int n() const { return mesh.vertices(); }
+
+  // The product of double precision only says that there is one.
+  LinearSystem<double, Cpu> linear() {
+    LinearSystem<double, Cpu> system{rows.view()};
+    system.softening = {softening.data(), softening_diagonal.data()};
+    system.self_contact = [](const Vector3d*) { return GatheredForces<double>{}; };
+    return system;
+  }
+  Field solution(double tolerance = FloatSolver<Cpu>::kTightest) {
+    Field x(n(), Vector3d::Constant(7));
+    EXPECT_TRUE(solver.solve(linear(), held.data(), rhs.data(), x.data(), tolerance).converged);
+    return x;
+  }
+
+  MatrixXd dense() {
+    MatrixXd a = MatrixXd::Zero(3 * n(), 3 * n());
+    const BlockRowsView<double> view = rows.view();
+    for (int i = 0; i < n(); ++i) {
+      a.block<3, 3>(3 * i, 3 * i) = view.diagonal[i] + softening_diagonal[i] * Matrix3d::Identity();
+      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j)
+        a.block<3, 3>(3 * i, 3 * view.col[j]) = view.off_diagonal[j] + softening[j] * Matrix3d::Identity();
+    }
+    const int ends[2] = {0, n() - 1};
+    for (int i : ends)
+      for (int j : ends)
+        a.block<3, 3>(3 * i, 3 * j) += (i == j ? 1 : -1) * Spring::kStiffness * Matrix3d::Identity();
+    return a;
+  }
+  double condition() {
+    const VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(dense()).eigenvalues();
+    EXPECT_GT(eigenvalues[0], 0);
+    return eigenvalues[eigenvalues.size() - 1] / eigenvalues[0];
+  }
+  // With held rows at zero.
+  Field dense_solution() {
+    MatrixXd a = dense();
+    VectorXd b(3 * n());
+    for (int i = 0; i < n(); ++i) {
+      b.segment<3>(3 * i) = held[i] ? Vector3d(0, 0, 0) : rhs[i];
+      if (!held[i]) continue;
+      a.middleRows<3>(3 * i).setZero();
+      a.block<3, 3>(3 * i, 3 * i).setIdentity();
+    }
+    const VectorXd x = a.partialPivLu().solve(b);
+    Field result;
+    for (int i = 0; i < n(); ++i) result.emplace_back(x.segment<3>(3 * i));
+    return result;
+  }
+};
+
+double norm(const Field& v) {
+  double sum = 0;
+  for (const Vector3d& x : v) sum += x.squaredNorm();
+  return std::sqrt(sum);
+}
+
+double difference(Field a, const Field& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return norm(a);
+}
+
+TEST(FloatSolver, SolvesToItsToleranceWhatADenseSolveDoes) {
+  System system;
+  const Field exact = system.dense_solution();
+  for (const double tolerance : {1e-2, 1e-5})
+    EXPECT_LT(difference(system.solution(tolerance), exact), system.condition() * tolerance * norm(exact));
+  EXPECT_GT(difference(system.solution(1e-2), exact), difference(system.solution(1e-5), exact));
+}
+
+TEST(FloatSolver, NeedsNoRightHandSideOfHeldRowsAndLeavesThemAtZero) {
+  System system;
+  const Field before = system.solution();
+  EXPECT_EQ(before[3], Vector3d(0, 0, 0));
+  system.rhs[3].setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(system.solution(), before);
+}
+
+// By powers of two, far beyond what single precision holds: nothing is rounded.
+TEST(FloatSolver, SolvesAlikeHoweverSmallTheForces) {
+  System system;
+  const Field of_ones = system.solution();
+  for (const double size : {0x1p-300, 0x1p300}) {
+    for (Vector3d& b : system.rhs) b *= size;
+    Field scaled = system.solution();
+    for (Vector3d& x : scaled) x /= size;
+    EXPECT_EQ(scaled, of_ones);
+    for (Vector3d& b : system.rhs) b /= size;
+  }
+}
+
+TEST(FloatSolver, EndsWhereSinglePrecisionDoesWhenAskedForMore) {
+  System system;
+  EXPECT_EQ(system.solution(1e-15), system.solution(1e-5));
+}
+
+TEST(FloatSolver, AnswersNoForcesWithNoDisplacement) {
+  System system;
+  for (Vector3d& b : system.rhs) b.setZero();
+  EXPECT_EQ(system.solution(), Field(system.n(), Vector3d::Zero()));
+}
+
+}  // namespace
+}  // namespace hysteron
