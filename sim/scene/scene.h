@@ -195,6 +195,8 @@ struct Scene {
     return integrator == Integrator::implicit || integrator == Integrator::bdf2 ||
            integrator == Integrator::tr_bdf2 || integrator == Integrator::quasi_static;
   }
+  // A step ends in equilibrium with contact and hands.
+  bool finds_equilibrium() const { return is_implicit() || self_contact; }
 };
 
 }  // namespace hysteron

@@ -363,10 +363,8 @@ void Session::finish(const std::string& title) {
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   note_integrator(ledger);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
-  if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
-    note_convergence();
-  }
-  if (setup_.scene.is_implicit() || setup_.scene.self_contact || setup_.scene.tolerance > 0) {
+  if (setup_.scene.finds_equilibrium()) note_convergence();
+  if (setup_.scene.finds_equilibrium() || setup_.scene.tolerance > 0) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }
