@@ -341,8 +341,15 @@ bool Session::simulate(const Question& question) {
   Record series(run_->path("metrics.csv"), columns);
   run_->manifest().series = question.columns;
 
-  bool settled = go_through(question, series);
-  if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
+  bool settled = false;
+  try {
+    settled = go_through(question, series);
+    if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
+  } catch (const Error&) {
+    meshes_.finish(*run_, cloth_);  // up to the last instant
+    throw;
+  }
+  meshes_.finish(*run_, cloth_);
   series.finish();
   return settled;
 }
