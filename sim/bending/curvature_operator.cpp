@@ -17,28 +17,12 @@ std::vector<double> hinge_angles(const ClothMesh& mesh, const std::vector<Eigen:
   return angles;
 }
 
-namespace {
-
-// A face at rest, turned so that the edge that it shares leads from `from` to `to`, with `tip` opposite.
-struct HingeSide {
-  Eigen::Vector3d tip, from, to;
-};
-
-HingeSide side_at(const ClothMesh& mesh, int f, int edge) {
-  const auto& edges = mesh.face_edge[f];
-  const int k = static_cast<int>(std::find(edges.begin(), edges.end(), edge) - edges.begin());
-  const auto at = mesh.corners(f);
-  return {at[k], at[(k + 1) % 3], at[(k + 2) % 3]};
-}
-
-}  // namespace
-
 std::array<Eigen::Vector3d, 4> rest_hinge(const ClothMesh& mesh, int hinge) {
   const Edge& e = mesh.edge[hinge];
   if (!mesh.sewn) return {mesh.rest[e.p0], mesh.rest[e.p1], mesh.rest[e.p2], mesh.rest[e.p3]};
   // Where the corner opposite to the edge lies: along the edge, from its middle, and above it.
   const auto tip = [&](int f) {
-    const auto [corner, from, to] = side_at(mesh, f, hinge);
+    const auto [corner, from, to] = mesh.side(f, hinge);
     const double length = (to - from).norm();
     return Eigen::Vector2d((corner - (from + to) / 2).dot(to - from) / length,
                            2 * mesh.face_area[f] / length);
@@ -105,7 +89,7 @@ Eigen::Vector3d rigidities(double weft, double bias) {
 Eigen::Vector3d across(const ClothMesh& mesh, int i) {
   const int f = mesh.edge[i].face0;
   const auto axes = mesh.face_axes(f);
-  const HingeSide side = side_at(mesh, f, i);
+  const FaceSide side = mesh.side(f, i);
   const Eigen::Vector3d along = (side.to - side.from).normalized();
   const double x = along.dot(axes[1]), y = along.dot(axes[0]);  // of the edge's normal, up to signs
   return {x * x, y * y, std::sqrt(2.0) * x * y};

@@ -18,6 +18,11 @@ struct Barrier {
   Real energy, slope, stiffness;  // [J/m^2], by distance [N/m^2], [N/m^3]; slope <= 0 <= stiffness
 };
 
+template <class Real>
+HYST_HD Barrier<Real> operator+(const Barrier<Real>& a, const Barrier<Real>& b) {
+  return {a.energy + b.energy, a.slope + b.slope, a.stiffness + b.stiffness};
+}
+
 inline constexpr double kStiffest = 0.05;
 
 // Of a gap below the range; k [N/m^3].  The stiffness stays below `stiffest` of the range.

@@ -8,9 +8,8 @@ double barrier_stiffness(double thickness) {
 }
 
 ObstacleShell<double> obstacle_shell(const Scene& scene) {
-  const bool finds_equilibrium = scene.is_implicit() || scene.self_contact;
   ObstacleShell<double> shell{scene.fabric.thickness, 1,
-                              finds_equilibrium ? kCrushed * scene.fabric.thickness : 0};
+                              scene.finds_equilibrium() ? kCrushed * scene.fabric.thickness : 0};
   shell.k = scene.contact_stiffness > 0 ? scene.contact_stiffness / shell.stiffest()
                                         : barrier_stiffness(scene.fabric.thickness);
   return shell;

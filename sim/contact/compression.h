@@ -33,8 +33,7 @@ struct ObstacleShell {
   HYST_HD Barrier<Real> at(Real distance) const {
     const Barrier<Real> cloth = measured(distance);
     if (!(last > 0 && distance < last)) return cloth;
-    const Barrier<Real> solid = barrier(k, distance, last, static_cast<Real>(kLastGap));
-    return {cloth.energy + solid.energy, cloth.slope + solid.slope, cloth.stiffness + solid.stiffness};
+    return cloth + barrier(k, distance, last, static_cast<Real>(kLastGap));
   }
   // Of the cloth, beyond the compression that was measured [N/m^3].
   HYST_HD Real stiffest() const { return measured(0).stiffness; }

@@ -22,14 +22,10 @@ HYST_HD Real least_distance(const SelfPair<Real>& pair) {
 template <class Real>
 HYST_HD Barrier<Real> pair_barrier(const SelfPair<Real>& pair, Real k, Real distance) {
   const Real hardest = static_cast<Real>(kHardest) * pair.shell, last = static_cast<Real>(kLast) * pair.shell;
-  Barrier<Real> sum = barrier(k, distance - hardest, pair.shell - hardest);
-  if (!(distance < last)) return sum;
+  const Barrier<Real> first = barrier(k, distance - hardest, pair.shell - hardest);
+  if (!(distance < last)) return first;
   const Real least = least_distance(pair);
-  const Barrier<Real> end = barrier(static_cast<Real>(kLastStiff) * k, distance - least, last - least);
-  sum.energy += end.energy;
-  sum.slope += end.slope;
-  sum.stiffness += end.stiffness;
-  return sum;
+  return first + barrier(static_cast<Real>(kLastStiff) * k, distance - least, last - least);
 }
 
 template <class Real>

@@ -34,6 +34,11 @@ struct Adjacency {
   std::vector<int> item;
 };
 
+// A face at rest [m], turned so that one of its edges leads from `from` to `to`, with `tip` opposite.
+struct FaceSide {
+  Eigen::Vector3d tip, from, to;
+};
+
 struct ClothMesh {
   std::vector<Eigen::Vector3d> rest;  // rest shape in space [m]; flat builders lie in z = 0
   std::vector<Eigen::Vector3i> face;  // counter-clockwise seen from the front
@@ -55,6 +60,8 @@ struct ClothMesh {
   int faces() const { return static_cast<int>(face.size()); }
   // Corners of face f at rest [m]: of its panel, in z = 0, or in `rest`.
   std::array<Eigen::Vector3d, 3> corners(int f) const;
+  // Face f at its edge e.
+  FaceSide side(int f, int e) const;
   // Length of an edge at rest [m]; along a seam the mean of its two sides.
   double edge_length(int e) const;
   // Warp and weft unit vectors of face f among its corners at rest, in its plane and at right angles: where

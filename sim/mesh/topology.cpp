@@ -191,12 +191,17 @@ std::array<Eigen::Vector3d, 3> ClothMesh::corners(int f) const {
   return {at(0), at(1), at(2)};
 }
 
+FaceSide ClothMesh::side(int f, int e) const {
+  const auto& edges = face_edge[f];
+  const int k = static_cast<int>(std::find(edges.begin(), edges.end(), e) - edges.begin());
+  const Corners at = corners(f);
+  return {at[k], at[(k + 1) % 3], at[(k + 2) % 3]};
+}
+
 double ClothMesh::edge_length(int e) const {
   const auto in_face = [&](int f) {
-    const int k =
-        static_cast<int>(std::find(face_edge[f].begin(), face_edge[f].end(), e) - face_edge[f].begin());
-    const Corners at = corners(f);
-    return (at[(k + 2) % 3] - at[(k + 1) % 3]).norm();
+    const FaceSide at = side(f, e);
+    return (at.to - at.from).norm();
   };
   const double first = in_face(edge[e].face0);
   return sewn && edge[e].interior() ? (first + in_face(edge[e].face1)) / 2 : first;

@@ -37,7 +37,7 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
       mass(*device, masses<Real>(s, c.mesh)),
       held(*device, c.held(s, 0)),
       ledger(*device, vertices),
-      hands(*device, s, c, s.is_implicit() || s.self_contact),
+      hands(*device, s, c, s.finds_equilibrium()),
       size_(*device, 1) {
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -25,6 +26,9 @@ constexpr double kSelfContact = 2000;  // pairs of a cloth that is crumpled
 constexpr double kBlock = 72;          // 3 x 3 numbers
 
 constexpr double kMostTrianglesByFactor = 20000;  // twice the vertices of time/method_choice.cpp
+
+constexpr double kAnimation = 1200;                 // 200 instants of 12 bytes a vertex
+constexpr double kMostAnimation = 128 * kMegabyte;  // beyond, an animation has fewer (session/animation.h)
 
 constexpr double kOpenGl = 120 * kMegabyte;
 constexpr double kScenery = 180 * kMegabyte;  // shadows and light on obstacles and ground
@@ -88,7 +92,9 @@ MemoryNeed memory_need(const Setup& setup, double triangles) {
           .history = history_bytes(scene, triangles),
           .solver = solver_bytes(scene, triangles),
           .contact = scene.self_contact ? kSelfContact * triangles : 0,
-          .pictures = picture_bytes(setup)};
+          .pictures = picture_bytes(setup),
+          .animation =
+              setup.options.export_format == "gltf" ? std::min(kAnimation * triangles, kMostAnimation) : 0};
 }
 
 std::string text_of(const MemoryNeed& need) {

@@ -9,14 +9,15 @@ namespace hysteron::experiments {
 
 // [bytes]; fitted to peaks of resident memory (docs/performance.md): 0.9 to 2 times what runs on a CPU take.
 struct MemoryNeed {
-  double program = 0;   // without any cloth
-  double cloth = 0;     // mesh, bending elements, state, and what building them takes
-  double history = 0;   // of the law
-  double solver = 0;    // matrices, preconditioner
-  double contact = 0;   // of the cloth with itself
-  double pictures = 0;  // OpenGL without a GPU, pictures that wait to be written
+  double program = 0;    // without any cloth
+  double cloth = 0;      // mesh, bending elements, state, and what building them takes
+  double history = 0;    // of the law
+  double solver = 0;     // matrices, preconditioner
+  double contact = 0;    // of the cloth with itself
+  double pictures = 0;   // OpenGL without a GPU, pictures that wait to be written
+  double animation = 0;  // instants that wait for the end of the run
 
-  double total() const { return program + cloth + history + solver + contact + pictures; }
+  double total() const { return program + cloth + history + solver + contact + pictures + animation; }
 };
 
 // Of a run whose cloth has so many triangles.

@@ -51,6 +51,7 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
                        const std::vector<Eigen::Vector3d>& x) {
   if (format == "none") return;
   const auto stage = run.stage("io");
+  if (format == "gltf") return animation_.add(simulation.time(), x);
   const auto name = [&](std::size_t k) {
     return fmt::format("{:04}.{}", k, format == "vtk" ? "vtp" : format);
   };
@@ -67,6 +68,20 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
   write_pvd(run.path("mesh/cloth.pvd").string(), instants);
 }
 
-void MeshExport::visit(Archive& archive) { archive(times_); }
+void MeshExport::finish(Run& run, const Cloth& cloth) const {
+  const std::vector<ClothFrame>& frames = animation_.frames();
+  if (frames.empty()) return;
+  const auto stage = run.stage("io");
+  write_glb(run.path("mesh/cloth.glb").string(), cloth.mesh, frames);
+  if (frames.size() < animation_.instants())
+    run.progress(fmt::format("mesh/cloth.glb has {} of {} instants: viewers bear {} morph targets",
+                             frames.size(), animation_.instants(),
+                             most_morph_targets(cloth.mesh.rest.size())));
+}
+
+void MeshExport::visit(Archive& archive) {
+  archive(times_);
+  animation_.visit(archive);
+}
 
 }  // namespace hysteron::experiments

@@ -1,7 +1,8 @@
-// The meshes of a run, OUT/mesh/0000.obj and so on.
+// The meshes of a run, OUT/mesh/0000.obj and so on, or all of them in one file.
 #pragma once
 
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/session/animation.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/simulation.h"
 
@@ -10,13 +11,18 @@ namespace hysteron::experiments {
 class MeshExport {
  public:
   // One instant in the format of `--export`: none; obj; ply with the curvature at each vertex; vtk with the
-  // fields of vertices and, where elements are faces, those of faces, and cloth.pvd with the times.
+  // fields of vertices and, where elements are faces, those of faces, and cloth.pvd with the times; gltf,
+  // whose file finish() writes.
   void write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
              const std::vector<Eigen::Vector3d>& x);
+  // After the last instant, or what there is of a run that ends early: mesh/cloth.glb where the format is
+  // gltf.
+  void finish(Run& run, const Cloth& cloth) const;
   void visit(Archive& archive);
 
  private:
   std::vector<double> times_;  // of the meshes so far [s]
+  Animation animation_;
 };
 
 }  // namespace hysteron::experiments

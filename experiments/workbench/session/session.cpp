@@ -342,8 +342,15 @@ bool Session::simulate(const Question& question) {
   Record series(run_->path("metrics.csv"), columns);
   run_->manifest().series = question.columns;
 
-  bool settled = go_through(question, series);
-  if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
+  bool settled = false;
+  try {
+    settled = go_through(question, series);
+    if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
+  } catch (const Error&) {
+    meshes_.finish(*run_, cloth_);  // up to the last instant
+    throw;
+  }
+  meshes_.finish(*run_, cloth_);
   series.finish();
   return settled;
 }
@@ -364,10 +371,8 @@ void Session::finish(const std::string& title) {
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   note_integrator(ledger);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
-  if (setup_.scene.is_implicit() || setup_.scene.self_contact) {
-    note_convergence();
-  }
-  if (setup_.scene.is_implicit() || setup_.scene.self_contact || setup_.scene.tolerance > 0) {
+  if (setup_.scene.finds_equilibrium()) note_convergence();
+  if (setup_.scene.finds_equilibrium() || setup_.scene.tolerance > 0) {
     run_->metric("parts_count", simulation_->parts_taken());
     run_->metric("retried_steps_count", simulation_->retried_steps());
   }

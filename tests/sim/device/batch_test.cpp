@@ -39,13 +39,13 @@ TEST(Together, LoopsOfABatchGiveWhatTheyGiveAlone) {
   for (const int threads : {1, 2})
     run_together(true, kMembers, threads, [&](int i) {
       const auto member = test::gpu_primitives();
-      const int n = i < 2 ? i : 1 << (2 * i);
+      const int n = i < 2 ? 1 + i : 1 << (2 * i), goal = 1 + 5 * i;
       std::vector<int> count(n + 1);
       for (int k = 0; k <= n; ++k) count[k] = (k * (i + 1)) % 7;
       const std::vector<double> values(count.begin(), count.end());
       test::Rows rows{{0}, count};
       rows.start.push_back(n);
-      EXPECT_EQ(member->repeated(n, 5 * i, kTimes), std::vector<int>(n, kTimes * 5 * i)) << i;
+      EXPECT_EQ(member->repeated(n, goal, kTimes), std::vector<int>(n, kTimes * goal)) << i;
       EXPECT_EQ(member->scan(count).start.back(), std::accumulate(count.begin(), count.end(), 0)) << i;
       EXPECT_EQ(member->group(count, 7).item.size(), count.size()) << i;
       EXPECT_EQ(member->totals(values).finished, 1) << i;

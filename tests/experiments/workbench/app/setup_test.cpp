@@ -87,7 +87,7 @@ TEST(Setup, RefusesPicturesWithoutSize) {
 TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
   EXPECT_EQ(refusal({{"fps", "0"}}), "fps = 0 1/s must be in (0, 10000] (--fps)");
   EXPECT_NE(refusal({{"renderer", "vulkan"}}).find("auto | egl | osmesa"), std::string::npos);
-  EXPECT_NE(refusal({{"export", "stl"}}).find("none | ply | obj | vtk"), std::string::npos);
+  EXPECT_NE(refusal({{"export", "stl"}}).find("none | ply | obj | vtk | gltf"), std::string::npos);
   EXPECT_NE(refusal({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
 }
 

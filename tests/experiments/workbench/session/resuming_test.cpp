@@ -158,6 +158,18 @@ TEST(Resuming, PicturesAndMeshesGoOnWhereTheyWere) {
   expect_same_results(folder.path() / "whole", folder.path() / "parts");
 }
 
+TEST(Resuming, AnAnimationIsThereWhenARunEndsEarlyAndWholeInTheEnd) {
+  const Folder folder;
+  const fs::path parts = folder.path() / "parts", file = parts / "mesh" / "cloth.glb";
+  const std::string line = kSwing + " --export gltf";
+  ASSERT_EQ(program(line + in(folder.path() / "whole")).exit_code, 0);
+  ASSERT_EQ(after_a_checkpoint(line + " --checkpoint 1e-6" + in(parts), parts), 3);
+  ASSERT_TRUE(fs::exists(file));
+  EXPECT_LT(fs::file_size(file), fs::file_size(folder.path() / "whole" / "mesh" / "cloth.glb"));
+  ASSERT_EQ(program(line + " --resume" + in(parts)).exit_code, 0);
+  expect_same_results(folder.path() / "whole", parts);
+}
+
 TEST(Resuming, TwoSignalsAtOnceAreOneAndTwoApartEndTheProcess) {
   const Folder folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";
