@@ -77,6 +77,8 @@ class CudaTeam {
 
 inline constexpr int kTeamBlocks = 8;  // the largest cluster that every GPU with clusters has
 inline constexpr int kTeamThreads = 1024;
+// In a batch, whose teams fill the GPU together, a team is one small block.  Its bits are the same.
+inline constexpr int kBatchedTeamThreads = 256;
 
 template <class Body>
 struct TeamLoop {
@@ -97,32 +99,31 @@ __global__ void __launch_bounds__(kTeamThreads) team_kernel(const __grid_constan
 }
 
 template <class Loop>
-__global__ void __launch_bounds__(kTeamThreads) batched_team_kernel(const BatchedLoop* ordered) {
+__global__ void __launch_bounds__(kBatchedTeamThreads) batched_team_kernel(const BatchedLoop* ordered) {
   run_batched<Loop>(ordered);
 }
 
 // Blocks of a team on this GPU, by what the kernel was compiled for.
-template <class... Arguments>
-unsigned blocks_of_team(void (*kernel)(Arguments...)) {
+template <class Loop>
+unsigned blocks_of_team(void (*kernel)(Loop)) {
   cudaFuncAttributes compiled{};
   check_cuda(cudaFuncGetAttributes(&compiled, kernel), "team");
   constexpr int kHopper = 90;
   return compiled.ptxVersion >= kHopper ? kTeamBlocks : 1;
 }
 
-template <class Argument>
-void launch_teams(void (*kernel)(Argument), dim3 grid, cudaStream_t stream, unsigned team_blocks,
-                  const std::remove_const_t<Argument>& argument) {
+template <class Body>
+void launch_teams(Cuda& cuda, const Kernel& kernel, const TeamLoop<Body>& loop, unsigned team_blocks) {
   cudaLaunchAttribute cluster{};
   cluster.id = cudaLaunchAttributeClusterDimension;
   cluster.val.clusterDim = {team_blocks, 1, 1};
   cudaLaunchConfig_t config{};
-  config.gridDim = grid;
+  config.gridDim = loop.blocks;
   config.blockDim = kTeamThreads;
-  config.stream = stream;
+  config.stream = cuda.stream;
   config.attrs = &cluster;
   config.numAttrs = team_blocks > 1 ? 1 : 0;
-  check_cuda(cudaLaunchKernelEx(&config, kernel, argument), "team");
+  check_cuda(cudaLaunchKernelEx(&config, team_kernel<TeamLoop<Body>>, loop), kernel.name);
 }
 
 template <class Body>
@@ -130,16 +131,16 @@ void for_each_team(Cuda& cuda, const Kernel& kernel, int teams, const Body& body
   if (teams == 0) return;
   using Loop = TeamLoop<Body>;
   ++device_counts.loops;
+  if (cuda.batch) {
+    constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
+                                              cudaStream_t stream) {
+      batched_team_kernel<Loop><<<dim3(blocks, members), kBatchedTeamThreads, 0, stream>>>(ordered);
+    };
+    return cuda.batch->order(kBatched, kernel.name, Loop{static_cast<unsigned>(teams), body, stop});
+  }
   const Profiled<Cuda> profiled(cuda, kernel);
   const unsigned team_blocks = blocks_of_team(team_kernel<Loop>);
-  const Loop loop{teams * team_blocks, body, stop};
-  if (!cuda.batch) return launch_teams(team_kernel<Loop>, loop.blocks, cuda.stream, team_blocks, loop);
-  constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
-                                            cudaStream_t stream) {
-    launch_teams<const BatchedLoop*>(batched_team_kernel<Loop>, dim3(blocks, members), stream,
-                                     blocks_of_team(batched_team_kernel<Loop>), ordered);
-  };
-  cuda.batch->order(kBatched, kernel.name, loop);
+  launch_teams(cuda, kernel, Loop{teams * team_blocks, body, stop}, team_blocks);
 }
 #endif
 
