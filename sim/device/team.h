@@ -77,9 +77,8 @@ class CudaTeam {
 
 inline constexpr int kTeamBlocks = 8;  // the largest cluster that every GPU with clusters has
 inline constexpr int kTeamThreads = 1024;
-// In a batch, whose teams fill the GPU together, a team is one small block; so many find room on a
-// multiprocessor.  Its bits are the same.
-inline constexpr int kBatchedTeamThreads = 256, kBatchedTeams = 4;
+// In a batch, whose teams fill the GPU together, a team is one small block.  Its bits are the same.
+inline constexpr int kBatchedTeamThreads = 256;
 
 template <class Body>
 struct TeamLoop {
@@ -100,8 +99,7 @@ __global__ void __launch_bounds__(kTeamThreads) team_kernel(const __grid_constan
 }
 
 template <class Loop>
-__global__ void __launch_bounds__(kBatchedTeamThreads, kBatchedTeams)
-    batched_team_kernel(const BatchedLoop* ordered) {
+__global__ void __launch_bounds__(kBatchedTeamThreads) batched_team_kernel(const BatchedLoop* ordered) {
   run_batched<Loop>(ordered);
 }
 
