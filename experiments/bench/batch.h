@@ -16,11 +16,11 @@ struct BatchChoice {
   int steps = 9;               // that are timed, of every cloth
 };
 
-// Cloths that differ in b1, which grows from one to the next, all by half of itself.  First one cloth after
-// the other, `alone` of them, then as many together as `choice.cloths` says, a row each: the wall clock of
-// one step of all, from the first that begins to the last that ends; cloths times steps per second; how many
-// times that is the rate of one at a time; and how many of those that ran alone, if they are among them,
-// have the same state, bit for bit.  `measured` hears of every row at once.
+// Cloths whose b1 takes sixteen values in turn, up to half more than the scene's.  First four cloths one
+// after the other, then as many together as `choice.cloths` says, a row each: the wall clock of one step of
+// all, from the first that begins to the last that ends; cloths times steps per second; how many times that
+// is the rate of one at a time; and how many of the four that ran alone, as far as they are among them, have
+// the same state, bit for bit.  `measured` hears of every row at once.
 std::vector<Metrics> times_together(const Scene& scene, const BatchChoice& choice,
                                     const std::function<void(const Metrics&)>& measured);
 
