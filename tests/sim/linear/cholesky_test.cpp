@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <array>
 #include <cstring>
-#include <random>
 
 #include "sim/linear/cholesky_solver.h"
 #include "sim/mesh/builders.h"
+#include "tests/sim/linear/random_rows.h"
 
 namespace hysteron {
 namespace {
@@ -58,20 +58,8 @@ struct System {
   std::unique_ptr<CholeskySolver<double>> solver;
 
   System() : held(mesh.vertices(), 0), rhs(mesh.vertices()), x(mesh.vertices()) {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<double> uniform(-1, 1);
     const BlockRowsView<double> view = rows.view();
-    for (int i = 0; i < view.rows; ++i) {
-      view.diagonal[i] = 12 * Matrix3d::Identity();
-      rhs[i] = {uniform(generator), uniform(generator), uniform(generator)};
-      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j) {
-        if (view.col[j] > i) continue;
-        Matrix3d block;
-        for (double& b : block.reshaped()) b = uniform(generator);
-        view.off_diagonal[j] = block;
-        view.off_diagonal[rows.slot(view.col[j], i)] = block.transpose();
-      }
-    }
+    test::fill_at_random(rows, 12, rhs);
     softening.assign(view.row_ptr[view.rows], 0);
     softening_diagonal.assign(view.rows, 0);
     auto made = std::make_unique<Springs>();

@@ -7,9 +7,9 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "sim/mesh/builders.h"
+#include "tests/sim/linear/random_rows.h"
 
 namespace hysteron {
 namespace {
@@ -57,21 +57,9 @@ struct System {
         rhs(n()),
         solver(cpu, rows, std::make_unique<BlockJacobiSolver<float, Cpu>>(cpu, n()), nullptr,
                std::make_unique<Spring>(n())) {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<double> uniform(-1, 1);
     const BlockRowsView<double> view = rows.view();
     softening.assign(view.row_ptr[view.rows], 0.1);
-    for (int i = 0; i < view.rows; ++i) {
-      view.diagonal[i] = 14 * Matrix3d::Identity();
-      rhs[i] = {uniform(generator), uniform(generator), uniform(generator)};
-      for (int j = view.row_ptr[i]; j < view.row_ptr[i + 1]; ++j) {
-        if (view.col[j] > i) continue;
-        Matrix3d block;
-        for (double& b : block.reshaped()) b = uniform(generator);
-        view.off_diagonal[j] = block;
-        view.off_diagonal[rows.slot(view.col[j], i)] = block.transpose();
-      }
-    }
+    test::fill_at_random(rows, 14, rhs);
     held[3] = held[17] = 1;
   }
 
