@@ -1,8 +1,6 @@
-// The parts of a multigrid cycle on coarse levels, node by node, and the cycle of all small levels in one
-// launch.
+// The parts of a multigrid cycle on coarse levels, node by node.
 #pragma once
 
-#include "sim/device/team.h"
 #include "sim/linear/row_products.h"
 
 namespace hysteron {
@@ -64,57 +62,6 @@ template <class Real>
 struct CoarseCorrection {
   CoarseLevelView<Real> level, coarser;
   HYST_HD void operator()(int i) const { level.y[i] += coarser.finer[i].of(coarser.y); }
-};
-
-// y = inverse b.
-template <class Real>
-struct DenseSolve {
-  CoarseLevelView<Real> level;
-  const Eigen::Matrix3d* inverse;
-
-  template <class Lanes>
-  HYST_HD void operator()(int i, const Lanes& lanes) const {
-    const Eigen::Vector3d sum = dense_row_times(lanes, inverse, level.nodes, i, level.b);
-    if (lanes.leads()) level.y[i] = sum.template cast<Real>();
-  }
-};
-
-// The coarsest levels, finest of them first.
-template <class Real>
-struct SmallLevels {
-  static constexpr int kMost = 8;
-  int count = 0;
-  CoarseLevelView<Real> level[kMost];
-  const Eigen::Matrix3d* dense_inverse = nullptr;  // of the last one; null: it is swept like the others
-};
-
-// One V(2,2)-cycle on them from the next finer level's residual; the result is in the first one's y.
-template <class Real>
-struct SmallCycle {
-  SmallLevels<Real> levels;
-  const Vec3<Real>* residual;
-
-  template <class Team>
-  HYST_HD void operator()(int /*team*/, const Team& team) const {
-    const bool dense = levels.dense_inverse;
-    const int last = levels.count - 1;
-    for (int l = 0; l <= last; ++l) {
-      const CoarseLevelView<Real>& level = levels.level[l];
-      const bool is_swept = l < last || !dense;
-      team.for_each_row(level.nodes,
-                        Restriction<Real>{level, l == 0 ? residual : levels.level[l - 1].x, is_swept});
-      if (!is_swept) team.for_each_row(level.nodes, DenseSolve<Real>{level, levels.dense_inverse});
-      if (is_swept)
-        team.for_each_row(level.nodes, JacobiSweep<Real>{level, kSecondDamping, level.x, level.y});
-      if (l < last) team.for_each_row(level.nodes, LevelResidual<Real>{level});
-    }
-    for (int l = dense ? last - 1 : last; l >= 0; --l) {
-      const CoarseLevelView<Real>& level = levels.level[l];
-      if (l < last) team.for_each(level.nodes, CoarseCorrection<Real>{level, levels.level[l + 1]});
-      team.for_each_row(level.nodes, JacobiSweep<Real>{level, kFirstDamping, level.y, level.x});
-      team.for_each_row(level.nodes, JacobiSweep<Real>{level, kSecondDamping, level.x, level.y});
-    }
-  }
 };
 
 }  // namespace hysteron

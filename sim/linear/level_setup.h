@@ -1,26 +1,12 @@
-// What multigrid makes of a new matrix, element by element: coarse matrices, power iteration, dense inverse.
+// What multigrid makes of a new matrix, element by element: coarse matrices and power iteration.
 #pragma once
 
-#include <Eigen/LU>
-#include <limits>
-
 #include "sim/linear/cycle.h"
+#include "sim/linear/dense_inverse.h"
 
 namespace hysteron {
 
 inline constexpr int kPowerSteps = 8;
-
-// Inverse of a symmetric positive semidefinite block; a direction without stiffness of its own, beyond
-// rounding, gets that of the rounding.  Zero for a zero block, which belongs to a node that nothing moves.
-template <class Real>
-HYST_HD inline Mat3<Real> safe_inverse(const Mat3<Real>& block) {
-  const Real trace = block(0, 0) + block(1, 1) + block(2, 2);
-  if (!(trace > 0)) return Mat3<Real>::Zero();
-  Mat3<Real> scaled = block / trace;
-  for (int k = 0; k < 3; ++k) scaled(k, k) += 2 * std::numeric_limits<Real>::epsilon();
-  const Mat3<Real> inverse = scaled.inverse();  // by itself: within an expression Eigen inverts on the host
-  return inverse / trace;
-}
 
 // L v with L L^T = block, lower triangular; zero rows stay zero.
 template <class Real>
@@ -133,92 +119,6 @@ struct PowerStep {
   }
 };
 
-// Block Gauss-Jordan without exchange of rows.  A pivot is inverted by whoever finishes it: for each of the
-// others to do so would take most of the time.
-struct DenseInversion {
-  Eigen::Matrix3d *a, *next;  // blocks row by row, before a pivot and after it
-  Eigen::Matrix3d* pivot;     // the inverse of each
-  int n;
-
-  // A matrix's blocks, zeros included.
-  template <class Real>
-  HYST_HD void fill(const BlockRowsView<Real>& matrix, int e) const {
-    const int i = e / n, column = e % n;
-    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-    if (i == column) block = matrix.diagonal[i].template cast<double>();
-    for (int j = matrix.row_ptr[i]; j < matrix.row_ptr[i + 1]; ++j)
-      if (matrix.col[j] == column) block = matrix.off_diagonal[j].template cast<double>();
-    put(a, e, block, 0);
-  }
-  HYST_HD void eliminate(int k, int e) const {
-    const int i = e / n, j = e % n;
-    Eigen::Matrix3d block;
-    if (i == k)
-      block = j == k ? pivot[k] : Eigen::Matrix3d(pivot[k] * a[e]);
-    else if (j == k)
-      block = -a[e] * pivot[k];
-    else
-      block = a[e] - a[i * n + k] * (pivot[k] * a[k * n + j]);
-    put(next, e, block, k + 1);
-  }
-
- private:
-  HYST_HD void put(Eigen::Matrix3d* to, int e, const Eigen::Matrix3d& block, int next_pivot) const {
-    to[e] = block;
-    if (e == next_pivot * n + next_pivot) pivot[next_pivot] = safe_inverse<double>(block);
-  }
-};
-
-template <class Real>
-struct DenseFill {
-  DenseInversion inversion;
-  BlockRowsView<Real> matrix;
-  HYST_HD void operator()(int e) const { inversion.fill(matrix, e); }
-};
-
-struct DensePivot {
-  DenseInversion inversion;
-  int k;
-  HYST_HD void operator()(int e) const { inversion.eliminate(k, e); }
-};
-
-// A team for each small level: power iteration, whose last vector is in y, or the dense inverse.
-template <class Real>
-struct SmallSetup {
-  SmallLevels<Real> levels;
-  // The inverse of n nodes' matrix ends in the first if n is even, in the second if it is odd.
-  Eigen::Matrix3d *dense, *next, *pivots;
-
-  template <class Team>
-  HYST_HD void operator()(int t, const Team& team) const {
-    const CoarseLevelView<Real>& level = levels.level[t];
-    if (levels.dense_inverse && t == levels.count - 1)
-      invert(level.matrix, team);
-    else
-      iterate(level, team);
-  }
-
-  template <class Team>
-  HYST_HD static void iterate(const CoarseLevelView<Real>& level, const Team& team) {
-    team.for_each(level.nodes, RoughStart<Real>{level});
-    for (int step = 1; step < kPowerSteps; ++step)
-      team.for_each_row(level.nodes,
-                        PowerStep<Real>{level, step % 2 ? level.x : level.y, step % 2 ? level.y : level.x});
-  }
-
-  template <class Team>
-  HYST_HD void invert(const BlockRowsView<Real>& matrix, const Team& team) const {
-    const int n = matrix.rows;
-    DenseInversion inversion{dense, next, pivots, n};
-    team.for_each(n * n, DenseFill<Real>{inversion, matrix});
-    for (int k = 0; k < n; ++k) {
-      team.for_each(n * n, DensePivot{inversion, k});
-      Eigen::Matrix3d* done = inversion.next;
-      inversion.next = inversion.a;
-      inversion.a = done;
-    }
-  }
-};
-static_assert(kPowerSteps % 2 == 0);  // SmallSetup's last vector is in y
+static_assert(kPowerSteps % 2 == 0);  // the last vector is in y
 
 }  // namespace hysteron

@@ -17,9 +17,6 @@ constexpr double kEigenvalueMargin = 1.1;
 // Linear interpolation bends at the edges of the coarse triangles, so that each coarser level's plate is too
 // stiff; measured, half of it is best from the second level on.
 constexpr double kPlateSoftening = 0.5;
-constexpr int kMostDense = 96;  // nodes whose matrix is inverted densely
-// Levels of so many nodes at most share a launch on a GPU: four rows for each warp of a team.
-constexpr int kMostInTeam = 1024;
 
 template <class Real, class Device>
 Kernel sweep_of(const CoarseLevel<Real, Device>& level) {
@@ -37,18 +34,18 @@ double plate_change(int level) {
 template <class Real, class Device>
 Multigrid<Real, Device>::Multigrid(Device& device, const ClothMesh& mesh, const RestHierarchy& hierarchy)
     : device_(device), vertices_(mesh.vertices()), inverse_(device, mesh.vertices()) {
-  for (const RestLevel& level : hierarchy) level_.emplace_back(device, level);
-  const int levels = static_cast<int>(level_.size());
-  first_small_ = std::max(levels - SmallLevels<Real>::kMost, 0);
-  while (first_small_ < levels && level_[first_small_].nodes > kMostInTeam) ++first_small_;
-  if (level_.empty() || level_.back().nodes > kMostDense) return;
-  const std::size_t nodes = level_.back().nodes, blocks = nodes * nodes + nodes;  // the matrix, its pivots
-  for (auto& matrix : dense_) matrix = Buffer<Eigen::Matrix3d, Device>(device, blocks);
+  using Dense = DenseInverse<Real, Device>;
+  for (const RestLevel& level : hierarchy) {
+    level_.emplace_back(device, level);
+    if (level.nodes <= Dense::enough(device)) break;
+  }
+  if (!level_.empty() && level_.back().nodes <= Dense::most(device))
+    dense_.emplace(device, level_.back().nodes);
 }
 
 template <class Real, class Device>
 std::size_t Multigrid<Real, Device>::bytes() const {
-  std::size_t sum = inverse_.bytes() + 2 * dense_[0].bytes();
+  std::size_t sum = inverse_.bytes() + (dense_ ? dense_->bytes() : 0);
   for (const auto& level : level_) sum += level.bytes();
   return sum;
 }
@@ -62,14 +59,6 @@ void Multigrid<Real, Device>::invert_diagonal(BlockRowsView<Real> matrix, const 
         if (added) block += added[i];
         inverse[i] = held && held[i] ? Mat3<Real>(Mat3<Real>::Zero()) : safe_inverse<Real>(block);
       });
-}
-
-template <class Real, class Device>
-SmallLevels<Real> Multigrid<Real, Device>::small_levels() {
-  SmallLevels<Real> small;
-  for (std::size_t l = first_small_; l < level_.size(); ++l) small.level[small.count++] = level_[l].view();
-  if (dense()) small.dense_inverse = dense_[level_.back().nodes % 2].data();
-  return small;
 }
 
 template <class Real, class Device>
@@ -109,7 +98,7 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
   for (std::size_t l = 0; l < level_.size(); ++l)
     coarsen(l == 0 ? matrix : level_[l - 1].view().matrix, l == 0 ? held : nullptr,
             static_cast<Real>(plate_change(static_cast<int>(l))) * bending, level_[l]);
-  for (int l = 0; l < first_small_; ++l) {
+  for (int l = 0; l < swept(); ++l) {
     const CoarseLevel<Real, Device>& level = level_[l];
     const CoarseLevelView<Real> v = level_[l].view();
     for_each(device_, {"multigrid: rough vector", bytes_of(level.inverse, level.x)}, v.nodes,
@@ -118,14 +107,9 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
                           level.matrix_bytes() + bytes_of(level.inverse, level.x, level.y)};
     for (int step = 1; step < kPowerSteps; ++step)
       for_each_row(device_, power, v.nodes, PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
+    find_eigenvalue(level_[l]);
   }
-  const SmallLevels<Real> small = small_levels();
-  const int nodes = dense() ? level_.back().nodes : 0;
-  Eigen::Matrix3d* pivots = dense_[0].data() + nodes * nodes;  // behind the matrix
-  for_each_team(device_, "multigrid: small levels", small.count,
-                SmallSetup<Real>{small, dense_[0].data(), dense_[1].data(), pivots});
-  const std::size_t swept = level_.size() - (dense() ? 1 : 0);
-  for (std::size_t l = 0; l < swept; ++l) find_eigenvalue(level_[l]);
+  if (dense_) dense_->make(device_, level_.back().view().matrix);
 }
 
 template <class Real, class Device>
@@ -141,21 +125,23 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
   const int levels = static_cast<int>(level_.size());
   const int* stop = scalars ? &scalars->done : nullptr;
   const Vec3<Real>* residual = r;
-  for (int l = 0; l < first_small_; ++l) {
+  for (int l = 0; l < levels; ++l) {
     const CoarseLevel<Real, Device>& level = level_[l];
     const CoarseLevelView<Real> v = level_[l].view();
     const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
                                                            level.finer.size() * sizeof(Vec3<Real>) +
                                                            bytes_of(level.inverse, level.b, level.x)};
     const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
-    for_each_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, true}, stop);
+    for_each_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
+    if (l == swept()) {
+      dense_->apply(device_, v.b, v.y, stop);
+      break;
+    }
     for_each_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
     if (l + 1 < levels) for_each_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
     residual = v.x;
   }
-  if (first_small_ < levels)
-    for_each_team(device_, "multigrid: small levels", 1, SmallCycle<Real>{small_levels(), residual}, stop);
-  for (int l = first_small_ - 1; l >= 0; --l) {
+  for (int l = swept() - 1; l >= 0; --l) {
     if (l + 1 < levels)
       for_each(
           device_,

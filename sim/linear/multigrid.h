@@ -4,7 +4,7 @@
 //   P r = w D^-1 r + I V(I^T r)      D   diagonal blocks, bending included;  I  interpolation from level 1
 //                                    V   one V(2,2)-cycle on levels 1, 2, ... with damped block-Jacobi
 //   A_1 = I^T A I + bending S_1 x 1  A   mass, membrane and contact;  S  the plates of RestHierarchy
-//   A_l+1 = I_l^T A_l I_l            less half of the plate; down to some dozen nodes, inverted densely
+//   A_l+1 = I_l^T A_l I_l            less half of the plate; down to what the device inverts densely
 //
 // The membrane couples the whole cloth within a step, so that conjugate gradients with D alone take
 // iterations in proportion to the number of vertices along a side; with P their number hardly grows.  The
@@ -13,9 +13,11 @@
 // rest: exact for flat cloth, and elsewhere too small beside the membrane to matter.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/linear/cycle.h"
+#include "sim/linear/dense_inverse.h"
 #include "sim/linear/preconditioner.h"
 
 namespace hysteron {
@@ -47,8 +49,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   void combine(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars);
 
  private:
-  bool dense() const { return dense_[0].size() > 0; }
-  SmallLevels<Real> small_levels();
+  int swept() const { return static_cast<int>(level_.size()) - (dense_ ? 1 : 0); }  // levels
   // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
   void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
   void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // twice, from y to y
@@ -58,9 +59,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   const char* held_ = nullptr;
   Buffer<Mat3<Real>, Device> inverse_;
   std::vector<CoarseLevel<Real, Device>> level_;
-  int first_small_ = 0;  // from this level on they share a launch
-  // Blocks of the coarsest matrix, row by row, and where the next step of its inversion goes.
-  Buffer<Eigen::Matrix3d, Device> dense_[2];
+  std::optional<DenseInverse<Real, Device>> dense_;  // of the last one; none: it is swept as the others
 };
 
 }  // namespace hysteron

@@ -29,13 +29,6 @@ class LaneSum {
     for (int j = first + lanes_.index() / 9; j < last; j += 3)
       part_ += block[j].data()[entry_] * v[col[j]].data()[column()];
   }
-  // block[j] times v[j] for j in [0, count).
-  template <class Other>
-  HYST_HD void add(const Mat3<Real>* block, int count, const Vec3<Other>* v) {
-    if (!active_) return;
-    for (int j = lanes_.index() / 9; j < count; j += 3)
-      part_ += block[j].data()[entry_] * static_cast<Real>(v[j].data()[column()]);
-  }
   // factor[j] times v[index[j]] for j in [first, last).
   HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vec3<Real>* v) {
     if (!active_) return;
@@ -115,21 +108,6 @@ HYST_HD Vec3<Real> restricted(const Lanes& lanes, const CoarseLevelView<Real>& l
   } else {
     LaneSum<Lanes, Real> sum(lanes);
     sum.add(level.weight, level.item, level.start[i], level.start[i + 1], finer);
-    return sum.total();
-  }
-}
-
-// Row i of a symmetric dense matrix of n rows times v.
-template <class Lanes, class Real>
-HYST_HD Eigen::Vector3d dense_row_times(const Lanes& lanes, const Eigen::Matrix3d* matrix, int n, int i,
-                                        const Vec3<Real>* v) {
-  if constexpr (Lanes::kCount == 1) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int j = 0; j < n; ++j) sum += matrix[j * n + i].transpose() * v[j].template cast<double>();
-    return sum;
-  } else {
-    LaneSum<Lanes, double> sum(lanes);
-    sum.add(matrix + i * n, n, v);
     return sum.total();
   }
 }

@@ -25,6 +25,8 @@ class LinearSolves {
   // `times` times over from zero; the last one counts.  by_batches: a GPU asks the host how to go on.
   virtual LinearSolve solve(const ClothMesh& mesh, bool multigrid, double tolerance, bool by_batches = false,
                             int times = 1) = 0;
+  // The whole matrix inverted densely and applied to the load; without_first: nothing moves the first vertex.
+  virtual LinearSolve invert(const ClothMesh& mesh, bool without_first) = 0;
 };
 
 std::unique_ptr<LinearSolves> cpu_linear_solves();

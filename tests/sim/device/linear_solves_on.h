@@ -39,7 +39,22 @@ class LinearSolvesOn : public LinearSolves {
       outcome = solver->solve(system, is_held.data(), rhs.data(), x.data(), tolerance);
     const long loops = device_counts.loops - before;
     const auto solution = x.download();
-    return {solution, residual(rows, solution), outcome.iterations, outcome.converged, loops};
+    return {solution, residual(rows, solution, 1), outcome.iterations, outcome.converged, loops};
+  }
+
+  LinearSolve invert(const ClothMesh& mesh, bool without_first) override {
+    const int n = mesh.vertices();
+    BlockRows<double, Device> rows(device_, mesh);
+    fill(mesh, rows, without_first);
+    std::vector<Eigen::Vector3d> forces = load(n);
+    if (without_first) forces[0].setZero();
+    const Buffer<Eigen::Vector3d, Device> b(device_, forces);
+    Buffer<Eigen::Vector3d, Device> y(device_, n);
+    DenseInverse<double, Device> inverse(device_, n);
+    inverse.make(device_, rows.view());
+    inverse.apply(device_, b.data(), y.data(), nullptr);
+    const auto solution = y.download();
+    return {solution, residual(rows, solution, without_first), 0, true, 0};
   }
 
  private:
@@ -51,13 +66,14 @@ class LinearSolvesOn : public LinearSolves {
     return f;
   }
 
-  void fill(const ClothMesh& mesh, BlockRows<double, Device>& rows) {
-    std::vector<Eigen::Matrix3d> off_diagonal(rows.col().size()), diagonal;
+  void fill(const ClothMesh& mesh, BlockRows<double, Device>& rows, bool without_first = false) {
+    std::vector<Eigen::Matrix3d> off_diagonal(rows.col().size(), Eigen::Matrix3d::Zero()), diagonal;
     for (int i = 0; i < mesh.vertices(); ++i) {
-      diagonal.push_back(kMass * Eigen::Matrix3d::Identity());
+      diagonal.push_back((without_first && i == 0 ? 0 : kMass) * Eigen::Matrix3d::Identity());
       for (int j = rows.row_ptr()[i]; j < rows.row_ptr()[i + 1]; ++j) {
         const Eigen::Vector3d along = (mesh.rest[rows.col()[j]] - mesh.rest[i]).normalized();
         const Eigen::Matrix3d spring = along * along.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+        if (without_first && (i == 0 || rows.col()[j] == 0)) continue;
         off_diagonal[j] = -spring;
         diagonal[i] += spring;
       }
@@ -67,13 +83,15 @@ class LinearSolvesOn : public LinearSolves {
     device_upload(device_, rows.view().diagonal, diagonal.data(), diagonal.size() * sizeof(Eigen::Matrix3d));
   }
 
-  static double residual(const BlockRows<double, Device>& rows, const std::vector<Eigen::Vector3d>& x) {
+  // Of the rows from the first one on.
+  static double residual(const BlockRows<double, Device>& rows, const std::vector<Eigen::Vector3d>& x,
+                         int first) {
     auto off_diagonal = rows.off_diagonal(), diagonal = rows.diagonal();
     const auto f = load(static_cast<int>(x.size()));
     const BlockRowsView<double> matrix{static_cast<int>(x.size()), rows.row_ptr().data(), rows.col().data(),
                                        off_diagonal.data(), diagonal.data()};
     double error2 = 0, size2 = 0;
-    for (int i = 1; i < matrix.rows; ++i) {
+    for (int i = first; i < matrix.rows; ++i) {
       error2 += (f[i] - matrix.times(i, x.data())).squaredNorm();
       size2 += f[i].squaredNorm();
     }

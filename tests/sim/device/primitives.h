@@ -30,9 +30,6 @@ class Primitives {
   // Of each row of items the sum of their values, and the sum of those and how many rows there were.
   virtual std::vector<double> row_sums(const Rows& rows, const std::vector<double>& values) = 0;
   virtual Totals row_totals(const Rows& rows, const std::vector<double>& values) = 0;
-  // A ring of n numbers 0 ... n-1, in two teams that count down and up: in each round every place takes its
-  // neighbour's number plus the team's one.  Both rings after the rounds, one behind the other.
-  virtual std::vector<int> relayed(int n, int rounds) = 0;
   // A loop that counts rounds until `goal` is reached, ordered `times` times over; how far n elements have
   // come.
   virtual std::vector<int> repeated(int n, int goal, int times) = 0;

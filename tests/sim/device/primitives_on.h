@@ -5,7 +5,7 @@
 
 #include "sim/device/algorithms.h"
 #include "sim/device/host_result.h"
-#include "sim/device/team.h"
+#include "sim/device/rows.h"
 #include "sim/device/while_loop.h"
 #include "tests/sim/device/primitives.h"
 
@@ -91,38 +91,6 @@ Totals row_totals(Device& device, const Rows& rows, const std::vector<double>& v
   return {result[0], 0, result[1], result[2]};
 }
 
-// One round of a ring: place i takes its neighbour's number plus `step`.
-struct Relay {
-  const int* from;
-  int* to;
-  int n, step;
-  HYST_HD void operator()(int i) const { to[i] = from[(i + 1) % n] + step; }
-  template <class LanesOfRow>
-  HYST_HD void operator()(int i, const LanesOfRow& lanes) const {
-    if (lanes.leads()) (*this)(i);
-  }
-};
-
-// Rounds element by element and rows by rows in turn.
-struct Rings {
-  int *a, *b;
-  int n, rounds;
-  template <class Team>
-  HYST_HD void operator()(int t, const Team& team) const {
-    int *from = a + t * n, *to = b + t * n;
-    for (int k = 0; k < rounds; ++k) {
-      const Relay relay{from, to, n, t == 0 ? -1 : 1};
-      if (k % 2)
-        team.for_each_row(n, relay);
-      else
-        team.for_each(n, relay);
-      int* taken = from;
-      from = to;
-      to = taken;
-    }
-  }
-};
-
 template <class Device>
 double written_to_host(Device& device, double value) {
   HostResult<double, Device> result(device);
@@ -147,14 +115,6 @@ class PrimitivesOn : public Primitives {
   }
   Totals row_totals(const Rows& rows, const std::vector<double>& values) override {
     return test::row_totals(device_, rows, values);
-  }
-
-  std::vector<int> relayed(int n, int rounds) override {
-    std::vector<int> numbers(2 * n);
-    for (int i = 0; i < 2 * n; ++i) numbers[i] = i % n;
-    Buffer<int, Device> a(device_, numbers), b(device_, numbers.size());
-    for_each_team(device_, "relay", 2, Rings{a.data(), b.data(), n, rounds});
-    return (rounds % 2 ? b : a).download();
   }
 
   std::vector<int> repeated(int n, int goal, int times) override;
