@@ -1,7 +1,5 @@
 #include "sim/linear/coarse_level.h"
 
-#include <algorithm>
-
 namespace hysteron {
 
 namespace {
@@ -42,22 +40,6 @@ Adjacency transposed(const RestLevel& level, std::vector<double>& weight) {
   return rows;
 }
 
-std::vector<UpperBlock> upper_blocks(const Adjacency& pattern, int nodes) {
-  std::vector<UpperBlock> result;
-  for (int i = 0; i < nodes; ++i) {
-    result.push_back({i, i, -1, -1});
-    for (int j = pattern.start[i]; j < pattern.start[i + 1]; ++j) {
-      const int column = pattern.item[j];
-      if (column < i) continue;
-      const auto first = pattern.item.begin() + pattern.start[column],
-                 last = pattern.item.begin() + pattern.start[column + 1];
-      result.push_back(
-          {i, column, j, static_cast<int>(std::lower_bound(first, last, i) - pattern.item.begin())});
-    }
-  }
-  return result;
-}
-
 template <class Real>
 std::vector<Real> rounded(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -71,7 +53,7 @@ CoarseLevel<Real, Device>::CoarseLevel(Device& device, const RestLevel& level)
       finer(device, device_form<Real>(level.finer)),
       row_ptr(device, level.pattern.start),
       col(device, level.pattern.item),
-      upper(device, upper_blocks(level.pattern, level.nodes)),
+      upper(device, upper_blocks(level.pattern)),
       plate_off_diagonal(device, rounded<Real>(level.plate_off_diagonal)),
       plate_diagonal(device, rounded<Real>(level.plate_diagonal)),
       off_diagonal(device, level.pattern.item.size()),

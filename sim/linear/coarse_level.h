@@ -3,6 +3,7 @@
 
 #include "sim/linear/block_rows.h"
 #include "sim/linear/rest_hierarchy.h"
+#include "sim/linear/upper_blocks.h"
 
 namespace hysteron {
 
@@ -20,12 +21,6 @@ struct DeviceInterpolation {
     for (int k = 0; k < 3; ++k) sum += node[k] == coarse ? weight[k] : Real(0);
     return sum;
   }
-};
-
-// One block on or above the diagonal of a coarse matrix, and where it and its transpose stand.
-struct UpperBlock {
-  int row, column;
-  int slot, mirror;  // among the off-diagonal blocks; -1 on the diagonal
 };
 
 template <class Real>

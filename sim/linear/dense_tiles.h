@@ -243,6 +243,8 @@ class DenseInverse<Real, Cuda> {
     for_each_row(cuda, {"multigrid: dense solve", matrix_.bytes() + 2 * rows_ * sizeof(Real)}, rows_,
                  DenseRow<Real>{matrix_.data(), stride(), rows_, b->data(), y->data()}, stop);
   }
+  // Half of that for each pivot, since several solves may take the more iterations.
+  double worth() const { return tiles_ / 4.0; }
   std::size_t bytes() const { return bytes_of(matrix_, column_, pivot_, scale_); }
 
   // The parts of make(); public because nvcc allows no device lambda in a private member function.

@@ -39,6 +39,8 @@ class Multigrid : public Preconditioner<Real, Device> {
     invert_diagonal(matrix, bending_diagonal, held_, inverse_.data());
   }
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
+  // Iterations that take about as long as new coarse levels.
+  double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
   std::size_t bytes() const override;
   int levels() const { return 1 + static_cast<int>(level_.size()); }
 

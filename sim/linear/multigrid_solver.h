@@ -28,7 +28,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     const PcgOutcome outcome =
         pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
     if (renews) iterations_when_new_ = outcome.iterations / decades(tolerance);
-    is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + kWorthNewLevels;
+    is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + multigrid_.worth();
     return outcome;
   }
   void begin() override { is_stale_ = true; }
@@ -37,8 +37,6 @@ class MultigridSolver : public LinearSolver<Real, Device> {
   std::size_t bytes() const override { return multigrid_.bytes() + pcg_.bytes(); }
 
  private:
-  // Iterations that take about as long as new coarse levels.
-  static constexpr double kWorthNewLevels = 2;
   Multigrid<Real, Device> multigrid_;
   Pcg<Real, Device> pcg_;
   Real rigidity_;

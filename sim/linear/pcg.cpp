@@ -29,6 +29,12 @@ GatheredForces<Real> product(const StiffnessProduct<Real>& stiffness, const Vec3
   return stiffness ? stiffness(p) : GatheredForces<Real>{};
 }
 
+template <class Real, class Device>
+SystemProduct<Real> product_of(const LinearSystem<Real, Device>& system, const Vec3<Real>* p) {
+  if (system.whole.rows > 0) return {system.whole, {}, {}, product(system.self_contact, p)};
+  return {system.matrix, system.softening, product(system.bending, p), product(system.self_contact, p)};
+}
+
 // Sent to a GPU between two questions whether they were enough.
 constexpr int kIterationsAtOnce = 4;
 
@@ -147,13 +153,12 @@ template <class Real, class Device>
 void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
   Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
   PcgScalars* s = scalars_.data();
-  const SystemProduct<Real> product_of{system.matrix, system.softening, product<Real>(system.bending, p),
-                                       product<Real>(system.self_contact, p)};
+  const SystemProduct<Real> whole = product_of(system, static_cast<const Vec3<Real>*>(p));
   for_each_row_sum<1>(
       device_, {"solve: product", system.bytes + vectors(2)}, rows_,
       HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<1>& sums) {
         if (s->done || held[i]) return;
-        const Vec3<Real> product = product_of.at(lanes, i, p);
+        const Vec3<Real> product = whole.at(lanes, i, p);
         if (!lanes.leads()) return;
         q[i] = product;
         sums.term[0] += static_cast<double>(p[i].dot(product));
@@ -220,6 +225,7 @@ bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held
                                         system.softening.diagonal,
                                         system.preconditioner,
                                         system.bending ? this : nullptr,
+                                        system.whole.off_diagonal,
                                         held,
                                         x};
   const int rounds = system.preconditioner ? 1 : kIterationsAtOnce;

@@ -41,6 +41,8 @@ struct LinearSystem {
   ScalarRowsView<Real> softening = {};                     // null: none
   StiffnessProduct<Real> self_contact = {};                // K p; empty: none
   std::size_t bytes = 0;  // that a product reads at least beside vectors, where that is stated
+  // The matrix, softening and bending in one, which products then take; no rows: they are not assembled.
+  BlockRowsView<Real> whole = {};
 };
 
 struct PcgEnd {

@@ -80,7 +80,10 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       x_before_(device, two_step_ ? vertices_ : 0),
       v_before_(device, two_step_ ? vertices_ : 0),
       displacement_(device, self_contact ? vertices_ : 0),
-      forces_(device, static_ ? vertices_ : 0) {}
+      forces_(device, static_ ? vertices_ : 0) {
+  // On a CPU the loops wait for nothing, and what is read stays in its cache.
+  if (Device::kGpu && !bending_lags_ && !scene.solves_in_float()) potential_.assemble();
+}
 
 template <class Real, class Device>
 void ImplicitStep<Real, Device>::become_static(const Scene& scene) {

@@ -260,6 +260,10 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
   }
   if (self_contact_)
     system.self_contact = [this](const Vec3<Real>* p) { return self_contact_->apply_stiffness(p); };
+  if (whole_) {
+    system.whole = whole_->assemble(matrix, softening);
+    system.bytes = whole_->matrix_bytes();
+  }
   return system;
 }
 

@@ -11,9 +11,10 @@
 // beta_dt = infinity: no inertia, drag or viscosity.
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "sim/bending/bending.h"
+#include "sim/bending/assembled_stiffness.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
 #include "sim/device/host_result.h"
@@ -78,6 +79,8 @@ class IncrementalPotential {
   // compression takes away, and with friction that slides more easily (sliding_stop.h).  Bending's part is
   // Gauss-Newton's, without the second derivatives of angles.
   LinearSystem<Real, Device> linearise(const Vec3<Real>* x, Real shift, bool full);
+  // From now on linearise() assembles the whole Hessian but for self-contact; bending must not lag.
+  void assemble() { whole_.emplace(device_, matrix_, bending_); }
   void visit(Archive& archive) { hysteron::visit(archive, device_, gradient_); }
   const Vec3<Real>* gradient() const { return gradient_.data(); }  // of held vertices as well [N]
   const Vec3<Real>* descent() const { return descent_.data(); }    // -gradient of the last linearise() [N]
@@ -86,7 +89,8 @@ class IncrementalPotential {
   bool has_friction() const { return contact_ || self_contact_; }
   std::size_t bytes() const {
     return bytes_of(gradient_, descent_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
-                    vertex_totals_);
+                    vertex_totals_) +
+           (whole_ ? whole_->bytes() : 0);
   }
 
   struct Totals {
@@ -120,6 +124,7 @@ class IncrementalPotential {
   Buffer<Vec3<Real>, Device> gradient_, descent_;
   Buffer<Mat3<Real>, Device> rest_diagonal_;
   Buffer<Real, Device> softening_off_diagonal_, softening_diagonal_;
+  std::optional<AssembledStiffness<Real, Device>> whole_;
   Buffer<Totals, Device> vertex_totals_;  // what compute_gradient() knows
   HostResult<Totals, Device> totals_;
 };

@@ -214,6 +214,26 @@ TEST_P(OfACloth, FullStiffnessIsTheDerivativeOfTheGradientOfAPressedSheet) {
 }
 
 // Limits of friction change Phi where the cloth touches; membrane and bending are not asked again.
+TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
+  Step step(GetParam().law, GetParam().element);
+  step.give_it_a_past();
+  step.begin();
+  const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
+  const Positions d = step.free_direction(6);
+  for (const bool full : {false, true}) {
+    step.at(x, d);
+    const Positions parts = step.product(step.potential.linearise(x.data(), 1, full), d);
+    step.potential.assemble();
+    const auto whole = step.potential.linearise(x.data(), 1, full).whole;
+    double largest = 0;
+    for (const Vector3d& force : parts) largest = std::max(largest, force.norm());
+    EXPECT_GT(largest, 0);
+    for (int i = 0; i < whole.rows; ++i)
+      if (!step.held[i])
+        EXPECT_LT((whole.times(i, d.data()) - parts[i]).norm(), 1e-12 * largest) << i << " " << full;
+  }
+}
+
 TEST_P(OfACloth, RenewedFrictionIsThatOfANewEvaluation) {
   Step renewed(GetParam().law, GetParam().element), anew(GetParam().law, GetParam().element);
   PotentialValue before, values[2];

@@ -1,0 +1,19 @@
+// The blocks of a symmetric matrix on and above its diagonal.
+#pragma once
+
+#include <vector>
+
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron {
+
+// One of them, and where it and its transpose stand.
+struct UpperBlock {
+  int row, column;
+  int slot, mirror;  // among the off-diagonal blocks; -1 on the diagonal
+};
+
+// Of a pattern of off-diagonal blocks, row by row, each row's diagonal first; columns ascend.
+std::vector<UpperBlock> upper_blocks(const Adjacency& pattern);
+
+}  // namespace hysteron
