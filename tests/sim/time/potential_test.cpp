@@ -220,6 +220,7 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
   step.begin();
   const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
   const Positions d = step.free_direction(6);
+  step.potential.lag_friction(x.data());
   for (const bool full : {false, true}) {
     step.at(x, d);
     const Positions parts = step.product(step.potential.linearise(x.data(), 1, full), d);
