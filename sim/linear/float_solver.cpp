@@ -37,22 +37,44 @@ LinearSystem<float, Device> FloatSolver<Device>::rounded(const LinearSystem<doub
     round_blocks("in float: diagonal", system.rest_diagonal, rest_diagonal_);
     result.rest_diagonal = rest_diagonal_.data();
   }
-  if (system.softening.off_diagonal) {
-    round_all(device_, "in float: softening", softening_off_diagonal_.size(), system.softening.off_diagonal,
-              softening_off_diagonal_.data());
-    round_all(device_, "in float: softening", softening_diagonal_.size(), system.softening.diagonal,
-              softening_diagonal_.data());
-    result.softening = {softening_off_diagonal_.data(), softening_diagonal_.data()};
-    result.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
-  }
   const auto product = [&](FloatStiffness<Device>& stiffness) {
     stiffness.round();
     result.bytes += stiffness.force_bytes();
     return [&stiffness](const Vec3<float>* p) { return stiffness.apply(p); };
   };
-  if (system.bending) result.bending = product(*bending_);
+  if (system.whole.rows > 0) {
+    take_whole(system, result);
+  } else {
+    if (system.softening.off_diagonal) {
+      round_all(device_, "in float: softening", softening_off_diagonal_.size(), system.softening.off_diagonal,
+                softening_off_diagonal_.data());
+      round_all(device_, "in float: softening", softening_diagonal_.size(), system.softening.diagonal,
+                softening_diagonal_.data());
+      result.softening = {softening_off_diagonal_.data(), softening_diagonal_.data()};
+      result.bytes += bytes_of(softening_off_diagonal_, softening_diagonal_);
+    }
+    if (system.bending) result.bending = product(*bending_);
+  }
   if (system.self_contact) result.self_contact = product(*self_contact_);
   return result;
+}
+
+template <class Device>
+void FloatSolver<Device>::take_whole(const LinearSystem<double, Device>& system,
+                                     LinearSystem<float, Device>& result) {
+  const BlockRowsView<double>& whole = system.whole;
+  if (whole_off_diagonal_.size() == 0) {
+    whole_off_diagonal_ = Buffer<Mat3<float>, Device>(device_, system.whole_blocks);
+    whole_diagonal_ = Buffer<Mat3<float>, Device>(device_, whole.rows);
+  }
+  round_all(device_, "in float: whole matrix", 9 * whole_off_diagonal_.size(), whole.off_diagonal->data(),
+            whole_off_diagonal_.data()->data());
+  round_all(device_, "in float: whole matrix", 9 * whole_diagonal_.size(), whole.diagonal->data(),
+            whole_diagonal_.data()->data());
+  result.whole = {whole.rows, whole.row_ptr, whole.col, whole_off_diagonal_.data(), whole_diagonal_.data()};
+  result.whole_blocks = system.whole_blocks;
+  result.bytes = (whole.rows + 1 + whole_off_diagonal_.size()) * sizeof(int) +
+                 bytes_of(whole_off_diagonal_, whole_diagonal_);
 }
 
 template <class Device>
@@ -101,7 +123,7 @@ std::size_t FloatSolver<Device>::bytes() const {
   return solver_->bytes() + (bending_ ? bending_->bytes() : 0) +
          (self_contact_ ? self_contact_->bytes() : 0) +
          bytes_of(off_diagonal_, diagonal_, rest_diagonal_, softening_off_diagonal_, softening_diagonal_,
-                  rhs_, x_, norm_);
+                  whole_off_diagonal_, whole_diagonal_, rhs_, x_, norm_);
 }
 
 template class FloatSolver<ThisDevice>;

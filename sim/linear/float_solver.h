@@ -20,7 +20,8 @@ class FloatSolver : public LinearSolver<double, Device> {
   // A tighter tolerance is taken as this one: rounding of the systems leaves no more.
   static constexpr double kTightest = 1e-5;
 
-  // For matrices of this pattern; bending and self-contact of the systems, null where they have none.
+  // For matrices of this pattern; bending, unless the systems are assembled whole, and self-contact of the
+  // systems, null where they have none.
   FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
               std::unique_ptr<LinearSolver<float, Device>> solver,
               std::unique_ptr<FloatStiffness<Device>> bending,
@@ -38,10 +39,13 @@ class FloatSolver : public LinearSolver<double, Device> {
   void scale_up(Vec3<double>* x);
 
  private:
+  void take_whole(const LinearSystem<double, Device>& system, LinearSystem<float, Device>& result);
+
   Device& device_;
   std::unique_ptr<LinearSolver<float, Device>> solver_;
   std::unique_ptr<FloatStiffness<Device>> bending_, self_contact_;
   Buffer<Mat3<float>, Device> off_diagonal_, diagonal_, rest_diagonal_;
+  Buffer<Mat3<float>, Device> whole_off_diagonal_, whole_diagonal_;  // empty before the first whole system
   Buffer<float, Device> softening_off_diagonal_, softening_diagonal_;
   Buffer<Vec3<float>, Device> rhs_, x_;
   Buffer<double, Device> norm_;  // of the right-hand side [N]; 1 if that is zero

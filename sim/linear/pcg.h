@@ -43,6 +43,7 @@ struct LinearSystem {
   std::size_t bytes = 0;  // that a product reads at least beside vectors, where that is stated
   // The matrix, softening and bending in one, which products then take; no rows: they are not assembled.
   BlockRowsView<Real> whole = {};
+  std::size_t whole_blocks = 0;  // its off-diagonal ones
 };
 
 struct PcgEnd {

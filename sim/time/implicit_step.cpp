@@ -82,7 +82,7 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       displacement_(device, self_contact ? vertices_ : 0),
       forces_(device, static_ ? vertices_ : 0) {
   // On a CPU the loops wait for nothing, and what is read stays in its cache.
-  if (Device::kGpu && !bending_lags_ && !scene.solves_in_float()) potential_.assemble();
+  if (Device::kGpu && !bending_lags_) potential_.assemble();
 }
 
 template <class Real, class Device>

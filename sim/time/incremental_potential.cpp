@@ -262,6 +262,7 @@ LinearSystem<Real, Device> IncrementalPotential<Real, Device>::linearise(const V
     system.self_contact = [this](const Vec3<Real>* p) { return self_contact_->apply_stiffness(p); };
   if (whole_) {
     system.whole = whole_->assemble(matrix, softening);
+    system.whole_blocks = whole_->blocks();
     system.bytes = whole_->matrix_bytes();
   }
   return system;

@@ -5,6 +5,7 @@
 
 #include "sim/linear/multigrid_solver.h"
 #include "sim/time/newton.h"
+#include "tests/sim/bending/coupled_pairs.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {
@@ -232,6 +233,8 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
     for (int i = 0; i < whole.rows; ++i)
       if (!step.held[i])
         EXPECT_LT((whole.times(i, d.data()) - parts[i]).norm(), 1e-12 * largest) << i << " " << full;
+    EXPECT_EQ(whole.row_ptr[whole.rows],
+              static_cast<int>(test::coupled_pairs(step.trial.cloth.mesh, step.op)));
   }
 }
 
