@@ -17,6 +17,9 @@ constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
 // step only of free cloth without weight, whose forces have nothing else to compare with.
 template <class Real>
 constexpr double kBlur = sizeof(Real) == 8 ? 1e-16 : 6e-8;
+// In single precision forces that are mere rounding may keep corrections above that: predicted decreases of
+// the potential then no longer fall from one iteration to the next.
+constexpr double kIdle = 0.95;
 // Corrections that rounding of positions cannot tell from none, relative to the positions.
 template <class Real>
 constexpr double kUnmoved = sizeof(Real) == 8 ? 1e-15 : 5e-7;
@@ -44,6 +47,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
                                              const char* held, const Real* mass, double total_mass,
                                              double beta_dt) {
   constexpr double kTightest = 1e-5;
+  constexpr bool kIsCoarse = sizeof(Real) < sizeof(double);
   const SolverTuning& tuning = limits_.tuning;
   NewtonOutcome outcome;
   const double weight = value.weight, first = value.residual;
@@ -51,6 +55,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
   // times the last step.
   double farthest = std::numeric_limits<double>::infinity();  // [m]
   double forcing = tuning.loosest_solve, shift = limits_.first_shift, rounding = 0;
+  double predicted = std::numeric_limits<double>::infinity();  // decrease of the last iteration [J]
   for (;; ++outcome.iterations) {
     outcome.residual = value.residual;
     outcome.velocity = value.residual * beta_dt * std::sqrt(vertices_) / total_mass;
@@ -69,10 +74,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
         solver_.solve(system, held, potential_.descent(), direction_.data(), std::max(forcing, kTightest))
             .iterations;
     const bool is_free = std::hypot(weight, value.reaction) == 0;
-    measure_correction(system, x.data(), mass, held, is_free);
+    measure_correction(system, x.data(), mass, held, is_free || kIsCoarse);
     const TriedStep tried = first_try(x.data(), farthest, total_mass);
     const Correction correction = *correction_;
-    if (is_free) rounding = kBlur<Real> * std::sqrt(correction.forces2);
+    const double blur = kBlur<Real> * std::sqrt(correction.forces2);
+    if (is_free) rounding = blur;
     const bool unmoved = std::sqrt(correction.size2) <= kUnmoved<Real> * std::sqrt(correction.extent2);
     const double before = value.residual;
     const double length = std::sqrt(correction.size2 / total_mass);
@@ -93,8 +99,11 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
       outcome.evaluated = false;
       break;
     }
+    const bool idle =
+        kIsCoarse && step_length == 1 && value.residual <= blur && -correction.slope > kIdle * predicted;
+    predicted = -correction.slope;
     outcome.converged =
-        balanced && shift <= limits_.least_shift && (unmoved || length / beta_dt <= limits_.velocity);
+        balanced && shift <= limits_.least_shift && (unmoved || idle || length / beta_dt <= limits_.velocity);
     shift = std::max(limits_.least_shift, step_length == 1 ? shift / 8 : shift * 2);
     if (potential_.has_friction() && outcome.iterations < tuning.friction_rounds)
       value = potential_.renew_friction(x.data());
@@ -159,7 +168,7 @@ typename Newton<Real, Device>::TriedStep Newton<Real, Device>::try_step(const Ve
 
 template <class Real, class Device>
 void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x,
-                                              const Real* mass, const char* held, bool is_free) {
+                                              const Real* mass, const char* held, bool with_forces) {
   const Vec3<Real>*d = direction_.data(), *gradient = potential_.gradient();
   const Mat3<Real>*diagonal = system.matrix.diagonal, *rest = system.rest_diagonal;
   Correction* result = correction_.data();
@@ -170,7 +179,7 @@ void Newton<Real, Device>::measure_correction(const LinearSystem<Real, Device>& 
         sums.term[0] += static_cast<double>(mass[i] * d[i].squaredNorm());
         sums.term[1] += static_cast<double>(gradient[i].dot(d[i]));
         sums.term[2] += static_cast<double>(mass[i] * x[i].squaredNorm());
-        if (!is_free) return;  // the blocks are most of what would be read
+        if (!with_forces) return;  // the blocks are most of what would be read
         const Real stiffness = diagonal[i].trace() + rest[i].trace();
         sums.term[3] += static_cast<double>(stiffness * stiffness * x[i].squaredNorm());
       },

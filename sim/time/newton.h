@@ -58,7 +58,7 @@ class Newton {
                      // cloth [N^2]
   };
   void measure_correction(const LinearSystem<Real, Device>& system, const Vec3<Real>* x, const Real* mass,
-                          const char* held, bool is_free);
+                          const char* held, bool with_forces);
   void place_trial(const Vec3<Real>* x, Real step_length);
 
  private:
