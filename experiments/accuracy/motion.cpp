@@ -5,6 +5,8 @@
 #include <memory>
 #include <tuple>
 
+#include "sim/time/together.h"
+
 namespace hysteron::experiments {
 
 Trajectory simulated(const Scene& scene, const Cloth& cloth, double sampling, Found& found) {
@@ -51,13 +53,14 @@ Trajectory reference_run(const MotionQuestion& question, const Setting& setting,
   return simulated(scene, make_cloth(scene), question.sampling, ignored);
 }
 
-// Its own error is a third of what the last halving of its steps has changed, at second order.
+// Its own error is a third of what the last halving of its steps has changed, at second order.  The times of
+// both runs are no result, so that they may share a GPU.
 Reference reference_of(const MotionQuestion& question, const Setting& setting) {
   const double step = question.reference.step;
-  Reference result{reference_run(question, setting, step)};
-  result.uncertainty =
-      distance(result.trajectory, reference_run(question, setting, 2 * step), question.length) / 3;
-  return result;
+  Trajectory run[2];
+  run_together(setting.device == DeviceChoice::cuda, 2, 1,
+               [&](int i) { run[i] = reference_run(question, setting, (1 + i) * step); });
+  return {run[0], distance(run[0], run[1], question.length) / 3};
 }
 
 }  // namespace

@@ -13,4 +13,8 @@ namespace hysteron {
 // Error::machine without a GPU.
 void run_together(bool on_gpu, int count, int threads, const std::function<void(int)>& job);
 
+// How many jobs share the GPU's launches with the one that the calling thread runs, itself included: what a
+// wall clock measures, and what is launched, is then of all of them.  1: none.
+int jobs_together();
+
 }  // namespace hysteron

@@ -24,6 +24,18 @@ TEST(Together, OnACpuEveryJobIsTakenOnce) {
   }
 }
 
+TEST(Together, OnACpuAJobSharesNoLaunches) {
+  EXPECT_EQ(jobs_together(), 1);
+  run_together(false, 4, 2, [](int) { EXPECT_EQ(jobs_together(), 1); });
+}
+
+TEST(Together, OnAGpuAJobKnowsHowManyShareItsLaunches) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  run_together(true, 5, 2, [](int i) { EXPECT_EQ(jobs_together(), i % 2 == 0 ? 3 : 2); });
+  EXPECT_EQ(jobs_together(), 1);
+}
+
 TEST(Together, AskForAGpuWhereThereIsNone) {
   std::string reason;
   if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
