@@ -33,11 +33,12 @@ std::string last_row(const fs::path& file) {
   return last;
 }
 
-// Says every few seconds how far the columns are that run, where that has changed, until its end.
+// Says every few seconds how far the columns are that run, or `most` of them, where that has changed, until
+// its end.
 class Watch {
  public:
-  Watch(const std::vector<SweepColumn>& columns, const std::function<void(const std::string&)>& say)
-      : columns_(columns), say_(say), thread_([this] { run(); }) {}
+  Watch(const std::vector<SweepColumn>& columns, int most, const std::function<void(const std::string&)>& say)
+      : columns_(columns), most_(most), say_(say), thread_([this] { run(); }) {}
   ~Watch() {
     {
       const std::lock_guard lock(mutex_);
@@ -65,6 +66,7 @@ class Watch {
     while (!wake_.wait_for(lock, kInterval, [this] { return ended_; })) {
       std::vector<std::string> words;
       for (const std::size_t column : running_) {
+        if (std::ssize(words) == most_) break;
         const std::string so_far = progress_in(columns_[column].folder);
         if (!so_far.empty()) words.push_back(columns_[column].name + " " + so_far);
       }
@@ -74,6 +76,7 @@ class Watch {
   }
 
   const std::vector<SweepColumn>& columns_;
+  const int most_;
   const std::function<void(const std::string&)>& say_;
   std::mutex mutex_;
   std::condition_variable wake_;
@@ -155,7 +158,7 @@ void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
     const std::lock_guard lock(one_at_a_time);
     progress(line);
   };
-  Watch watch(columns, say);
+  Watch watch(columns, at_once, say);
   GpuQueue queue(gpus);
   const auto tell = [&](std::size_t i) {
     watch.end(i);

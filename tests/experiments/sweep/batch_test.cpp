@@ -181,8 +181,9 @@ class Batch : public testing::Test {
 };
 
 TEST_F(Batch, EndsEveryRunAsTheProgramWouldByItself) {
+  write_text(folder_.path() / "file", "no folder");
   const std::vector<std::string> lines = {swing("a"), swing("b", " --fabric.b2 -1"), swing("c", " --flie x"),
-                                          "swung", swing("a/metrics.csv/d")};
+                                          swing("file/d"), "swung"};
   write(lines);
   const Outcome outcome = program("batch <" + (folder_.path() / "lines").string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -194,6 +195,7 @@ TEST_F(Batch, EndsEveryRunAsTheProgramWouldByItself) {
   }
   EXPECT_EQ(reports[0]["exit_code"], 0);
   EXPECT_EQ(reports[1]["exit_code"], 2);
+  EXPECT_EQ(reports[3]["exit_code"], 1);
 }
 
 TEST_F(Batch, ASignalEndsAllItsRunsAtCheckpointsOfTheirOwn) {
