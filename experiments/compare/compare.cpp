@@ -126,6 +126,7 @@ int run_compare(const CommandLine& line) {
   const CommandLine inner = line_of_columns(line, choice);
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
+  check_batch({{inner.experiment, inner, options.out}}, choice.batch);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;
@@ -133,7 +134,6 @@ int run_compare(const CommandLine& line) {
   if (!choice.tune.empty() || !choice.tune_metric.empty())
     keys["tuned"] = tune_first_column(inner, variants, choice, jobs, options);
   Plan plan = plan_of(inner, variants, choice, options.out);
-  check_batch(plan.columns, choice.batch);
   if (choice.difference == "curvature") jobs.first = plan.to;
   for (std::size_t c = 0; c < plan.columns.size(); ++c)
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});

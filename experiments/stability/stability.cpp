@@ -1,7 +1,6 @@
 #include "experiments/stability/stability.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -169,12 +168,8 @@ void try_all(std::vector<Cell>& cells, const CellEffort& effort, CellsAtOnce at_
     done(++finished);
   };
   if (at_once.batch <= 1) return in_parallel(cells.size(), at_once.threads, find);
-  // A member whose cell has ended takes the next one, so that the GPU has as many to the end.
-  const int members = std::min(at_once.batch, static_cast<int>(cells.size()));
-  std::atomic<std::size_t> next = 0;
-  run_together(true, members, at_once.threads, [&](int) {
-    for (std::size_t i = next++; i < cells.size(); i = next++) find(i);
-  });
+  run_together_by(at_once.batch, static_cast<int>(cells.size()), at_once.threads,
+                  [&](int i) { find(static_cast<std::size_t>(i)); });
 }
 
 }  // namespace hysteron::experiments

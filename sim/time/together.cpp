@@ -1,6 +1,7 @@
 #include "sim/time/together.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "sim/base/parallel.h"
 #include "sim/time/back_end.h"
@@ -21,6 +22,13 @@ void run_together(bool on_gpu, int count, int threads, const std::function<void(
     const int members = (count - first + shares - 1) / shares;
     members_here = members;  // of a thread that ends with this share
     run_on_gpu_together(members, [&](int member) { job(first + member * shares); });
+  });
+}
+
+void run_together_by(int most, int count, int threads, const std::function<void(int)>& job) {
+  std::atomic<int> next = 0;
+  run_together(true, std::min(most, count), threads, [&](int) {
+    for (int i = next++; i < count; i = next++) job(i);
   });
 }
 
