@@ -169,14 +169,14 @@ void check_batch(const std::vector<SweepColumn>& columns, int batch) {
           .of("batch", std::to_string(batch));
 }
 
-std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, const SweepJobs& jobs) {
+std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int largest, int first) {
   std::vector<Chunk> chunks;
   std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const bool alone = static_cast<int>(i) == jobs.first || jobs.batch <= 1;
+    const bool alone = static_cast<int>(i) == first || largest <= 1;
     const std::pair kind{last_text(columns[i].line.flags, "device", ""), takes_checkpoints(columns[i])};
     const auto found = alone ? open.end() : open.find(kind);
-    if (found != open.end() && std::ssize(chunks[found->second]) < jobs.batch) {
+    if (found != open.end() && std::ssize(chunks[found->second]) < largest) {
       chunks[found->second].push_back(i);
       continue;
     }

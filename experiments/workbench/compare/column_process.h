@@ -8,9 +8,9 @@ namespace hysteron::experiments {
 // Columns that share a process, by their places.
 using Chunk = std::vector<std::size_t>;
 
-// In the order of the columns, jobs.batch in each or what is left.  Those of a chunk name the same device,
-// and all of them or none take checkpoints; the one that the others need is by itself.
-std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, const SweepJobs& jobs);
+// In the order of the columns, `largest` in each or what is left.  Those of a chunk name the same device, and
+// all of them or none take checkpoints; the column `first` is by itself.
+std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int largest, int first);
 
 // What a process gets of the machine.
 struct ProcessShare {

@@ -108,6 +108,26 @@ class GpuQueue {
   std::vector<int> runs_;
 };
 
+// What the columns share, and how many processes may do so at a time.
+struct Machine {
+  int gpus, cores, at_once;
+};
+Machine machine_for(const SweepJobs& jobs) {
+  std::string reason;
+  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
+  const int cores =
+      jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return {gpus, cores, jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores)};
+}
+
+// Batches no larger than leaves something to each GPU or core.
+std::vector<Chunk> chunks_for(const std::vector<SweepColumn>& columns, const SweepJobs& jobs,
+                              const Machine& machine) {
+  const int count = static_cast<int>(columns.size());
+  return chunks_of(columns, std::min(jobs.batch, (count + machine.at_once - 1) / machine.at_once),
+                   jobs.first);
+}
+
 }  // namespace
 
 SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
@@ -138,28 +158,24 @@ std::string progress_in(const fs::path& folder) {
 }
 
 std::size_t processes_of(const std::vector<SweepColumn>& columns, const SweepJobs& jobs) {
-  return chunks_of(columns, jobs).size();
+  return chunks_for(columns, jobs, machine_for(jobs)).size();
 }
 
 void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
                  const std::function<void(SweepColumn&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   check_batch(columns, jobs.batch);
-  std::string reason;
-  const std::vector<Chunk> chunks = chunks_of(columns, jobs);
-  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
-  const int cores =
-      jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int at_once = std::min(static_cast<int>(chunks.size()),
-                               jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores));
-  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, cores / at_once);
+  const Machine machine = machine_for(jobs);
+  const std::vector<Chunk> chunks = chunks_for(columns, jobs, machine);
+  const int at_once = std::min(static_cast<int>(chunks.size()), machine.at_once);
+  const int threads = jobs.threads > 0 ? jobs.threads : std::max(1, machine.cores / at_once);
   std::mutex one_at_a_time;
   const std::function<void(const std::string&)> say = [&](const std::string& line) {
     const std::lock_guard lock(one_at_a_time);
     progress(line);
   };
   Watch watch(columns, at_once, say);
-  GpuQueue queue(gpus);
+  GpuQueue queue(machine.gpus);
   const auto tell = [&](std::size_t i) {
     watch.end(i);
     const std::lock_guard lock(one_at_a_time);
@@ -178,7 +194,7 @@ void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
     queue.give_back(gpu);
   };
   if (jobs.first >= 0)
-    finish({static_cast<std::size_t>(jobs.first)}, jobs.threads > 0 ? jobs.threads : cores);
+    finish({static_cast<std::size_t>(jobs.first)}, jobs.threads > 0 ? jobs.threads : machine.cores);
   in_parallel(chunks.size(), at_once, [&](std::size_t c) {
     if (chunks[c] != Chunk{static_cast<std::size_t>(jobs.first)}) finish(chunks[c], threads);
   });

@@ -44,12 +44,12 @@ struct SweepJobs {
   int cores = 0;             // that they share; 0: all
   bool go_on = false;        // a run that is wrong or fails is only marked as stopped
   bool checkpoints = false;  // a run that was interrupted goes on from its own, if it takes any
-  int batch = 1;             // how many share a process and, on a GPU, its launches
+  int batch = 1;             // the most that share a process and, on a GPU, its launches
 };
 // Of the key `batch` of what runs columns.
 inline constexpr int kLargestBatch = 1024;
 inline constexpr char kBatchDoc[] =
-    "how many runs share a process and, on a GPU, its launches; of runs without pictures (no-images)";
+    "up to so many runs share a process and, on a GPU, its launches; of runs without pictures (no-images)";
 // Throws Error::request where one of the columns cannot share a process: it draws, repeats itself for
 // `errors`, is timed, or steps no cloth of its own.
 void check_batch(const std::vector<SweepColumn>& columns, int batch);

@@ -145,7 +145,7 @@ TEST_F(SweepInABatch, OnAGpuEveryRunHasTheBitsThatItHasAlone) {
   }
   const fs::path run = folder_.path() / "together/runs/law=prandtl,b2=1e-06";
   const Json manifest = Json::parse(text_of(run / "manifest.json"));
-  EXPECT_EQ(manifest["batch"], 6);
+  EXPECT_EQ(manifest["batch"], 3) << "of six runs in two jobs";
   EXPECT_EQ(manifest["wall_seconds"].size(), 1u) << "stages are of all of them";
   EXPECT_FALSE(manifest.contains("device_per_step"));
 }
