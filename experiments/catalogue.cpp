@@ -29,6 +29,7 @@
   entry(rerun) \
   entry(verify) \
   entry(list) \
+  entry(batch) \
   entry(manual) \
   entry(complete)
 // clang-format on

@@ -76,7 +76,7 @@ Problem crease_problem(const Effort& effort) {
   MotionQuestion question{crease, kLength, kSampling, {}, opening_angle};
   question.reference.integrator = Integrator::bdf2;
   question.reference.step = kFrame / (effort.quick ? 16 : 64);
-  problem.solve = solve_motion(question);
+  ask_for_motion(question, problem);
   problem.reference_per_mesh = true;
   Setting base;
   base.mesh = "random";

@@ -1,9 +1,14 @@
 #include "experiments/accuracy/motion.h"
 
 #include <cmath>
+#include <exception>
 #include <map>
 #include <memory>
 #include <tuple>
+#include <utility>
+
+#include "sim/base/error.h"
+#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 
@@ -37,6 +42,7 @@ namespace {
 struct Reference {
   Trajectory trajectory;
   double uncertainty = 0;
+  std::exception_ptr failure{};
 };
 
 Trajectory reference_run(const MotionQuestion& question, const Setting& setting, double step) {
@@ -51,25 +57,59 @@ Trajectory reference_run(const MotionQuestion& question, const Setting& setting,
   return simulated(scene, make_cloth(scene), question.sampling, ignored);
 }
 
-// Its own error is a third of what the last halving of its steps has changed, at second order.
-Reference reference_of(const MotionQuestion& question, const Setting& setting) {
-  const double step = question.reference.step;
-  Reference result{reference_run(question, setting, step)};
-  result.uncertainty =
-      distance(result.trajectory, reference_run(question, setting, 2 * step), question.length) / 3;
-  return result;
-}
+// One for each mesh, size and law.
+class References {
+ public:
+  explicit References(const MotionQuestion& question) : question_(question) {}
+
+  // Computed when it is first asked for.  Throws what its runs have thrown.
+  const Reference& of(const Setting& setting) {
+    prepare({setting});
+    const Reference& known = known_.at(key_of(setting));
+    if (known.failure) std::rethrow_exception(known.failure);
+    return known;
+  }
+  // Their times are no result, so that on a GPU all runs of all references may share its launches.
+  void prepare(const std::vector<Setting>& settings) {
+    std::vector<const Setting*> missing;
+    for (const Setting& setting : settings)
+      if (known_.try_emplace(key_of(setting)).second) missing.push_back(&setting);
+    if (missing.empty()) return;
+    std::vector<Trajectory> runs(2 * missing.size());
+    run_together(missing[0]->device == DeviceChoice::cuda, static_cast<int>(runs.size()), 1, [&](int i) {
+      const Setting& setting = *missing[i / 2];
+      try {
+        runs[i] = reference_run(question_, setting, (1 + i % 2) * question_.reference.step);
+      } catch (const Error&) {
+        known_.at(key_of(setting)).failure = std::current_exception();
+      }
+    });
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+      Reference& found = known_.at(key_of(*missing[k]));
+      if (found.failure) continue;
+      // A third of what the last halving of the steps has changed, at second order.
+      found.uncertainty = distance(runs[2 * k], runs[2 * k + 1], question_.length) / 3;
+      found.trajectory = std::move(runs[2 * k]);
+    }
+  }
+
+ private:
+  using Key = std::tuple<std::string, std::string, int, std::string>;
+  static Key key_of(const Setting& setting) {
+    return {setting.mesh, name_of(setting.element), setting.triangles, setting.law};
+  }
+
+  MotionQuestion question_;
+  std::map<Key, Reference> known_;
+};
 
 }  // namespace
 
-std::function<Found(const Setting&)> solve_motion(const MotionQuestion& question) {
-  using Mesh = std::tuple<std::string, std::string, int, std::string>;
-  const auto references = std::make_shared<std::map<Mesh, Reference>>();
-  return [question, references](const Setting& setting) {
-    const auto [at, is_new] =
-        references->try_emplace({setting.mesh, name_of(setting.element), setting.triangles, setting.law});
-    if (is_new) at->second = reference_of(question, setting);
-    const Reference& exact = at->second;
+void ask_for_motion(const MotionQuestion& question, Problem& problem) {
+  const auto references = std::make_shared<References>(question);
+  problem.prepare = [references](const std::vector<Setting>& settings) { references->prepare(settings); };
+  problem.solve = [question, references](const Setting& setting) {
+    const Reference& exact = references->of(setting);
     Found found;
     const Scene scene = question.scene(setting);
     const Cloth cloth = make_cloth(scene);

@@ -44,9 +44,11 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
                 number(f.error),
                 number(f.uncertainty),
                 f.steps,
-                number(f.seconds),
+                f.is_timed() ? number(f.seconds) : "",
                 f.bytes,
-                on_front ? "yes" : "no",
+                !is_timed(solution) ? ""
+                : on_front          ? "yes"
+                                    : "no",
                 f.failed});
     }
   }
@@ -64,6 +66,7 @@ void write_orders(Run& run, const std::vector<Solution>& solutions) {
 
 // Cell of the table: what it takes.
 std::string cheapest_text(const Solution& solution, double target) {
+  if (!is_timed(solution)) return "unknown";
   const auto best = cheapest(solution, target);
   if (!best) return "none";
   const Solved& solved = solution.solved[*best];
@@ -93,7 +96,7 @@ void sort_by_time(render::Series& series) {
 render::Plot plot_of(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
   for (const auto& [setting, found] : solution.solved) {
-    if (!found.failed.empty() || !solution.comparable(setting)) continue;
+    if (!found.failed.empty() || !found.is_timed() || !solution.comparable(setting)) continue;
     const std::string label = series_of(solution, setting);
     auto at = std::find_if(plot.series.begin(), plot.series.end(),
                            [&](const render::Series& s) { return s.label == label; });
@@ -129,6 +132,7 @@ void write_accuracy_metrics(Run& run, const std::vector<Solution>& solutions) {
     run.metric(name + ".failed_count",
                std::count_if(solution.solved.begin(), solution.solved.end(),
                              [](const Solved& s) { return !s.found.failed.empty(); }));
+    if (!is_timed(solution)) continue;
     run.metric(name + ".front_count", pareto_front(solution).size());
     double seconds = 0;
     for (const Solved& s : solution.solved) seconds += s.found.seconds;
@@ -154,7 +158,8 @@ void print_accuracy(const std::vector<Solution>& solutions) {
       const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
       fmt::print("{} {:<58}", on_front ? '*' : ' ', describe(solution, setting));
       if (found.failed.empty())
-        fmt::print(" {:10.4f} % {:9.3f} s {:8} steps\n", 100 * found.error, found.seconds, found.steps);
+        fmt::print(" {:10.4f} % {:>9} s {:8} steps\n", 100 * found.error,
+                   found.is_timed() ? fmt::format("{:.3f}", found.seconds) : "?", found.steps);
       else
         fmt::print(" {}\n", found.failed);
     }

@@ -44,7 +44,7 @@ Problem swing_problem(const Effort& effort) {
   MotionQuestion question{swing_scene, kLength, kSampling, {}, tip_height};
   question.reference.integrator = Integrator::bdf2;
   question.reference.step = 1.0 / (effort.quick ? 7680 : 15360);
-  problem.solve = solve_motion(question);
+  ask_for_motion(question, problem);
   problem.reference_per_mesh = true;
   Setting base;
   base.device = effort.device;

@@ -31,6 +31,7 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
+    {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
     {"compare.match", at<&C::match>, "", any(), "fabric | small-strain | energy", "what all laws have in common: the fabric's numbers, the stiffness at rest, or the work to bend to compare.match-curvature"},
     {"compare.match-curvature", at<&C::match_curvature>, "1/m", positive(), "", "curvature up to which the work is matched"},
     {"compare.video", at<&C::video>, "", any(), "none | mp4 | gif", "a film of the columns side by side, if ffmpeg is installed"},
@@ -85,7 +86,8 @@ std::vector<KeyDescription> own_keys() {
   CompareChoice choice;
   std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
   for (const char* name : {"drape", "crease", "fold", "crumple"}) {
-    const auto more = experiment_named(name).own_keys();
+    auto more = experiment_named(name).own_keys();
+    std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // is the page's
     keys.insert(keys.end(), more.begin(), more.end());
   }
   return keys;
@@ -124,8 +126,10 @@ int run_compare(const CommandLine& line) {
   const CommandLine inner = line_of_columns(line, choice);
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
+  check_batch({{inner.experiment, inner, options.out}}, choice.batch);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
+  jobs.batch = choice.batch;
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
   if (!choice.tune.empty() || !choice.tune_metric.empty())
     keys["tuned"] = tune_first_column(inner, variants, choice, jobs, options);

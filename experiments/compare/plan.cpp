@@ -19,7 +19,7 @@ constexpr const char* kCompared[] = {"drape", "swing", "crease", "fold", "crumpl
 // Flags that make the columns; all others are theirs.
 bool is_own(const Flag& flag) {
   return flag.path.starts_with("compare.") || flag.path == "laws" || flag.path == "fabrics" ||
-         flag.path == "integrators";
+         flag.path == "integrators" || flag.path == "batch";
 }
 
 LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::string& law) {

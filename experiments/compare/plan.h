@@ -16,7 +16,7 @@ struct CompareChoice {
   std::string difference = "picture";
   int rows = 4;
   bool no_outlines = false;
-  int jobs = 0;
+  int jobs = 0, batch = 1;
   std::string match = "energy";
   double match_curvature = 100;  // [1/m], the KES tester's reading point
   std::string video = "none";

@@ -263,7 +263,7 @@ Experiment crease() {
           .question = "crease recovery (ISO 2313): fold, load, release",
           .run = run_crease,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_keys_of<kRows, page_keys>,
           .defaults = defaults};
 }
 

@@ -198,7 +198,7 @@ Experiment crumple() {
           .question = "crushed, opened, spread and hung: wrinkles that stay",
           .run = run_crumple,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_keys_of<kRows, page_keys>,
           .defaults = defaults};
 }
 

@@ -250,7 +250,7 @@ Experiment fold() {
           .question = "repeated folding (De Mattia): loops and fatigue",
           .run = run_fold,
           .simulates = true,
-          .own_keys = own_keys_of<kRows>,
+          .own_keys = own_keys_of<kRows, page_keys>,
           .defaults = defaults};
 }
 

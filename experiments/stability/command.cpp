@@ -19,6 +19,7 @@ struct StabilityFlags {
   std::string integrator = "all", law, sweep = "all";
   CellEffort effort;
   double threads = 0, limit_steps = 2000;
+  int batch = 256;
   Options options;
 };
 
@@ -32,7 +33,8 @@ const KeyRow<F> kRows[] = {
     {"seconds", at<&F::effort, &CellEffort::seconds>, "s", positive(), "", "simulated time of a cell"},
     {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
     {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
-    {"threads", at<&F::threads>, "", between(0, 1024), "", "how many cells run at a time; 0: all cores, or 1 on cuda"},
+    {"threads", at<&F::threads>, "", between(0, 1024), "", "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
+    {"batch", at<&F::batch>, "", between(1, 1024), "", "of cells on cuda: how many share its launches; 1: each has a wall clock time of its own"},
 };
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
@@ -57,7 +59,8 @@ std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& r
   std::vector<Cell> cells = cells_of(sweeps, choice_of(flags));
   const auto stage = run.stage("cells");
   const std::size_t every = std::max<std::size_t>(1, cells.size() / 20);
-  try_all(cells, flags.effort, threads_of(flags), [&](std::size_t done) {
+  const CellsAtOnce at_once{threads_of(flags), flags.device == "cuda" ? flags.batch : 1};
+  try_all(cells, flags.effort, at_once, [&](std::size_t done) {
     if (done % every == 0)
       run.progress(std::to_string(done) + " of " + std::to_string(cells.size()) + " cells");
   });

@@ -59,7 +59,7 @@ void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<C
               if_ran(f.steps),
               if_ran(f.substeps),
               if_ran(f.retried_steps),
-              f.wall_seconds,
+              f.wall_seconds ? CsvField(*f.wall_seconds) : CsvField(""),
               f.message});
   }
   file.commit();

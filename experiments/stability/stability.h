@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ struct Finding {
   double seconds_asked = 0, seconds_simulated = 0;
   long steps = 0, retried_steps = 0;
   int substeps = 0;
-  double wall_seconds = 0;
+  std::optional<double> wall_seconds{};  // none of a cell that shared a GPU with others
 };
 
 // Beyond this energy growth a run counts as diverged.  Explicit bending conserves a neighbouring energy, from
@@ -108,8 +109,13 @@ struct Cell {
 };
 // The cells of all sweeps under all integrators, not yet tried.
 std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
-// Tries them, `threads` at a time; `done` is called after each with how many are done.
-void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
+// How many are tried at a time.
+struct CellsAtOnce {
+  int threads = 1;  // each takes one after the other,
+  int batch = 1;    // or, on a GPU, its part of so many, which share launches
+};
+// Tries them; `done` is called after each with how many are done.
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, CellsAtOnce at_once,
              const std::function<void(std::size_t done)>& done);
 
 }  // namespace hysteron::experiments

@@ -1,5 +1,5 @@
-// One experiment over the axes of a study: a run for each combination of their values, a process and a folder
-// each, and one table, curves, maps and a page of all.
+// One experiment over the axes of a study: a run for each combination of their values, each with a folder, a
+// process each or for several, and one table, curves, maps and a page of all.
 //
 //   study file -> OUT/runs/NAME/ -> OUT/table.csv, OUT/means.csv -> plots -> OUT/report.html
 #include <fmt/core.h>
@@ -16,6 +16,7 @@
 #include "experiments/sweep/plots.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
+#include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/app/time_left.h"
@@ -31,7 +32,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct SweepChoice {
-  int jobs = 0;
+  int jobs = 0, batch = 1;
   int threads = 1;
   bool resume = false;
   bool collect = false;
@@ -41,6 +42,7 @@ using S = SweepChoice;
 // clang-format off
 const KeyRow<S> kRows[] = {
     {"jobs", at<&S::jobs>, "", between(0, 1024), "", "how many runs at a time; 0: one for each GPU, or for each --threads of the cores"},
+    {"batch", at<&S::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
     {"threads", at<&S::threads>, "", between(1, 1024), "", "of each run on the CPU"},
     {"resume", at<&S::resume>, "", any(), "", "go on with a study: runs that the same program has finished are kept, interrupted ones go on from their checkpoints"},
     {"collect", at<&S::collect>, "", any(), "", "run nothing: table, plots and page of the runs that are there"},
@@ -81,16 +83,10 @@ Json keys_of(const Study& study) {
           {"axes", axes}};
 }
 
-bool may_use_gpu(const CommandLine& line) {
-  const Experiment& experiment = experiment_named(line.experiment);
-  if (!experiment.simulates) return false;
-  const bool cpu = experiment.defaults && experiment.defaults().scene.device == DeviceChoice::cpu;
-  return last_text(line.flags, "device", cpu ? "cpu" : "auto") != "cpu";
-}
-
 SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {
   SweepJobs jobs;
   jobs.threads = choice.threads;
+  jobs.batch = choice.batch;
   jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
   jobs.checkpoints = jobs.resume;
   jobs.gpu =
@@ -104,7 +100,7 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& run
 }
 
 // The study as a workflow: a job for each run, or for a few, and one that makes the table.
-void write_study(const std::filesystem::path& folder, const Study& study, const std::filesystem::path& out) {
+void write_study(const SweepChoice& choice, const Study& study, const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   const auto all = static_cast<int>(study.runs.size());
   const int jobs = (all + study.runs_a_job - 1) / study.runs_a_job;
@@ -116,13 +112,15 @@ void write_study(const std::filesystem::path& folder, const Study& study, const 
     return words;
   };
   Workflow workflow{.out = out, .jobs = {}, .product = "table.csv", .collects = with({"--collect"})};
-  for (int k = 1; k <= jobs; ++k)
-    workflow.jobs.push_back(
-        {std::to_string(k),
-         with({"--threads", kThreads, "--jobs", "1", "--part", fmt::format("{}/{}", k, jobs)}),
-         study.resources});
-  write_workflow(folder, workflow);
-  std::cout << all << " runs in " << jobs << " jobs: " << starting_words(folder) << "\n";
+  std::vector<std::string> shares = {"--threads", kThreads, "--jobs", "1"};
+  if (choice.batch > 1) shares.insert(shares.end(), {"--batch", std::to_string(choice.batch)});
+  for (int k = 1; k <= jobs; ++k) {
+    std::vector<std::string> words = shares;
+    words.insert(words.end(), {"--part", fmt::format("{}/{}", k, jobs)});
+    workflow.jobs.push_back({std::to_string(k), with(words), study.resources});
+  }
+  write_workflow(choice.snakemake, workflow);
+  std::cout << all << " runs in " << jobs << " jobs: " << starting_words(choice.snakemake) << "\n";
 }
 
 // What the study says as its runs end, and what it counts.
@@ -187,7 +185,7 @@ void run_all(Run& run, std::vector<SweepColumn>& runs, const SweepJobs& jobs) {
       },
       [&](const std::string& line) { progress.running(line); });
   progress.stop();
-  progress.note(run, std::min(jobs.at_once, static_cast<int>(runs.size())));
+  progress.note(run, std::min(jobs.at_once, static_cast<int>(processes_of(runs, jobs))));
 }
 
 void collect(Run& run, std::vector<SweepColumn>& runs) {
@@ -273,7 +271,8 @@ int run_sweep(const CommandLine& line) {
   const Study study = read_study(line.names[0]);
   if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
   std::vector<SweepColumn> runs = columns_of(study, options.out);
-  if (!choice.snakemake.empty()) return write_study(choice.snakemake, study, options.out), 0;
+  check_batch(runs, choice.batch);
+  if (!choice.snakemake.empty()) return write_study(choice, study, options.out), 0;
   if (!choice.only.empty() || !choice.part.empty())
     return run_some(chosen(runs, choice), choice, options.quiet);
   Run run(line, options, keys_of(study));

@@ -110,7 +110,8 @@ TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs
     std::vector<std::string>& row = table.rows.emplace_back(1, study.runs[r].name);
     row.insert(row.end(), study.runs[r].values.begin(), study.runs[r].values.end());
     for (const std::string& metric : metrics) row.push_back(field_of(found[metric]));
-    row.push_back(manifest ? number_text(manifest->total_seconds()) : "");
+    const std::optional<double> seconds = manifest ? manifest->own_seconds() : std::nullopt;
+    row.push_back(seconds ? number_text(*seconds) : "");
     row.push_back(manifest ? manifest->state_hash.value_or("") : "");
     row.push_back(std::to_string(runs[r].exit_code));
     row.push_back(runs[r].stopped);

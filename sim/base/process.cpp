@@ -37,16 +37,19 @@ class Pipe {
   int out_ = -1, in_ = -1;
 };
 
-// Between fork and exec: our pipes at its stdin and stderr, its stdout joined to stderr so that it stays out
-// of ours.  It gets SIGTERM when the thread that started it is gone: we may be killed, and it is not to
-// compute for nobody.
-[[noreturn]] void become(char* const* arguments, const Pipe& input, const Pipe& errors, const Pipe& failure,
-                         pid_t parent) {
+struct Pipes {
+  Pipe input, output, errors;
+};
+
+// Between fork and exec: our pipes at its stdin and stderr, and at its stdout, which else goes nowhere, so
+// that it stays out of ours.  It gets SIGTERM when the thread that started it is gone: we may be killed, and
+// it is not to compute for nobody.
+[[noreturn]] void become(char* const* arguments, const Pipes& pipes, const Pipe& failure, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(EXIT_FAILURE);  // gone before it could be asked for
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (::dup2(input.out(), STDIN_FILENO) >= 0 && ::dup2(nowhere, STDOUT_FILENO) >= 0 &&
-      ::dup2(errors.in(), STDERR_FILENO) >= 0)
+  const int output = pipes.output.in() >= 0 ? pipes.output.in() : ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (::dup2(pipes.input.out(), STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
+      ::dup2(pipes.errors.in(), STDERR_FILENO) >= 0)
     ::execvp(arguments[0], arguments);
   const int reason = errno;
   [[maybe_unused]] const ssize_t told = ::write(failure.in(), &reason, sizeof reason);
@@ -54,14 +57,14 @@ class Pipe {
 }
 
 // False if there is no such program.
-bool spawn(const std::vector<std::string>& words, const Pipe& input, const Pipe& errors, pid_t& child) {
+bool spawn(const std::vector<std::string>& words, const Pipes& pipes, pid_t& child) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   Pipe failure;  // closed by a successful exec
   const pid_t parent = ::getpid();
   child = ::fork();
-  if (child == 0) become(arguments.data(), input, errors, failure, parent);
+  if (child == 0) become(arguments.data(), pipes, failure, parent);
   if (child < 0) return false;
   failure.close_in();
   int reason = 0;
@@ -73,25 +76,50 @@ bool spawn(const std::vector<std::string>& words, const Pipe& input, const Pipe&
   return false;
 }
 
-// Writes the input while reading the errors: a child that fills one pipe must not wait for us forever.
-std::string exchange(Pipe& input, Pipe& errors, std::string_view text) {
-  std::string said;
+// A pipe through which no more comes is closed.
+void read_more(Pipe& pipe, std::string& text) {
   char buffer[4096];
-  ::fcntl(input.in(), F_SETFL, O_NONBLOCK);
-  while (true) {
-    pollfd ends[2] = {{errors.out(), POLLIN, 0}, {input.in(), POLLOUT, 0}};
-    if (::poll(ends, input.in() >= 0 ? 2 : 1, -1) < 0 && errno != EINTR) break;
-    if (input.in() >= 0 && ends[1].revents) {
-      const ssize_t written = ::write(input.in(), text.data(), text.size());
-      if (written > 0) text.remove_prefix(static_cast<size_t>(written));
-      if (text.empty() || (written < 0 && errno != EAGAIN && errno != EINTR)) input.close_in();
+  const ssize_t read = ::read(pipe.out(), buffer, sizeof buffer);
+  if (read > 0) text.append(buffer, static_cast<size_t>(read));
+  if (read == 0 || (read < 0 && errno != EINTR)) pipe.close_out();
+}
+
+void write_more(Pipe& pipe, std::string_view& text) {
+  const ssize_t written = ::write(pipe.in(), text.data(), text.size());
+  if (written > 0) text.remove_prefix(static_cast<size_t>(written));
+  if (text.empty() || (written < 0 && errno != EAGAIN && errno != EINTR)) pipe.close_in();
+}
+
+// Takes whole lines off the text.
+void take_lines(std::string& text, const std::function<void(const std::string&)>& said) {
+  std::size_t begin = 0;
+  for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
+    said(text.substr(begin, end - begin));
+  text.erase(0, begin);
+}
+
+// Writes the input while reading what is said: a child that fills one pipe must not wait for us forever.
+// Returns its errors.
+std::string exchange(Pipes& pipes, std::string_view text,
+                     const std::function<void(const std::string&)>& said) {
+  std::string errors, output;
+  ::fcntl(pipes.input.in(), F_SETFL, O_NONBLOCK);
+  while (pipes.errors.out() >= 0 || pipes.output.out() >= 0) {
+    // Those that are closed have no number, and poll() passes over them.
+    pollfd ends[3] = {
+        {pipes.errors.out(), POLLIN, 0}, {pipes.output.out(), POLLIN, 0}, {pipes.input.in(), POLLOUT, 0}};
+    if (::poll(ends, 3, -1) < 0) {
+      if (errno != EINTR) break;
+      continue;
     }
-    if (!ends[0].revents) continue;
-    const ssize_t read = ::read(errors.out(), buffer, sizeof buffer);
-    if (read == 0 || (read < 0 && errno != EINTR)) break;
-    if (read > 0) said.append(buffer, static_cast<size_t>(read));
+    if (ends[2].revents) write_more(pipes.input, text);
+    if (ends[0].revents) read_more(pipes.errors, errors);
+    if (ends[1].revents) {
+      read_more(pipes.output, output);
+      take_lines(output, said);
+    }
   }
-  return said;
+  return errors;
 }
 
 std::string first_line_with_text(const std::string& said) {
@@ -113,16 +141,19 @@ class IgnoreBrokenPipe {
 
 }  // namespace
 
-ProcessResult run_process(const std::vector<std::string>& words, const std::string& input_text) {
+ProcessResult run_process(const std::vector<std::string>& words, const std::string& input,
+                          const std::function<void(const std::string&)>& said) {
   ProcessResult result;
-  Pipe input, errors;
+  Pipes pipes;
+  if (!said) pipes.output.close_out(), pipes.output.close_in();
   pid_t child = 0;
-  result.started = spawn(words, input, errors, child);
+  result.started = spawn(words, pipes, child);
   if (!result.started) return result;
-  input.close_out();
-  errors.close_in();
+  pipes.input.close_out();
+  pipes.output.close_in();
+  pipes.errors.close_in();
   const IgnoreBrokenPipe quiet;
-  result.first_error_line = first_line_with_text(exchange(input, errors, input_text));
+  result.first_error_line = first_line_with_text(exchange(pipes, input, said));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

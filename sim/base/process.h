@@ -1,6 +1,7 @@
 // Another program run without a shell.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,10 @@ struct ProcessResult {
   std::string first_error_line;  // of what it wrote to stderr that is not blank
 };
 
-// Runs `words` (the first is searched in PATH), writes `input` to its stdin and waits.  What it writes to
-// stdout is dropped.  The program gets SIGTERM when this one is killed.
-ProcessResult run_process(const std::vector<std::string>& words, const std::string& input);
+// Runs `words` (the first is searched in PATH), writes `input` to its stdin and waits.  `said`, which must
+// not throw, is called with each whole line that it writes to stdout, as it comes; without it they are
+// dropped. The program gets SIGTERM when this one is killed.
+ProcessResult run_process(const std::vector<std::string>& words, const std::string& input,
+                          const std::function<void(const std::string&)>& said = {});
 
 }  // namespace hysteron

@@ -15,7 +15,8 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t kStack = std::size_t(1) << 20;  // [bytes]; only what is touched takes memory
+// As a process has it by itself: a job may be a whole run.  Only what is touched takes memory.
+constexpr std::size_t kStack = std::size_t(8) << 20, kGuard = std::size_t(1) << 16;  // [bytes]
 
 // As the Itanium C++ ABI lays it out (2.2.2).
 struct ExceptionState {
@@ -34,16 +35,21 @@ void exchange_with_thread(OfThread& other) {
   std::swap(exception_state(), other.exceptions);
 }
 
+// One that grows beyond its end meets the guard, which nobody may touch, and not another's memory.
 class Stack {
  public:
-  Stack() : memory_(mmap(nullptr, kStack, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)) {
-    if (memory_ == MAP_FAILED)
-      throw Error::machine(std::string("no memory for another job's stack: ") + std::strerror(errno));
+  Stack()
+      : memory_(mmap(nullptr, kGuard + kStack, PROT_READ | PROT_WRITE,
+                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0)) {
+    if (memory_ != MAP_FAILED && mprotect(memory_, kGuard, PROT_NONE) == 0) return;
+    const int reason = errno;
+    if (memory_ != MAP_FAILED) munmap(memory_, kGuard + kStack);
+    throw Error::machine(std::string("no memory for another job's stack: ") + std::strerror(reason));
   }
-  ~Stack() { munmap(memory_, kStack); }
+  ~Stack() { munmap(memory_, kGuard + kStack); }
   Stack(const Stack&) = delete;
   Stack& operator=(const Stack&) = delete;
-  void* data() const { return memory_; }
+  void* data() const { return static_cast<char*>(memory_) + kGuard; }
 
  private:
   void* memory_;

@@ -13,4 +13,12 @@ namespace hysteron {
 // Error::machine without a GPU.
 void run_together(bool on_gpu, int count, int threads, const std::function<void(int)>& job);
 
+// On a GPU the same with `most` of the jobs at a time: where one ends the next begins, so that the GPU has as
+// many almost to the end.
+void run_together_by(int most, int count, int threads, const std::function<void(int)>& job);
+
+// How many jobs share the GPU's launches with the one that the calling thread runs, itself included: what a
+// wall clock measures, and what is launched, is then of all of them.  1: none.
+int jobs_together();
+
 }  // namespace hysteron

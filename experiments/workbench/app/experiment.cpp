@@ -29,8 +29,8 @@ namespace {
 // Without those that change no file of a run, or whose outcome is in the scene.
 std::string choices_of(Keys keys) {
   static const std::set<std::string> kOthers = {
-      "scene",        "out",         "quick",      "explain", "quiet",      "json",      "errors",
-      "errors.draws", "errors.jobs", "checkpoint", "resume",  "dump-scene", "max-memory"};
+      "scene",        "out",         "quick",        "explain",    "quiet",  "json",       "errors",
+      "errors.draws", "errors.jobs", "errors.batch", "checkpoint", "resume", "dump-scene", "max-memory"};
   std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
   return to_json(keys).dump();
 }

@@ -44,4 +44,11 @@ void choose_gpu(CommandLine& line) {
   }
 }
 
+bool may_use_gpu(const CommandLine& line) {
+  const Experiment& experiment = experiment_named(line.experiment);
+  if (!experiment.simulates) return false;
+  const bool cpu = experiment.defaults && experiment.defaults().scene.device == DeviceChoice::cpu;
+  return last_text(line.flags, "device", cpu ? "cpu" : "auto") != "cpu";
+}
+
 }  // namespace hysteron::experiments

@@ -14,4 +14,7 @@ std::string visible_gpu(int gpu);
 // called before anything asks for GPUs.
 void choose_gpu(CommandLine& line);
 
+// The line simulates, and its --device or its experiment's own does not name the CPU.
+bool may_use_gpu(const CommandLine& line);
+
 }  // namespace hysteron::experiments

@@ -38,4 +38,8 @@ double Manifest::total_seconds() const {
   return found == wall_seconds.end() ? 0 : found->second;
 }
 
+std::optional<double> Manifest::own_seconds() const {
+  return batch ? std::nullopt : std::optional(total_seconds());
+}
+
 }  // namespace hysteron::experiments

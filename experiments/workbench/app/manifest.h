@@ -161,6 +161,8 @@ struct Manifest {
   std::optional<std::int64_t> triangles, hinges, steps;
   std::optional<double> seconds_simulated;
   std::vector<std::pair<std::string, double>> wall_seconds;  // "total", then by stage
+  std::optional<int>
+      batch;  // runs that shared a GPU with this one, itself included: times are of all of them
   std::optional<std::int64_t> bytes_device;
   std::vector<std::pair<std::string, double>> energy;  // closing balance [J]; empty: none is kept
   std::optional<std::string> state_hash;
@@ -178,7 +180,8 @@ struct Manifest {
   std::vector<std::string> files;
   bool complete = false;
 
-  double total_seconds() const;  // of wall clock; 0 where it is not known
+  double total_seconds() const;               // of wall clock; 0 where it is not known
+  std::optional<double> own_seconds() const;  // the same, where they are not those of a batch
 };
 
 }  // namespace hysteron::experiments

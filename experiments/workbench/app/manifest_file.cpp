@@ -85,6 +85,7 @@ void visit_results(M& m, const Visit& visit) {
 
 // Entries that only some runs have.
 void add_what_some_have(const Manifest& m, Json& json) {
+  if (m.batch) json["batch"] = *m.batch;
   if (m.substeps) json["substeps"] = *m.substeps;
   if (m.linear_solver) json["linear_solver"] = *m.linear_solver;
   for (const auto& [key, value] : m.own) json[key] = *value;
@@ -234,6 +235,7 @@ std::optional<Frames> frames_of(const Json& json) {
 
 // Entries that only some runs have.
 void take_what_some_have(const Json& json, Manifest& m) {
+  m.batch = known_at<int>(json, "batch");
   m.substeps = known_at<int>(json, "substeps");
   m.linear_solver = known_at<std::string>(json, "linear_solver");
   if (at(json, "series").is_array()) m.series = texts_at(json, "series");

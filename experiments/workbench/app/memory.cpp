@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_history.h"
+#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -67,11 +68,15 @@ double machine_bytes() {
 
 // `what` needs it: "300000 triangles".
 void check(const Setup& setup, double bytes, const std::string& what) {
-  const double asked = setup.options.max_memory * kMegabyte, most = asked > 0 ? asked : machine_bytes();
+  const int together = jobs_together();
+  const double asked = setup.options.max_memory * kMegabyte,
+               most = asked > 0 ? asked : machine_bytes() / together;
   if (bytes <= most) return;
-  const std::string limit =
-      asked > 0 ? fmt::format("max-memory = {:g} MB (--max-memory)", setup.options.max_memory)
-                : fmt::format("the {:.0f} MB of this machine (--max-memory allows more)", most / kMegabyte);
+  const std::string whose = together > 1 ? fmt::format(" for each of {} runs together", together) : "";
+  const std::string limit = asked > 0
+                                ? fmt::format("max-memory = {:g} MB (--max-memory)", setup.options.max_memory)
+                                : fmt::format("the {:.0f} MB of this machine{} (--max-memory allows more)",
+                                              most / kMegabyte, whose);
   throw Error::request(
       fmt::format("{} would take about {:.0f} MB of memory, more than {}", what, bytes / kMegabyte, limit))
       .of("max-memory", fmt::format("{:g}", setup.options.max_memory));

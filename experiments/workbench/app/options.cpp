@@ -38,6 +38,7 @@ const KeyRow<Options> kRows[] = {
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number"},
     {"errors.draws", at<&O::errors_draws>, "", between(1, 64), "", "how many other meshes the run is repeated on; from 3 on with mean and standard error"},
     {"errors.jobs", at<&O::errors_jobs>, "", between(0, 64), "", "how many repeats run at a time; 0: one for each GPU, or for each core"},
+    {"errors.batch", at<&O::errors_batch>, "", between(1, 64), "", "up to so many repeats share a process and, on a GPU, its launches"},
     {"checkpoint", at<&O::checkpoint>, "s", at_least(0), "", "wall clock between two checkpoints: OUT/checkpoint, at a recorded instant, also on SIGINT and SIGTERM, which then end the run (exit code 3); 0: none"},
     {"resume", at<&O::resume>, "", any(), "", "go on from OUT/checkpoint with the same command, to the same bits on the same device; begins anew where there is none; a complete run is not repeated; of several laws, fabrics or integrators, and of compare: keep the columns that the same program has finished"},
     {"max-memory", at<&O::max_memory>, "MB", at_least(0), "", "refuse a run that is expected to take more memory of the host, before it takes any; 0: more than the machine has"},

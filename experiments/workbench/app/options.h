@@ -32,6 +32,7 @@ struct Options {
   bool errors = false;                 // errors       of headlines, by repeating the run
   int errors_draws = 2;                // errors.draws other meshes
   int errors_jobs = 0;                 // errors.jobs  repeats at a time, 0: as many as fit
+  int errors_batch = 1;                // errors.batch repeats in a process, at most
   double checkpoint = 0;               // checkpoint   [s] of wall clock between two; 0: none
   bool resume = false;                 // resume       go on from OUT/checkpoint
   double max_memory = 0;               // max-memory   [MB] that the run may take; 0: what the machine has

@@ -12,6 +12,7 @@
 #include "sim/base/archive.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
+#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -61,6 +62,7 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   manifest.precision = text("precision");
   manifest.element = text("element");
   manifest.law = text("law");
+  if (jobs_together() > 1) manifest.batch = jobs_together();
   return manifest;
 }
 
@@ -184,14 +186,18 @@ Json Run::to_write(bool complete) const {
   Manifest all = manifest_;
   all.wall_seconds = {
       {"total", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count()}};
+  if (!manifest_.batch) add_stages(all);
+  all.complete = complete;
+  return to_json(all);
+}
+
+void Run::add_stages(Manifest& all) const {
   std::map<std::string, double> others = seconds_;
   for (const char* stage : kStages) {
     all.wall_seconds.emplace_back(stage, others[stage]);
     others.erase(stage);
   }
   all.wall_seconds.insert(all.wall_seconds.end(), others.begin(), others.end());
-  all.complete = complete;
-  return to_json(all);
 }
 
 void Run::write_manifest(bool complete) const {

@@ -64,7 +64,7 @@ class Run {
   // What led to this run began then: it counts to the total, and as stage `setup`.
   void begun_at(std::chrono::steady_clock::time_point time);
   // Adds to wall_seconds of a stage (membrane, bending, solve, contact, history, render, encode, io, or any
-  // other).
+  // other).  Runs that share a GPU take turns in all of them and keep their total alone.
   void add_seconds(const std::string& stage, double seconds);
   // Measures from now until the end of the returned object's life.
   class Stage {
@@ -102,6 +102,7 @@ class Run {
 
  private:
   Json to_write(bool complete) const;
+  void add_stages(Manifest& all) const;
   void write_manifest(bool complete) const;
   // Whether no file of that name or, of a sequence, of its kind is in the manifest on disk; now it is known.
   bool is_new(const std::filesystem::path& name);

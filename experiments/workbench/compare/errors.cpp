@@ -95,7 +95,9 @@ void write_table(Run& run, const std::vector<std::string>& metrics, const std::v
       const MetricValue& value = found[name];
       fields.push_back(value.is_number() ? number_text(value.number()) : "");
     }
-    fields.push_back(columns[i].manifest ? CsvField(columns[i].manifest->total_seconds()) : CsvField(""));
+    const std::optional<double> seconds =
+        columns[i].manifest ? columns[i].manifest->own_seconds() : std::nullopt;
+    fields.push_back(seconds ? CsvField(*seconds) : CsvField(""));
     fields.push_back(columns[i].stopped.empty());
     fields.push_back(columns[i].stopped);
     file.row(fields);
@@ -143,6 +145,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   for (const Repeat& repeat : repeats) columns.push_back(column_of(run, line, repeat));
   SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
+  jobs.batch = setup.options.errors_batch;
   jobs.cores = setup.scene.threads;
   jobs.gpu = setup.scene.device != DeviceChoice::cpu;
   jobs.go_on = true;

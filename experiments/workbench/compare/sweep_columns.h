@@ -1,4 +1,5 @@
-// The runs that a comparison sets side by side: each a process of its own, several at a time.
+// The runs that a comparison sets side by side: each a process of its own, or several in one; several
+// processes at a time.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,8 @@ struct SweepColumn {
   bool kept = false;      // from an earlier comparison
   std::string stopped{};  // why it could not go on; empty: complete
   int exit_code = 0;
-  double seconds = 0;  // of wall clock that its process took
+  double seconds =
+      0;  // of wall clock that its process took; of several in one, since the one before it ended
   std::optional<Manifest> manifest{};
 
   Metrics metrics() const { return manifest ? manifest->metrics : Metrics(); }
@@ -42,11 +44,22 @@ struct SweepJobs {
   int cores = 0;             // that they share; 0: all
   bool go_on = false;        // a run that is wrong or fails is only marked as stopped
   bool checkpoints = false;  // a run that was interrupted goes on from its own, if it takes any
+  int batch = 1;             // the most that share a process and, on a GPU, its launches
 };
+// Of the key `batch` of what runs columns.
+inline constexpr int kLargestBatch = 1024;
+inline constexpr char kBatchDoc[] =
+    "up to so many runs share a process and, on a GPU, its launches; of runs without pictures (no-images)";
+// Throws Error::request where one of the columns cannot share a process: it draws, repeats itself for
+// `errors`, is timed, or steps no cloth of its own.
+void check_batch(const std::vector<SweepColumn>& columns, int batch);
 
 // Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
 // not.
 bool recall(SweepColumn& column);
+
+// How many processes the columns take.
+std::size_t processes_of(const std::vector<SweepColumn>& columns, const SweepJobs& jobs);
 
 // "kept", "done", or why it stopped.
 std::string outcome_of(const SweepColumn& column);

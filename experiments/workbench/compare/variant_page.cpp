@@ -10,6 +10,24 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
+struct PageChoice {
+  int batch = 1;
+};
+const KeyRow<PageChoice> kRows[] = {
+    {"batch", at<&PageChoice::batch>, "", between(1, kLargestBatch), "", kBatchDoc}};
+
+// Takes the page's keys off the line.
+PageChoice taken_from(CommandLine& line) {
+  PageChoice choice;
+  for (const BoundKey& key : bind(kRows, choice))
+    std::erase_if(line.flags, [&](const Flag& flag) {
+      if (flag.path != key.description.path) return false;
+      assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+      return true;
+    });
+  return choice;
+}
+
 // "" where there is none.
 fs::path picture_of(const VariantPage& page, const SweepColumn& column) {
   if (!page.picture.empty())
@@ -36,8 +54,12 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>
 
 }  // namespace
 
-int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
+std::vector<KeyDescription> page_keys() { return descriptions_of(kRows); }
+
+int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
                  VariantPage (*page_of)(const CommandLine&, std::vector<Variant>&)) {
+  CommandLine line = given;
+  const PageChoice choice = taken_from(line);
   std::vector<Variant> variants = variants_of(line);
   if (variants.size() == 1) return once(line), 0;
   VariantPage page = page_of(without_lists(line), variants);
@@ -49,13 +71,15 @@ int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
   for (const Variant& variant : variants)
     columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
+  check_batch(columns, choice.batch);
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);
   const SweepJobs jobs{.threads = scene.threads,
                        .resume = page.setup.options.resume,
                        .gpu = scene.device != DeviceChoice::cpu,
-                       .go_on = true};
+                       .go_on = true,
+                       .batch = choice.batch};
   run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
   for (const SweepColumn& column : columns)
     if (column.exit_code == 1) throw Error::machine(column.name + ": " + column.stopped);

@@ -21,6 +21,9 @@ struct VariantPage {
   std::string picture{};                   // in a column's folder; "": the last of its frames
 };
 
+// Keys of such a page, which run_variants() takes off the line, for Experiment::own_keys.
+std::vector<KeyDescription> page_keys();
+
 // Runs the experiment `once`, or its page where the line names several variants.  `page_of` makes it from the
 // line without lists, and may change the variants.  A column that cannot go on has its message in the table.
 // Throws Error::request, and Error::machine where that happens to a column.  Returns the exit code.

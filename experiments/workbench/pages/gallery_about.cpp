@@ -61,7 +61,7 @@ std::string about_html(const Manifest& m) {
   if (m.triangles) facts.push_back(std::to_string(*m.triangles) + " triangles");
   facts.push_back(m.precision.value_or(""));
   if (m.seconds_simulated) facts.push_back(seconds_text(*m.seconds_simulated) + " simulated");
-  if (!m.wall_seconds.empty()) facts.push_back("computed in " + seconds_text(m.total_seconds()));
+  if (!m.wall_seconds.empty() && !m.batch) facts.push_back("computed in " + seconds_text(m.total_seconds()));
   facts.push_back(m.device.value_or(""));
   facts.push_back(m.started.substr(0, 10));
   facts.push_back(program_of(m));

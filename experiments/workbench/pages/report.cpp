@@ -61,8 +61,9 @@ std::string run_table(const Manifest& m) {
                                                        {"state_hash", m.state_hash}};
   for (const auto& [name, value] : facts)
     if (value.is_known()) rows.push_back({split_unit(name).name, shown(value)});
+  const std::string of_all = m.batch ? " of " + std::to_string(*m.batch) + " runs together" : "";
   for (const auto& [stage, seconds] : m.wall_seconds)
-    if (seconds > 0) rows.push_back({"wall time, " + stage, shown(seconds) + " s"});
+    if (seconds > 0) rows.push_back({"wall time, " + stage + of_all, shown(seconds) + " s"});
   return html_table({"", ""}, rows, {1});
 }
 

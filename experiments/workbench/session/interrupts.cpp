@@ -1,5 +1,6 @@
 #include "experiments/workbench/session/interrupts.h"
 
+#include <csignal>
 #include <ctime>
 
 namespace hysteron::experiments {
@@ -7,6 +8,10 @@ namespace {
 
 volatile std::sig_atomic_t g_seen = 0;
 timespec g_when;  // the first one came; read by the handler alone
+
+// Runs of a batch are many at once.
+int g_living = 0;
+struct sigaction g_interrupt_before, g_terminate_before;
 
 // Calls only what a handler may call.
 void keep(int signal) {
@@ -28,18 +33,20 @@ void keep(int signal) {
 }  // namespace
 
 Interrupts::Interrupts() {
+  if (g_living++ > 0) return;
   g_seen = 0;
   struct sigaction kept {};
   kept.sa_handler = keep;
   kept.sa_flags = SA_RESTART;
   for (const int signal : {SIGINT, SIGTERM}) sigaddset(&kept.sa_mask, signal);  // one after the other
-  sigaction(SIGINT, &kept, &interrupt_before_);
-  sigaction(SIGTERM, &kept, &terminate_before_);
+  sigaction(SIGINT, &kept, &g_interrupt_before);
+  sigaction(SIGTERM, &kept, &g_terminate_before);
 }
 
 Interrupts::~Interrupts() {
-  sigaction(SIGINT, &interrupt_before_, nullptr);
-  sigaction(SIGTERM, &terminate_before_, nullptr);
+  if (--g_living > 0) return;
+  sigaction(SIGINT, &g_interrupt_before, nullptr);
+  sigaction(SIGTERM, &g_terminate_before, nullptr);
 }
 
 std::string Interrupts::seen() const {

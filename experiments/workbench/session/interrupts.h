@@ -1,13 +1,13 @@
 // SIGINT and SIGTERM as a question that the run asks itself between two instants.
 #pragma once
 
-#include <csignal>
 #include <string>
 
 namespace hysteron::experiments {
 
-// While it lives, the first of these signals is kept; a second one ends the process as it always does, unless
-// it comes within half a second: `timeout` and batch systems signal a process and its group.
+// While one of them lives, the first of these signals is kept, for all of them; a second one ends the process
+// as it always does, unless it comes within half a second: `timeout` and batch systems signal a process and
+// its group.  They come and go on one thread at a time.
 class Interrupts {
  public:
   Interrupts();
@@ -17,9 +17,6 @@ class Interrupts {
 
   // "SIGTERM"; "" while none has come.
   std::string seen() const;
-
- private:
-  struct sigaction interrupt_before_, terminate_before_;
 };
 
 }  // namespace hysteron::experiments

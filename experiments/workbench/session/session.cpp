@@ -170,7 +170,9 @@ void Session::note_folds() {
       100 * folded_, kSharp));
 }
 
+// Of a batch the launches and waits are not one run's.
 void Session::note_device_work() {
+  if (run_->manifest().batch) return;
   const DeviceCounts work = simulation_->device_work();
   const auto per_step = [&](long count) {
     return static_cast<double>(count) / static_cast<double>(std::max(1L, simulation_->steps()));

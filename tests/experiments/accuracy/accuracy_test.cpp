@@ -42,6 +42,15 @@ TEST(AccuracyFront, NamesTheCheapestWithinAnError) {
   EXPECT_FALSE(cheapest(solution, 0.001)) << "only another law is as good";
 }
 
+TEST(AccuracyFront, IsUnknownWhereTimesAre) {
+  Solution solution = made_up_solution();
+  EXPECT_TRUE(is_timed(solution));
+  for (Solved& solved : solution.solved) solved.found.seconds = NAN;
+  EXPECT_FALSE(is_timed(solution));
+  EXPECT_TRUE(pareto_front(solution).empty());
+  EXPECT_FALSE(observed_orders(solution).empty()) << "errors are known";
+}
+
 TEST(AccuracyFront, LeavesOutWhatFailed) {
   Solution solution = made_up_solution();
   solution.solved[0].found.failed = "no equilibrium";
@@ -103,6 +112,21 @@ double order_in_time(const std::string& integrator, double step) {
   const double coarse = problem.solve(setting).error;
   setting.step = step / 2;
   return std::log2(coarse / problem.solve(setting).error);
+}
+
+// As settings that share a GPU need them.
+TEST(Swing, HasTheSameReferencesTogetherAndOneByOne) {
+  const Problem one = swing_problem(kQuick), together = swing_problem(kQuick);
+  std::vector<Setting> meshes(2, one.settings.front());
+  meshes[1].mesh = "equilateral";
+  together.prepare(meshes);
+  for (const Setting& setting : meshes) {
+    const Found a = one.solve(setting), b = together.solve(setting);
+    EXPECT_EQ(a.reference, b.reference) << setting.mesh;
+    EXPECT_EQ(a.error, b.error) << setting.mesh;
+    EXPECT_EQ(a.uncertainty, b.uncertainty) << setting.mesh;
+    EXPECT_GT(a.uncertainty, 0) << setting.mesh;
+  }
 }
 
 TEST(Swing, Bdf2IsOfSecondOrder) { EXPECT_GT(order_in_time("bdf2", 1.0 / 480), 1.9); }

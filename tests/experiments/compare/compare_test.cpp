@@ -102,6 +102,22 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
 }
 
+TEST(Compare, InABatchHasTheTableOfColumnsByThemselves) {
+  const Folder folder;
+  const std::string line = "compare swing --laws linear,prandtl,dahl --no-images" + std::string(kSmall) +
+                           " --out " + folder.path().string();
+  ASSERT_EQ(program(line + "/alone").exit_code, 0);
+  ASSERT_EQ(program(line + "/together --batch 2").exit_code, 0);
+  const std::string table = text_of(folder.path() / "alone/table.csv");
+  EXPECT_NE(table.find("prandtl"), std::string::npos);
+  EXPECT_EQ(text_of(folder.path() / "together/table.csv"), table);
+  const Outcome drawn = program("compare swing --laws linear,prandtl --batch 2 --out " +
+                                (folder.path() / "drawn").string() + kSmall);
+  EXPECT_EQ(drawn.exit_code, 2);
+  EXPECT_NE(drawn.err.find("batch = 2 is of runs without pictures"), std::string::npos) << drawn.err;
+  EXPECT_FALSE(fs::exists(folder.path() / "drawn"));
+}
+
 TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
   const Folder folder;
   const fs::path root = folder.path(), out = root / "run" / "out";

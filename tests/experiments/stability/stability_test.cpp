@@ -176,8 +176,8 @@ TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
   const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
   std::vector<Cell> one = cells_of(sweeps, quick), three = one;
   std::size_t calls = 0;
-  try_all(one, {0.1, 50}, 1, [&](std::size_t) { ++calls; });
-  try_all(three, {0.1, 50}, 3, [](std::size_t) {});
+  try_all(one, {0.1, 50}, {1}, [&](std::size_t) { ++calls; });
+  try_all(three, {0.1, 50}, {3}, [](std::size_t) {});
   EXPECT_EQ(calls, one.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_GT(one[i].finding.steps, 0) << i;

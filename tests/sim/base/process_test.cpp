@@ -8,6 +8,8 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 namespace hysteron::render {
 namespace {
@@ -18,6 +20,30 @@ TEST(Process, GetsItsInputAndGivesItsExitCodeAndFirstLineOfErrors) {
   EXPECT_TRUE(result.started);
   EXPECT_EQ(result.exit_code, 7);
   EXPECT_EQ(result.first_error_line, "said!");
+}
+
+TEST(Process, IsHeardLineByLineAsItSpeaks) {
+  std::vector<std::string> heard;
+  const std::string say = "echo one; echo two; echo wrong >&2; read word; echo \"$word\"; printf half";
+  const ProcessResult result =
+      run_process({"sh", "-c", say}, "three\n", [&](const std::string& line) { heard.push_back(line); });
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.first_error_line, "wrong");
+  EXPECT_EQ(heard, (std::vector<std::string>{"one", "two", "three"})) << "no half lines";
+}
+
+// More than pipes hold, in each direction.
+TEST(Process, MayWriteAsMuchAsItReads) {
+  std::string input;
+  for (int k = 0; k < 50000; ++k) input += std::to_string(k) + "\n";
+  int heard = 0;
+  bool in_order = true;
+  const ProcessResult result = run_process({"tee", "/dev/stderr"}, input, [&](const std::string& line) {
+    in_order = in_order && line == std::to_string(heard++);
+  });
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(heard, 50000);
+  EXPECT_TRUE(in_order);
 }
 
 TEST(Process, ThatDoesNotExistIsNotStarted) { EXPECT_FALSE(run_process({"/no/such/program"}, "").started); }

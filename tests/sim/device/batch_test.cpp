@@ -1,6 +1,7 @@
 // Many small cloths together: every one as if it were alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "sim/base/error.h"
@@ -22,6 +23,35 @@ TEST(Together, OnACpuEveryJobIsTakenOnce) {
     run_together(false, count, 3, [&](int i) { ++taken[i]; });
     EXPECT_EQ(taken, std::vector<int>(count, 1));
   }
+}
+
+TEST(Together, OnACpuAJobSharesNoLaunches) {
+  EXPECT_EQ(jobs_together(), 1);
+  run_together(false, 4, 2, [](int) { EXPECT_EQ(jobs_together(), 1); });
+}
+
+TEST(Together, OnAGpuAJobKnowsHowManyShareItsLaunches) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  run_together(true, 5, 2, [](int i) { EXPECT_EQ(jobs_together(), i % 2 == 0 ? 3 : 2); });
+  EXPECT_EQ(jobs_together(), 1);
+}
+
+TEST(Together, OnAGpuAnEndedJobMakesRoomForTheNext) {
+  std::string reason;
+  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
+  constexpr int kJobs = 11, kMost = 3;
+  std::vector<int> taken(kJobs);
+  int running = 0, most = 0;
+  run_together_by(kMost, kJobs, 1, [&](int i) {
+    most = std::max(most, ++running);
+    const auto member = test::gpu_primitives();
+    EXPECT_EQ(member->repeated(5, 1 + i, 1), std::vector<int>(5, 1 + i)) << i;
+    ++taken[i];
+    --running;
+  });
+  EXPECT_EQ(taken, std::vector<int>(kJobs, 1));
+  EXPECT_EQ(most, kMost);
 }
 
 TEST(Together, AskForAGpuWhereThereIsNone) {

@@ -32,6 +32,29 @@ TEST(Fibers, TakeTurnsBetweenWaits) {
   EXPECT_EQ(fibers.current(), -1);
 }
 
+// Down to a depth of 4 MB, with a turn of the others at the bottom.
+int descend(Fibers& fibers, int depth) {
+  constexpr int kFrame = 4096;
+  volatile char frame[kFrame];
+  for (int k = 0; k < kFrame; k += 64) frame[k] = static_cast<char>(depth);
+  if (depth == 0)
+    fibers.wait();
+  else
+    descend(fibers, depth - 1);
+  int wrong = 0;
+  for (int k = 0; k < kFrame; k += 64) wrong += frame[k] != static_cast<char>(depth);
+  return wrong;
+}
+
+TEST(Fibers, HaveStacksDeepEnoughForWholeRuns) {
+  constexpr int kDepth = 1024;
+  Fibers fibers;
+  int wrong = 0;
+  fibers.run(
+      3, [&](int i) { wrong += descend(fibers, kDepth - i); }, [] {});
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(Fibers, OneThatEndsEarlyLeavesTheOthersTheirTurns) {
   Fibers fibers;
   std::string order;

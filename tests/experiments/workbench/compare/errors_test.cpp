@@ -274,6 +274,18 @@ TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
   }
 }
 
+TEST(SwingWithErrors, InABatchHasThoseOfRepeatsByThemselves) {
+  const Folder folder;
+  const std::string line =
+      "swing --errors --law prandtl" + std::string(kSmall) + " --out " + folder.path().string();
+  ASSERT_EQ(program(line + "/alone").exit_code, 0);
+  ASSERT_EQ(program(line + "/together --errors.batch 3").exit_code, 0);
+  const Json alone = manifest_in(folder.path() / "alone"), together = manifest_in(folder.path() / "together");
+  EXPECT_GT(alone["metrics"]["bending_friction_J_step_error"], 0);
+  EXPECT_EQ(together["metrics"], alone["metrics"]);
+  EXPECT_EQ(together["options"], alone["options"]);
+}
+
 // The second mesh's folder cannot be made.
 TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const Folder folder;

@@ -1,0 +1,133 @@
+// `hysteron batch`: several command lines in one process, which on a GPU share its launches.  What `--batch`
+// of sweeps and comparisons starts.
+//
+//   a list of words a line on stdin -> runs, each as by itself -> {"run", "exit_code", "error"} a line on
+//   stdout, as they end
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/ending.h"
+#include "experiments/workbench/app/gpu_choice.h"
+#include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/session/interrupts.h"
+#include "sim/base/error.h"
+#include "sim/time/back_end.h"
+#include "sim/time/together.h"
+
+namespace hysteron::experiments {
+namespace {
+
+struct Member {
+  std::string experiment;           // "" until it is known
+  std::optional<CommandLine> line;  // none: it has ended, as below
+  Ending ending;
+};
+
+// The stdout of the process, for reports alone: what the runs print goes nowhere, as that of a run which is a
+// process of its own.
+class Reports {
+ public:
+  Reports() : out_(::dup(STDOUT_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (out_ < 0 || nowhere < 0 || ::dup2(nowhere, STDOUT_FILENO) < 0)
+      throw Error::machine(std::string("cannot set standard output apart: ") + std::strerror(errno));
+    ::fcntl(out_, F_SETFD, FD_CLOEXEC);
+    ::close(nowhere);
+  }
+  ~Reports() {
+    ::dup2(out_, STDOUT_FILENO);
+    ::close(out_);
+  }
+  Reports(const Reports&) = delete;
+  Reports& operator=(const Reports&) = delete;
+
+  void say(int run, const Ending& ending) const {
+    const Json report = {{"run", run}, {"exit_code", ending.exit_code}, {"error", ending.error}};
+    const std::string line = report.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    for (std::size_t done = 0; done < line.size();) {
+      const ssize_t written = ::write(out_, line.data() + done, line.size() - done);
+      if (written < 0 && errno != EINTR) throw Error::machine("cannot write to standard output");
+      done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+    }
+  }
+
+ private:
+  int out_;
+};
+
+// The words as the program would get them by itself.
+Member parsed(std::vector<std::string> words) {
+  Member member;
+  const std::string name = words.empty() ? "" : words.front();
+  std::vector<Experiment> known = experiments();
+  if (std::any_of(known.begin(), known.end(), [&](const Experiment& e) { return e.name == name; }))
+    known = {experiment_named(name)};
+  words.insert(words.begin(), std::filesystem::read_symlink("/proc/self/exe").string());
+  std::vector<const char*> all;
+  for (const std::string& word : words) all.push_back(word.c_str());
+  member.ending = ending_of(member.experiment, [&] {
+    member.line = parse_command_line(static_cast<int>(all.size()), all.data(), known);
+    if (!member.line) return 0;
+    member.experiment = member.line->experiment;
+    choose_gpu(*member.line);
+    return 0;
+  });
+  if (!member.ending.error.empty()) member.line.reset();
+  return member;
+}
+
+std::vector<Member> members_in(std::istream& lines) {
+  std::vector<Member> members;
+  for (std::string line; std::getline(lines, line);) {
+    const Json words = Json::parse(line, nullptr, false);
+    const auto is_text = [](const Json& word) { return word.is_string(); };
+    if (!words.is_array() || !std::all_of(words.begin(), words.end(), is_text))
+      throw Error::request("line " + std::to_string(members.size() + 1) + " of stdin is no list of words");
+    members.push_back(parsed(words.get<std::vector<std::string>>()));
+  }
+  return members;
+}
+
+bool any(const std::vector<Member>& members, const std::function<bool(const CommandLine&)>& is_such) {
+  return std::any_of(members.begin(), members.end(),
+                     [&](const Member& member) { return member.line && is_such(*member.line); });
+}
+
+int run_batch(const CommandLine&) {
+  std::vector<Member> members = members_in(std::cin);
+  const Reports reports;
+  std::string reason;
+  const bool on_gpu = any(members, may_use_gpu) && gpu_count(reason) > 0;
+  // One signal is for all of the runs, also for those that have not begun.
+  std::optional<Interrupts> interrupts;
+  if (any(members, [](const CommandLine& line) { return last_text(line.flags, "checkpoint", "0") != "0"; }))
+    interrupts.emplace();
+  run_together(on_gpu, static_cast<int>(members.size()), 1, [&](int i) {
+    Member& member = members[static_cast<std::size_t>(i)];
+    if (member.line)
+      member.ending =
+          ending_of(member.experiment, [&] { return experiment_named(member.experiment).run(*member.line); });
+    reports.say(i, member.ending);
+  });
+  return 0;
+}
+
+}  // namespace
+
+Experiment batch() {
+  return {.name = "batch",
+          .question = "command lines from stdin in one process, for sweeps and comparisons",
+          .run = run_batch,
+          .hidden = true};
+}
+
+}  // namespace hysteron::experiments

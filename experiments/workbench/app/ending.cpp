@@ -1,0 +1,33 @@
+#include "experiments/workbench/app/ending.h"
+
+#include <exception>
+#include <filesystem>
+#include <new>
+
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+Ending failed(const std::string& experiment, const std::string& message, int exit_code) {
+  return {exit_code, "hysteron" + (experiment.empty() ? "" : " " + experiment) + ": " + message};
+}
+
+}  // namespace
+
+Ending ending_of(const std::string& experiment, const std::function<int()>& body) {
+  try {
+    return {body()};
+  } catch (const Error& error) {
+    if (error.experiment().empty()) return failed(experiment, error.what(), error.exit_code());
+    return {error.exit_code(), std::string("hysteron ") + error.what()};
+  } catch (const std::bad_alloc&) {
+    return failed(experiment, "out of memory; use fewer triangles (--triangles)", 1);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(experiment, "cannot use " + error.path1().string() + ": " + error.code().message(), 1);
+  } catch (const std::exception& error) {
+    return failed(experiment, std::string("unexpected failure: ") + error.what(), 1);
+  }
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,198 @@
+#include "experiments/workbench/compare/column_process.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "experiments/workbench/app/gpu_choice.h"
+#include "experiments/workbench/app/json_file.h"
+#include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/version.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/base/process.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// What was asked of a finished column, and of which program: it stands in its folder.
+constexpr const char* kAsked = "asked.json";
+
+// Words after `hysteron`.
+std::vector<std::string> words_of(const CommandLine& line) {
+  std::vector<std::string> words = {line.experiment};
+  for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
+  return words;
+}
+
+Json asked(const SweepColumn& column) {
+  return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
+}
+
+bool takes_checkpoints(const SweepColumn& column) {
+  return last_text(column.line.flags, "checkpoint", "0") != "0";
+}
+
+// This program with its share of the machine.
+std::vector<std::string> program_with(ProcessShare share) {
+  std::vector<std::string> words = {"env"};
+  if (share.gpu >= 0) words.push_back("CUDA_VISIBLE_DEVICES=" + visible_gpu(share.gpu));
+  for (const char* others : {"OMP_NUM_THREADS=", "LP_NUM_THREADS="})  // libraries' and Mesa's own threads
+    words.push_back(others + std::to_string(share.threads));
+  words.push_back(fs::read_symlink("/proc/self/exe").string());
+  return words;
+}
+
+// Words after `hysteron` of the column's run.
+std::vector<std::string> all_words_of(const SweepColumn& column, const SweepJobs& jobs, int threads) {
+  std::vector<std::string> words = words_of(column.line);
+  words.push_back("--quiet=true");
+  words.push_back("--out=" + column.folder.string());
+  if (experiment_named(column.line.experiment).simulates)
+    words.push_back("--threads=" + std::to_string(threads));
+  if (jobs.checkpoints && takes_checkpoints(column)) words.push_back("--resume=true");
+  return words;
+}
+
+// Why a run ended without having finished.
+std::string reason_of(int exit_code, const std::string& first_error_line) {
+  if (!first_error_line.empty()) return first_error_line;
+  return exit_code < 0 ? "ended by a signal" : "ended with exit code " + std::to_string(exit_code);
+}
+
+// What the run has left.
+void take_back(SweepColumn& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
+  column.manifest = manifest_or_none(column.folder / "manifest.json");
+  column.exit_code = exit_code;
+  if (jobs.go_on && exit_code != 0 && exit_code != 3) {
+    column.manifest.reset();  // of an earlier run
+    column.stopped = reason_of(exit_code, error);
+    return;
+  }
+  if (exit_code == 2) throw Error::request(column.name + ": " + error);
+  if (exit_code != 0 && exit_code != 3) throw Error::machine(column.name + ": " + error);
+  if (exit_code == 3) column.stopped = reason_of(exit_code, error);
+  write_text(column.folder / kAsked, asked(column).dump(2) + "\n");
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void run_alone(SweepColumn& column, const SweepJobs& jobs, ProcessShare share) {
+  std::vector<std::string> command = program_with(share);
+  for (const std::string& word : all_words_of(column, jobs, share.threads)) command.push_back(word);
+  const auto start = Clock::now();
+  const ProcessResult result = run_process(command, "");
+  column.seconds = seconds_since(start);
+  if (!result.started) throw Error::machine("cannot start the run " + column.name);
+  take_back(column, jobs, result.exit_code, result.first_error_line);
+}
+
+// Columns that run in one process, `hysteron batch`, and what it says of them as they end.
+class Batch {
+ public:
+  Batch(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
+        const std::function<void(std::size_t)>& ended)
+      : columns_(columns), chunk_(chunk), jobs_(jobs), ended_(ended), waiting_(chunk.begin(), chunk.end()) {}
+
+  void run(ProcessShare share) {
+    std::vector<std::string> command = program_with(share);
+    command.push_back("batch");
+    std::string lines;
+    for (const std::size_t i : chunk_)
+      lines += Json(all_words_of(columns_[i], jobs_, share.threads)).dump() + "\n";
+    const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
+    if (!result.started)
+      throw Error::machine("cannot start the runs from " + columns_[chunk_[0]].name + " on");
+    for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void hear(const std::string& line) {
+    const Json said = Json::parse(line, nullptr, false);
+    if (said.is_object()) end(chunk_.at(said.at("run")), said.at("exit_code"), said.at("error"));
+  }
+  void end(std::size_t i, int exit_code, const std::string& error) {
+    waiting_.erase(i);
+    columns_[i].seconds = seconds_since(std::exchange(begun_, Clock::now()));
+    try {
+      take_back(columns_[i], jobs_, exit_code, error);
+      ended_(i);
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+    }
+  }
+
+  std::vector<SweepColumn>& columns_;
+  const Chunk& chunk_;
+  const SweepJobs& jobs_;
+  const std::function<void(std::size_t)>& ended_;
+  std::set<std::size_t> waiting_;
+  Clock::time_point begun_ = Clock::now();
+  std::exception_ptr failure_;
+};
+
+// Why the run cannot share a process; "": it can.
+std::string what_hinders(const CommandLine& line) {
+  static const std::set<std::string> kOthers = {"bench", "compare"};  // timed, or of processes itself
+  if (!experiment_named(line.experiment).simulates || kOthers.contains(line.experiment))
+    return "is of runs that step a cloth, not of " + line.experiment;
+  if (last_text(line.flags, "errors", "") == "true")
+    return "is of runs without errors, whose repeats are processes of their own (errors.batch)";
+  if (last_text(line.flags, "no-images", "") != "true")
+    return "is of runs without pictures, with no-images among their keys";
+  return "";
+}
+
+}  // namespace
+
+bool recall(SweepColumn& column) {
+  std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
+  column.kept = manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
+  if (column.kept) column.manifest = std::move(manifest);
+  return column.kept;
+}
+
+void check_batch(const std::vector<SweepColumn>& columns, int batch) {
+  if (batch <= 1) return;
+  for (const SweepColumn& column : columns)
+    if (const std::string why = what_hinders(column.line); !why.empty())
+      throw Error::request("batch = " + std::to_string(batch) + " " + why + " (--batch)")
+          .of("batch", std::to_string(batch));
+}
+
+std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int largest, int first) {
+  std::vector<Chunk> chunks;
+  std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool alone = static_cast<int>(i) == first || largest <= 1;
+    const std::pair kind{last_text(columns[i].line.flags, "device", ""), takes_checkpoints(columns[i])};
+    const auto found = alone ? open.end() : open.find(kind);
+    if (found != open.end() && std::ssize(chunks[found->second]) < largest) {
+      chunks[found->second].push_back(i);
+      continue;
+    }
+    if (!alone) open[kind] = chunks.size();
+    chunks.push_back({i});
+  }
+  return chunks;
+}
+
+void run_chunk(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
+               ProcessShare share, const std::function<void(std::size_t)>& ended) {
+  std::error_code ignored;
+  for (const std::size_t i : chunk) fs::remove(columns[i].folder / kAsked, ignored);
+  if (chunk.size() > 1) return Batch(columns, chunk, jobs, ended).run(share);
+  run_alone(columns[chunk.front()], jobs, share);
+  ended(chunk.front());
+}
+
+}  // namespace hysteron::experiments
