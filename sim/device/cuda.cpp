@@ -39,6 +39,14 @@ Cuda::~Cuda() {
   if (!batch) cudaStreamDestroy(stream);
 }
 
+void Cuda::reserve_partial(int numbers, const char* name) {
+  if (partial_size >= numbers) return;
+  ++device_counts.allocations;
+  if (partial) free(partial);
+  check_cuda(cudaMalloc(&partial, sizeof(double) * numbers), name);
+  partial_size = numbers;
+}
+
 std::string Cuda::description() const {
   cudaDeviceProp properties{};
   check_cuda(cudaGetDeviceProperties(&properties, index), "describe device");

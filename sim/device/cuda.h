@@ -55,6 +55,8 @@ struct Cuda {
     else
       cudaFreeHost(memory);
   }
+  // Scratch of sums for so many numbers at least.
+  void reserve_partial(int numbers, const char* name);
   void synchronize() const {
     ++device_counts.synchronizations;
     if (batch) return batch->wait();
@@ -187,23 +189,22 @@ struct SumLoop {
 inline constexpr int kSumBlocks =
     528;  // four blocks for each multiprocessor of an H100; fixed for the bits' sake
 
-// With so many blocks, but at most `most`, for which there is scratch.
+// Blocks of a sum of n elements or rows, so many for each; at most `most`, for which there is scratch.
+HYST_HD inline int sum_blocks(int n, int per_block, int most) {
+  const int blocks = (n + per_block - 1) / per_block;
+  return blocks < 1 ? 1 : blocks < most ? blocks : most;
+}
+
 template <int K, class Body, class Finish>
 void launch_sum(Cuda& cuda, const Kernel& kernel, int n, unsigned blocks, int most, const Body& body,
                 const Finish& finish) {
-  if (cuda.partial_size < most * K) {
-    ++device_counts.allocations;
-    if (cuda.partial) cuda.free(cuda.partial);
-    check_cuda(cudaMalloc(&cuda.partial, sizeof(double) * most * K), kernel.name);
-    cuda.partial_size = most * K;
-  }
-  blocks = std::clamp(blocks, 1u, static_cast<unsigned>(most));
+  cuda.reserve_partial(most * K, kernel.name);
   launch(cuda, kernel, SumLoop<K, Body, Finish>{blocks, n, body, finish, cuda.partial, cuda.arrived});
 }
 
 template <int K, class Body, class Finish>
 void for_each_sum(Cuda& cuda, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
-  launch_sum<K>(cuda, kernel, n, blocks_for(n), kSumBlocks, body, finish);
+  launch_sum<K>(cuda, kernel, n, sum_blocks(n, kThreadsPerBlock, kSumBlocks), kSumBlocks, body, finish);
 }
 
 inline void* device_allocate(Cuda& cuda, std::size_t bytes) {

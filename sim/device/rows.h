@@ -120,8 +120,8 @@ inline constexpr int kRowSumBlocks = 3 * kSumBlocks;
 
 template <int K, class Body, class Finish>
 void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
-  launch_sum<K>(cuda, kernel, rows * Warp::kCount, blocks_for(rows, kRowsPerBlock), kRowSumBlocks,
-                LaneOfRow<Body>{body}, finish);
+  launch_sum<K>(cuda, kernel, rows * Warp::kCount, sum_blocks(rows, kRowsPerBlock, kRowSumBlocks),
+                kRowSumBlocks, LaneOfRow<Body>{body}, finish);
 }
 #endif
 

@@ -1,6 +1,7 @@
-// The parts of a multigrid cycle on coarse levels, node by node.
+// The parts of a multigrid cycle, node by node.
 #pragma once
 
+#include "sim/linear/preconditioner.h"
 #include "sim/linear/row_products.h"
 
 namespace hysteron {
@@ -62,6 +63,86 @@ template <class Real>
 struct CoarseCorrection {
   CoarseLevelView<Real> level, coarser;
   HYST_HD void operator()(int i) const { level.y[i] += coarser.finer[i].of(coarser.y); }
+};
+
+// A number of y = inverse b, by a matrix row by row.
+template <class Real>
+struct DenseRow {
+  const double* matrix;
+  int stride, rows;
+  const Real* b;
+  Real* y;
+
+  template <class Lanes>
+  HYST_HD void operator()(int i, const Lanes& lanes) const {
+    constexpr int kAtOnce = 8;
+    const double* row = matrix + static_cast<std::size_t>(i) * stride;
+    double part[kAtOnce] = {};
+    for (int first = lanes.index(); first < rows; first += kAtOnce * Lanes::kCount)
+      for (int k = 0; k < kAtOnce; ++k) {
+        const int j = first + k * Lanes::kCount;
+        if (j < rows) part[k] += row[j] * static_cast<double>(b[j]);
+      }
+    Vec<double, 1> sum = Vec<double, 1>::Zero();
+    for (const double each : part) sum[0] += each;
+    sum = lanes.sum_of(sum);
+    if (lanes.leads()) y[i] = static_cast<Real>(sum[0]);
+  }
+};
+
+// z = w D^-1 r + I y with the coarse levels' y, and r' z.
+template <class Real>
+struct Combination {
+  const char* held;
+  const Mat3<Real>* inverse;
+  Real weight;
+  const DeviceInterpolation<Real>* finer;  // null: there is no coarse level
+  const Vec3<Real>* correction;
+  const Vec3<Real>* r;
+  Vec3<Real>* z;
+  const PcgScalars* scalars;  // null: not of an iteration
+
+  HYST_HD void operator()(int i, Sums<1>& sums) const {
+    if (scalars && scalars->done) return;
+    Vec3<Real> sum = Vec3<Real>::Zero();
+    if (!held[i]) {
+      sum = weight * (inverse[i] * r[i]);
+      if (finer) sum += finer[i].of(correction);
+    }
+    z[i] = sum;
+    sums.term[0] += static_cast<double>(r[i].dot(sum));
+  }
+};
+
+// A whole cycle, for the team of grid_team.h.
+template <class Real>
+struct CycleView {
+  static constexpr int kMost = 4;
+  int levels = 0, swept = 0;  // the last is inverted densely unless it is swept
+  CoarseLevelView<Real> level[kMost] = {};
+  DenseRow<Real> dense = {};
+  Combination<Real> combination = {};  // of which r, z and scalars are the caller's
+
+  // From the residual to the first level's y.
+  template <class Team>
+  HYST_HD void run(const Team& team, const Vec3<Real>* residual) const {
+    for (int l = 0; l < levels; ++l) {
+      const CoarseLevelView<Real>& v = level[l];
+      team.for_each_row(v.nodes, Restriction<Real>{v, l == 0 ? residual : level[l - 1].x, l < swept});
+      if (l == swept) {
+        team.for_each_row(dense.rows, dense);
+        break;
+      }
+      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+      if (l + 1 < levels) team.for_each_row(v.nodes, LevelResidual<Real>{v});
+    }
+    for (int l = swept - 1; l >= 0; --l) {
+      const CoarseLevelView<Real>& v = level[l];
+      if (l + 1 < levels) team.for_each(v.nodes, CoarseCorrection<Real>{v, level[l + 1]});
+      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
+      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+    }
+  }
 };
 
 }  // namespace hysteron

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-#include "sim/linear/coarse_level.h"
+#include "sim/linear/cycle.h"
 
 namespace hysteron {
 

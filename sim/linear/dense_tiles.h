@@ -179,31 +179,6 @@ struct SweptRest {
   }
 };
 
-// A number of y = inverse b.
-template <class Real>
-struct DenseRow {
-  const double* matrix;
-  int stride, rows;
-  const Real* b;
-  Real* y;
-
-  __device__ void operator()(int i, const Warp& lanes) const {
-    constexpr int kAtOnce = 8;
-    const double* row = matrix + static_cast<std::size_t>(i) * stride;
-    double part[kAtOnce] = {};
-    for (int first = lanes.index(); first < rows; first += kAtOnce * Warp::kCount)
-#pragma unroll
-      for (int k = 0; k < kAtOnce; ++k) {
-        const int j = first + k * Warp::kCount;
-        if (j < rows) part[k] = fma(row[j], static_cast<double>(b[j]), part[k]);
-      }
-    Vec<double, 1> sum = Vec<double, 1>::Zero();
-    for (const double each : part) sum[0] += each;
-    sum = lanes.sum_of(sum);
-    if (lanes.leads()) y[i] = static_cast<Real>(sum[0]);
-  }
-};
-
 template <class Real>
 class DenseInverse<Real, Cuda> {
  public:
@@ -241,7 +216,10 @@ class DenseInverse<Real, Cuda> {
   }
   void apply(Cuda& cuda, const Vec3<Real>* b, Vec3<Real>* y, const int* stop) {
     for_each_row(cuda, {"multigrid: dense solve", matrix_.bytes() + 2 * rows_ * sizeof(Real)}, rows_,
-                 DenseRow<Real>{matrix_.data(), stride(), rows_, b->data(), y->data()}, stop);
+                 row(b, y), stop);
+  }
+  DenseRow<Real> row(const Vec3<Real>* b, Vec3<Real>* y) const {
+    return {matrix_.data(), stride(), rows_, b->data(), y->data()};
   }
   // Half of that for each pivot, since several solves may take the more iterations.
   double worth() const { return tiles_ / 4.0; }

@@ -20,8 +20,7 @@ class FloatSolver : public LinearSolver<double, Device> {
   // A tighter tolerance is taken as this one: rounding of the systems leaves no more.
   static constexpr double kTightest = 1e-5;
 
-  // For matrices of this pattern; bending, unless the systems are assembled whole, and self-contact of the
-  // systems, null where they have none.
+  // For matrices of this pattern; bending and self-contact of the systems, null where they have none.
   FloatSolver(Device& device, const BlockRows<double, Device>& pattern,
               std::unique_ptr<LinearSolver<float, Device>> solver,
               std::unique_ptr<FloatStiffness<Device>> bending,

@@ -1,7 +1,6 @@
 // What multigrid makes of a new matrix, element by element: coarse matrices and power iteration.
 #pragma once
 
-#include "sim/linear/cycle.h"
 #include "sim/linear/dense_inverse.h"
 
 namespace hysteron {

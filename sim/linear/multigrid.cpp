@@ -149,34 +149,36 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
           level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
     sweep(level_[l], stop);
   }
-  combine(r, z, scalars);
+  const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
+                    from_coarse = levels > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
+  for_each_sum<1>(
+      device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
+      combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {
+        if (scalars) scalars->advance(total.term[0]);
+      });
 }
 
 template <class Real, class Device>
-void Multigrid<Real, Device>::combine(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
-  const char* held = held_;
-  const Mat3<Real>* inverse = inverse_.data();
-  const bool coarse = !level_.empty();
-  const DeviceInterpolation<Real>* finer = coarse ? level_[0].finer.data() : nullptr;
-  const Vec3<Real>* correction = coarse ? level_[0].y.data() : nullptr;
-  const Real weight = coarse ? Real(kFinestWeight) : Real(1);
-  const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
-                    from_coarse = coarse ? bytes_of(level_[0].finer, level_[0].y) : 0;
-  for_each_sum<1>(
-      device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
-      HYST_KERNEL(int i, Sums<1>& sums) {
-        if (scalars && scalars->done) return;
-        Vec3<Real> sum = Vec3<Real>::Zero();
-        if (!held[i]) {
-          sum = weight * (inverse[i] * r[i]);
-          if (coarse) sum += finer[i].of(correction);
-        }
-        z[i] = sum;
-        sums.term[0] += static_cast<double>(r[i].dot(sum));
-      },
-      HYST_KERNEL(const Sums<1>& total) {
-        if (scalars) scalars->advance(total.term[0]);
-      });
+Combination<Real> Multigrid<Real, Device>::combination(const Vec3<Real>* r, Vec3<Real>* z,
+                                                       const PcgScalars* scalars) const {
+  if (level_.empty()) return {held_, inverse_.data(), Real(1), nullptr, nullptr, r, z, scalars};
+  const CoarseLevel<Real, Device>& first = level_[0];
+  return {held_, inverse_.data(), Real(kFinestWeight), first.finer.data(), first.y.data(), r, z, scalars};
+}
+
+template <class Real, class Device>
+const CycleView<Real>* Multigrid<Real, Device>::in_one_launch() {
+  if constexpr (Device::kGpu) {
+    view_ = {};
+    view_.levels = static_cast<int>(level_.size());
+    if (view_.levels > CycleView<Real>::kMost) return nullptr;
+    view_.swept = swept();
+    for (int l = 0; l < view_.levels; ++l) view_.level[l] = level_[l].view();
+    if (dense_) view_.dense = dense_->row(level_.back().b.data(), level_.back().y.data());
+    view_.combination = combination(nullptr, nullptr, nullptr);
+    return &view_;
+  }
+  return nullptr;
 }
 
 template class Multigrid<double, ThisDevice>;

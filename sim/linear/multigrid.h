@@ -16,9 +16,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/linear/cycle.h"
 #include "sim/linear/dense_inverse.h"
-#include "sim/linear/preconditioner.h"
 
 namespace hysteron {
 
@@ -41,6 +39,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars = nullptr) override;
   // Iterations that take about as long as new coarse levels.
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
+  const CycleView<Real>* in_one_launch() override;
   std::size_t bytes() const override;
   int levels() const { return 1 + static_cast<int>(level_.size()); }
 
@@ -48,9 +47,9 @@ class Multigrid : public Preconditioner<Real, Device> {
   void invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added, const char* held,
                        Mat3<Real>* inverse);
   void find_eigenvalue(CoarseLevel<Real, Device>& level);
-  void combine(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars);
 
  private:
+  Combination<Real> combination(const Vec3<Real>* r, Vec3<Real>* z, const PcgScalars* scalars) const;
   int swept() const { return static_cast<int>(level_.size()) - (dense_ ? 1 : 0); }  // levels
   // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
   void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
@@ -62,6 +61,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   Buffer<Mat3<Real>, Device> inverse_;
   std::vector<CoarseLevel<Real, Device>> level_;
   std::optional<DenseInverse<Real, Device>> dense_;  // of the last one; none: it is swept as the others
+  CycleView<Real> view_;                             // what in_one_launch() returned last
 };
 
 }  // namespace hysteron

@@ -150,65 +150,33 @@ void Pcg<Real, Device>::find_target(const System& system, const char* held, cons
 }
 
 template <class Real, class Device>
+PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const char* held, Vec3<Real>* x) {
+  const PcgScalars* s = scalars_.data();
+  Vec3<Real>* p = p_.data();
+  return {rows_,
+          {product_of(system, static_cast<const Vec3<Real>*>(p)), held, p, q_.data(), s},
+          {{held, p, q_.data(), x, r_.data(), s}, inverse_.data(), z_.data()},
+          {held, z_.data(), p, s},
+          system.preconditioner ? system.preconditioner->in_one_launch() : nullptr,
+          scalars_.data()};
+}
+
+template <class Real, class Device>
 void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
-  Vec3<Real>*z = z_.data(), *p = p_.data(), *q = q_.data();
+  const PcgIterations<Real> loops = iterations(system, held, x);
   PcgScalars* s = scalars_.data();
-  const SystemProduct<Real> whole = product_of(system, static_cast<const Vec3<Real>*>(p));
   for_each_row_sum<1>(
-      device_, {"solve: product", system.bytes + vectors(2)}, rows_,
-      HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<1>& sums) {
-        if (s->done || held[i]) return;
-        const Vec3<Real> product = whole.at(lanes, i, p);
-        if (!lanes.leads()) return;
-        q[i] = product;
-        sums.term[0] += static_cast<double>(p[i].dot(product));
-      },
-      HYST_KERNEL(const Sums<1>& total) {
-        if (s->done) return;
-        s->indefinite = !(total.term[0] > 0);
-        s->alpha = s->residual / (s->indefinite ? -total.term[0] : total.term[0]);
-      });
-  if (system.preconditioner)
-    advance_preconditioned(system, held, x);
-  else
-    advance(held, x);
-  for_each(
-      device_, {"solve: direction", vectors(3)}, rows_, HYST_KERNEL(int i) {
-        if (s->done || held[i]) return;
-        p[i] = z[i] + static_cast<Real>(s->beta) * p[i];
-      });
-}
-
-template <class Real, class Device>
-void Pcg<Real, Device>::advance(const char* held, Vec3<Real>* x) {
-  const Mat3<Real>* inverse = inverse_.data();
-  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
-  PcgScalars* s = scalars_.data();
-  for_each_sum<1>(
-      device_, {"solve: advance", inverse_.bytes() + vectors(7)}, rows_,
-      HYST_KERNEL(int i, Sums<1>& sums) {
-        if (s->done || held[i]) return;
-        const Real alpha = static_cast<Real>(s->alpha);
-        x[i] += alpha * p[i];
-        r[i] -= alpha * q[i];
-        z[i] = inverse[i] * r[i];
-        sums.term[0] += static_cast<double>(r[i].dot(z[i]));
-      },
-      HYST_KERNEL(const Sums<1>& total) { s->advance(total.term[0]); });
-}
-
-template <class Real, class Device>
-void Pcg<Real, Device>::advance_preconditioned(const System& system, const char* held, Vec3<Real>* x) {
-  Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data(), *q = q_.data();
-  PcgScalars* s = scalars_.data();
-  for_each(
-      device_, {"solve: advance", vectors(6)}, rows_, HYST_KERNEL(int i) {
-        if (s->done || held[i]) return;
-        const Real alpha = static_cast<Real>(s->alpha);
-        x[i] += alpha * p[i];
-        r[i] -= alpha * q[i];
-      });
-  system.preconditioner->apply(r, z, s);
+      device_, {"solve: product", system.bytes + vectors(2)}, rows_, loops.product,
+      HYST_KERNEL(const Sums<1>& total) { s->find_length(total.term[0]); });
+  if (system.preconditioner) {
+    for_each(device_, {"solve: advance", vectors(6)}, rows_, loops.advance.advance);
+    system.preconditioner->apply(r_.data(), z_.data(), s);
+  } else {
+    for_each_sum<1>(
+        device_, {"solve: advance", inverse_.bytes() + vectors(7)}, rows_, loops.advance,
+        HYST_KERNEL(const Sums<1>& total) { s->advance(total.term[0]); });
+  }
+  for_each(device_, {"solve: direction", vectors(3)}, rows_, loops.direction);
 }
 
 // Pairs of layers, and with them self-contact's loops, change from system to system: capturing those would
@@ -216,6 +184,9 @@ void Pcg<Real, Device>::advance_preconditioned(const System& system, const char*
 template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
   if (system.self_contact) return false;
+  const bool in_loops = system.bending && system.whole.rows == 0;  // which a launch of its own cannot hold
+  const bool has_cycle = !system.preconditioner || system.preconditioner->in_one_launch();
+  if (!in_loops && has_cycle && iterate_in_one_launch(device_, iterations(system, held, x))) return true;
   const BlockRowsView<Real>& matrix = system.matrix;
   const std::vector<const void*> key = {matrix.row_ptr,
                                         matrix.col,

@@ -10,6 +10,7 @@
 #include "sim/device/while_loop.h"
 #include "sim/linear/block_rows.h"
 #include "sim/linear/gathered_forces.h"
+#include "sim/linear/pcg_in_one_launch.h"
 #include "sim/linear/preconditioner.h"
 
 namespace hysteron {
@@ -80,10 +81,10 @@ class Pcg {
   void find_target(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
                    PcgEnd end);
   void iterate(const System& system, const char* held, Vec3<Real>* x);
-  void advance(const char* held, Vec3<Real>* x);
-  void advance_preconditioned(const System& system, const char* held, Vec3<Real>* x);
 
  private:
+  // Its loops; orders those of bending's and self-contact's products.
+  PcgIterations<Real> iterations(const System& system, const char* held, Vec3<Real>* x);
   bool iterate_on_device(const System& system, const char* held, Vec3<Real>* x);
   PcgScalars iterate_in_batches(const System& system, const char* held, Vec3<Real>* x, PcgEnd end);
   PcgScalars scalars() const;

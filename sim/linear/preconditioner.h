@@ -17,6 +17,11 @@ struct PcgScalars {
     most_iterations = most;
     done = !(residual > target);
   }
+  HYST_HD void find_length(double curvature) {  // of the step along p, from p' A p
+    if (done) return;
+    indefinite = !(curvature > 0);
+    alpha = residual / (indefinite ? -curvature : curvature);
+  }
   HYST_HD void advance(double new_residual) {  // after a step that was not yet the last
     if (done) return;
     beta = new_residual / residual;
@@ -31,6 +36,9 @@ struct PcgScalars {
   }
 };
 
+template <class Real>
+struct CycleView;
+
 template <class Real, class Device>
 class Preconditioner {
  public:
@@ -39,6 +47,8 @@ class Preconditioner {
   // the same for all calls within a solve.  r is zero on held rows.  With scalars: advances them by r' P r,
   // and does nothing once they are done.
   virtual void apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) = 0;
+  // What it does as loops that a GPU runs in one launch (cycle.h); null: not so.
+  virtual const CycleView<Real>* in_one_launch() { return nullptr; }
   virtual std::size_t bytes() const = 0;
 };
 

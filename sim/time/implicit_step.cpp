@@ -81,8 +81,9 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       v_before_(device, two_step_ ? vertices_ : 0),
       displacement_(device, self_contact ? vertices_ : 0),
       forces_(device, static_ ? vertices_ : 0) {
-  // On a CPU the loops wait for nothing, and what is read stays in its cache.
-  if (Device::kGpu && !bending_lags_) potential_.assemble();
+  // Where a GPU waits for loops rather than for memory; on a CPU they wait for nothing.
+  constexpr int kMostAssembled = 32768;  // vertices
+  if (Device::kGpu && !bending_lags_ && vertices_ <= kMostAssembled) potential_.assemble();
 }
 
 template <class Real, class Device>

@@ -40,8 +40,7 @@ template <class Device>
 std::unique_ptr<LinearSolver<double, Device>> make_float_solver(const Body<double, Device>& body) {
   Device& device = *body.device;
   std::unique_ptr<FloatStiffness<Device>> bending, self_contact;
-  if (body.scene.is_implicit() && !Device::kGpu)  // a GPU's systems are assembled
-    bending = std::make_unique<FloatBending<Device>>(device, body.bending);
+  if (body.scene.is_implicit()) bending = std::make_unique<FloatBending<Device>>(device, body.bending);
   if (body.self_contact) self_contact = std::make_unique<FloatPairs<Device>>(device, *body.self_contact);
   return std::make_unique<FloatSolver<Device>>(device, body.matrix, make_gradient_solver<float>(body),
                                                std::move(bending), std::move(self_contact));
