@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "experiments/bench/wall_clock.h"
 #include "sim/scene/cloth.h"
@@ -21,6 +22,7 @@ struct Share {
   double begun = 0, ended = 0, ready = 0;  // of its timed steps, and of its making, on one clock [s]
   double linear_iterations = 0;            // a step
   std::uint64_t state_hash = 0;
+  std::string device;
 };
 
 class Cloths {
@@ -46,6 +48,7 @@ class Cloths {
     share.linear_iterations =
         static_cast<double>(simulation->solver_counts().linear - iterations) / choice_.steps;
     share.state_hash = simulation->state_hash();
+    share.device = simulation->device();
     return share;
   }
 
@@ -95,7 +98,8 @@ std::vector<Metrics> times_together(const Scene& scene, const BatchChoice& choic
                     {"times_one_at_a_time", rate / rate_alone},
                     {"solver_iterations_per_step", iterations},
                     {"setup_seconds", setup},
-                    {"equal_states", equal}});
+                    {"equal_states", equal},
+                    {"device", alone.front().device}});
     measured(rows.back());
   };
   const double start = cloths.seconds();
