@@ -46,17 +46,13 @@ class GridTeam {
   static __device__ int group() { return threadIdx.x / kThreadsPerBlock; }
   static __device__ int rank() { return threadIdx.x % kThreadsPerBlock; }
   static __device__ void wait() { cooperative_groups::this_grid().sync(); }
-  static __device__ void wait_for_group() {
-    asm volatile("bar.sync %0, %1;" ::"r"(1 + group()), "n"(kThreadsPerBlock) : "memory");
-  }
-
-  // As block_sum(): valid in the group's first thread.
+  // As block_sum(), of each group: valid in its first thread.  All threads of the block call it.
   static __device__ double group_sum(double term) {
     __shared__ double shared[kGroups][kThreadsPerBlock / Warp::kCount];
     for (int offset = 16; offset > 0; offset /= 2) term += __shfl_down_sync(0xffffffffu, term, offset);
-    wait_for_group();
+    __syncthreads();
     if (rank() % Warp::kCount == 0) shared[group()][rank() / Warp::kCount] = term;
-    wait_for_group();
+    __syncthreads();
     if (rank() == 0)
       for (int w = 1; w < kThreadsPerBlock / Warp::kCount; ++w) term += shared[group()][w];
     return term;
@@ -65,20 +61,21 @@ class GridTeam {
   template <class Body>
   __device__ double sum_of_blocks(int n, int blocks, const Body& body) {
     double* partial = scratch_ + (turn_ ^= 1) * kRowSumBlocks;
-    for (int b = group() * gridDim.x + blockIdx.x; b < blocks; b += gridDim.x * kGroups) {
+    for (int first = 0; first < blocks; first += gridDim.x * kGroups) {
+      const int b = first + group() * gridDim.x + blockIdx.x;
       Sums<1> sums;
-      for (int i = b * kThreadsPerBlock + rank(); i < n; i += blocks * kThreadsPerBlock) body(i, sums);
+      if (b < blocks)
+        for (int i = b * kThreadsPerBlock + rank(); i < n; i += blocks * kThreadsPerBlock) body(i, sums);
       const double term = group_sum(sums.term[0]);
-      if (rank() == 0) partial[b] = term;
+      if (b < blocks && rank() == 0) partial[b] = term;
     }
     wait();
     __shared__ double total;
-    if (group() == 0) {
-      double term = 0;
+    double term = 0;
+    if (group() == 0)
       for (int b = rank(); b < blocks; b += kThreadsPerBlock) term += __ldcg(&partial[b]);
-      term = group_sum(term);
-      if (rank() == 0) total = term;
-    }
+    term = group_sum(term);
+    if (threadIdx.x == 0) total = term;
     __syncthreads();
     const double result = total;
     __syncthreads();
