@@ -15,6 +15,7 @@
 #include "experiments/workbench/compare/comparison_captions.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
+#include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -29,6 +30,8 @@ const KeyRow<CompareChoice> kRows[] = {
     {"compare.to", at<&C::to>, "", any(), "", "column to subtract from the others, in rows of their own"},
     {"compare.difference", at<&C::difference>, "", any(), "picture | curvature", "what compare.to subtracts"},
     {"compare.rows", at<&C::rows>, "", between(1, 64), "", "instants on the page"},
+    {"compare.times", at<&C::times>, "s", at_least(0), "", "these instants on the page, a row each, in place of compare.rows: of each the picture nearest to it"},
+    {"compare.metrics", at<&C::metrics>, "", any(), "", "metrics separated by commas: what the table, the numbers below the columns and the bars show, in this order; without it the table has all, the page those of the experiment"},
     {"compare.no-outlines", at<&C::no_outlines>, "", any(), "", "no row that lays the outlines over each other"},
     {"compare.jobs", at<&C::jobs>, "", between(0, 64), "", "how many columns run at a time; 0: one for each GPU, or for each core"},
     {"batch", at<&C::batch>, "", between(1, kLargestBatch), "", kBatchDoc},
@@ -108,12 +111,19 @@ void read_flags(const CommandLine& line, CompareChoice& choice, Options& options
 
 void draw_page(Run& run, const CommandLine& line, const std::string& experiment, const CompareChoice& choice,
                const Options& options, const Plan& plan) {
-  const ComparisonPage page{
-      title_of(line, plan.columns),     notes_of(choice, plan), choice.rows, options.looks().front(), plan.to,
-      choice.difference == "curvature", !choice.no_outlines,    choice.video};
+  const ComparisonPage page{.title = title_of(line, plan.columns),
+                            .notes = notes_of(choice, plan),
+                            .rows = choice.rows,
+                            .times = choice.times,
+                            .metrics = split(choice.metrics),
+                            .look = options.looks().front(),
+                            .to = plan.to,
+                            .curvature = choice.difference == "curvature",
+                            .outlines = !choice.no_outlines,
+                            .video = choice.video};
   const auto stage = run.stage("render");
   draw_comparison_page(run, page, plan.columns);
-  plot_comparison(run, page.title, plan.columns);
+  plot_comparison(run, page, plan.columns);
   write_comparison_captions(run, page, experiment, line.command, plan.columns);
 }
 
@@ -127,10 +137,13 @@ int run_compare(const CommandLine& line) {
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
   check_batch({{inner.experiment, inner, options.out}}, choice.batch);
+  if (!options.no_images) check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;
   Json keys = {{"compared", inner.experiment}, {"match", choice.match}};
+  if (!choice.times.empty()) keys["times"] = choice.times;
+  if (!choice.metrics.empty()) keys["metrics"] = split(choice.metrics);
   if (!choice.tune.empty() || !choice.tune_metric.empty())
     keys["tuned"] = tune_first_column(inner, variants, choice, jobs, options);
   Plan plan = plan_of(inner, variants, choice, options.out);
@@ -139,7 +152,9 @@ int run_compare(const CommandLine& line) {
     keys["columns"].push_back({{"name", plan.columns[c].name}, {"stiffness_times", plan.scales[c]}});
   Run run(line, options, keys);
   claim_files(run, !options.no_images);
-  run_comparison(run, plan.varied, plan.columns, jobs);
+  run_columns(run, plan.columns, jobs);
+  check_metrics(plan.columns, split(choice.metrics));
+  write_comparison_table(run, plan.varied, plan.columns, split(choice.metrics));
   if (!options.no_images) draw_page(run, line, inner.experiment, choice, options, plan);
   run.finish();
   write_report(run.folder());

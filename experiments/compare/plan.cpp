@@ -1,5 +1,8 @@
 #include "experiments/compare/plan.h"
 
+#include <fmt/core.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -9,6 +12,7 @@
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
 #include "sim/base/error.h"
+#include "sim/scene/toml_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -129,6 +133,32 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
   return flags;
 }
 
+// A file of this process that goes with its scope.
+struct ScratchFile {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("hysteron-" + std::to_string(getpid()) + ".toml");
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+// What the column's scene says that it takes [s], once its experiment has set what it sets.
+double planned_seconds(const SweepColumn& column) {
+  const ScratchFile file;
+  CommandLine line = column.line;
+  line.flags = with_later(
+      line.flags, {{"dump-scene", file.path.string()}, {"quiet", "true"}, {"out", column.folder.string()}});
+  experiment_named(line.experiment).run(line);
+  if (!std::filesystem::exists(file.path))
+    throw Error::request("compare.times: " + column.name + " simulates no cloth to picture (--compare.times)")
+        .of("compare.times", "");
+  const TomlNode scene = read_toml(file.path.string(), TomlLists::allowed);
+  const Value& seconds = scene.find("seconds")->value;
+  const std::int64_t* whole = std::get_if<std::int64_t>(&seconds);
+  return whole ? static_cast<double>(*whole) : std::get<double>(seconds);
+}
+
 }  // namespace
 
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
@@ -177,6 +207,19 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
     throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)")
         .of("compare.to", choice.to);
   return plan;
+}
+
+void check_times(const std::vector<double>& times, const std::vector<SweepColumn>& columns) {
+  if (times.empty()) return;
+  const double last = *std::max_element(times.begin(), times.end());
+  double end = 0;
+  for (auto column = columns.begin(); column != columns.end() && end < last; ++column)
+    end = std::max(end, planned_seconds(*column));
+  if (last <= end) return;
+  throw Error::request(
+      fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",
+                  last, end))
+      .of("compare.times", fmt::format("{:g}", last));
 }
 
 }  // namespace hysteron::experiments

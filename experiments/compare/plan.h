@@ -15,6 +15,8 @@ struct CompareChoice {
   std::string to;  // column that others differ from; "": no such rows
   std::string difference = "picture";
   int rows = 4;
+  Numbers times;        // of the rows [s]; empty: spread evenly
+  std::string metrics;  // that are shown; empty: all in the table, the experiment's own on the page
   bool no_outlines = false;
   int jobs = 0, batch = 1;
   std::string match = "energy";
@@ -39,5 +41,9 @@ struct Plan {
 // none of them.
 Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
              const std::filesystem::path& out);
+
+// Throws Error::request for a time [s] after the end of the longest run of the columns, as their scenes have
+// it.
+void check_times(const std::vector<double>& times, const std::vector<SweepColumn>& columns);
 
 }  // namespace hysteron::experiments

@@ -196,6 +196,8 @@ void fold_law(const CommandLine& line, const Request& request) {
   if (request.setup.options.errors)
     throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
         .of("errors", "true");
+  if (!request.setup.options.probe.empty())
+    throw Error::request("--probe: fold.law-alone has no cloth").of("probe", request.setup.options.probe);
   if (request.setup.options.checkpoint > 0 || request.setup.options.resume)
     throw Error::request(
         "--checkpoint and --resume: fold.law-alone takes no checkpoints; only the cloth does");

@@ -3,31 +3,58 @@
 #include <algorithm>
 
 #include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
 
-std::vector<std::string> numbers_in(const std::vector<SweepColumn>& columns) {
+// Names of the metrics that are `wanted`, each once.
+std::vector<std::string> metrics_in(const std::vector<SweepColumn>& columns,
+                                    bool (*wanted)(const MetricValue&)) {
   std::vector<std::string> keys;
   for (const SweepColumn& column : columns)
     for (const auto& [key, value] : column.metrics())
-      if (value.is_numeric() && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
+      if (wanted(value) && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
   return keys;
+}
+
+bool is_numeric(const MetricValue& value) { return value.is_numeric(); }
+bool is_number_or_text(const MetricValue& value) { return value.is_numeric() || value.is_text(); }
+
+CsvField field_of(const MetricValue& value) {
+  if (value.is_text()) return value.text();
+  return value.is_number() ? CsvField(value.number()) : CsvField("");
 }
 
 }  // namespace
 
-void run_comparison(Run& run, const std::string& varied, std::vector<SweepColumn>& columns,
-                    const SweepJobs& jobs, const std::vector<std::string>& metrics) {
+void run_columns(Run& run, std::vector<SweepColumn>& columns, const SweepJobs& jobs) {
   run_columns(
       columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
       [&](const std::string& line) { run.progress(line); });
+}
+
+void check_metrics(const std::vector<SweepColumn>& columns, const std::vector<std::string>& names) {
+  if (std::none_of(columns.begin(), columns.end(), [](const SweepColumn& c) { return c.stopped.empty(); }))
+    return;
+  const std::vector<std::string> known = metrics_in(columns, is_number_or_text);
+  for (const std::string& name : names)
+    if (!std::count(known.begin(), known.end(), name))
+      throw Error::request("compare.metrics = " + name + " must be among " + join(known, ", ") +
+                           "; --resume keeps the columns that have run (--compare.metrics)")
+          .of("compare.metrics", name);
+}
+
+void run_comparison(Run& run, const std::string& varied, std::vector<SweepColumn>& columns,
+                    const SweepJobs& jobs, const std::vector<std::string>& metrics) {
+  run_columns(run, columns, jobs);
   write_comparison_table(run, varied, columns, metrics);
 }
 
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<SweepColumn>& columns,
                             const std::vector<std::string>& metrics) {
-  const std::vector<std::string> keys = metrics.empty() ? numbers_in(columns) : metrics;
+  const std::vector<std::string> keys = metrics.empty() ? metrics_in(columns, is_numeric) : metrics;
   std::vector<CsvField> head = {varied};
   head.insert(head.end(), keys.begin(), keys.end());
   head.push_back("stopped");
@@ -37,8 +64,8 @@ void write_comparison_table(Run& run, const std::string& varied, const std::vect
     if (column.manifest) run.manifest().asked_metrics = column.manifest->asked_metrics;
     std::vector<CsvField> fields = {column.name};
     for (const std::string& key : keys) {
-      fields.push_back(found[key].is_number() ? CsvField(found[key].number()) : CsvField(""));
-      if (found[key].is_number()) run.metric(column.name + "." + key, found[key]);
+      fields.push_back(field_of(found[key]));
+      if (found[key].is_number() || found[key].is_text()) run.metric(column.name + "." + key, found[key]);
     }
     fields.push_back(column.stopped);
     file.row(fields);

@@ -21,11 +21,12 @@ std::string meaning_of(const std::string& metric) {
 }
 
 // In the order in which they are shown, those that a column shows.
-std::string numbers_text(const std::vector<SweepColumn>& columns) {
+std::string numbers_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::string text;
-  for (const std::string& key : shown_metrics(columns)) {
-    const NamedUnit what = split_unit(key);
-    text += (text.empty() ? "Numbers below the columns: " : "; ") + what.text() + ", " + meaning_of(key);
+  for (const std::string& key : shown_metrics(page, columns)) {
+    const std::string meaning = meaning_of(key);
+    text += (text.empty() ? "Numbers below the columns: " : "; ") + split_unit(key).text() +
+            (meaning.empty() ? "" : ", " + meaning);
   }
   return text.empty() ? "" : text + "; ms per step, computing time without pictures.";
 }
@@ -71,13 +72,16 @@ std::string plotted(const std::string& stem) {
 }
 
 // What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
-std::string shown_in(const std::string& stem, const std::vector<SweepColumn>& columns) {
+std::string shown_in(const std::string& stem, const ComparisonPage& page,
+                     const std::vector<SweepColumn>& columns) {
   for (const SweepColumn& c : columns)
     if (c.manifest)
       for (const Curve& curve : c.manifest->curves)
         if (curve.plot == stem) return curve.caption;
-  const std::string meaning = meaning_of(stem.substr(std::string("plot_").size()));
+  const std::string metric = stem.substr(std::string("plot_").size()), meaning = meaning_of(metric);
   if (!meaning.empty()) return "A bar for each column: " + meaning + ".";
+  if (std::count(page.metrics.begin(), page.metrics.end(), metric))
+    return "A bar for each column: " + plotted(stem) + ".";
   return first_upper(plotted(stem)) + " against time, a line for each column.";
 }
 
@@ -112,7 +116,7 @@ void write_comparison_captions(Run& run, const ComparisonPage& page, const std::
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),
-               numbers_text(columns), joined(page.notes, " "), facts_text(columns),
+               numbers_text(page, columns), joined(page.notes, " "), facts_text(columns),
                origin_words(command, columns.front().manifest ? &*columns.front().manifest : nullptr)},
               " ")}};
   std::vector<std::string> plots;
@@ -120,7 +124,7 @@ void write_comparison_captions(Run& run, const ComparisonPage& page, const std::
     if (is_plot(file)) plots.push_back(file.stem().string());
   for (const std::string& stem : plots) {
     figures.push_back({stem + ".png", page.title + ": " + plotted(stem),
-                       joined({shown_in(stem, columns), columns_text(columns),
+                       joined({shown_in(stem, page, columns), columns_text(columns),
                                "Runs, numbers and command are those of sheet.png."},
                               " ")});
   }

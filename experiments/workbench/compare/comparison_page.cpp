@@ -48,8 +48,9 @@ fs::path picture_of(const SweepColumn& column, const std::string& look, std::siz
   return column.folder / folder / fmt::format("{:04}.png", frame);
 }
 
-// Of the column that went on longest, spread evenly; the first picture is the same in all columns.
-std::vector<double> times_of(const std::vector<SweepColumn>& columns, int rows) {
+// Of pictures of the column that went on longest: those nearest to the page's own times, or spread evenly,
+// without the first picture, which is the same in all columns.
+std::vector<double> times_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   const SweepColumn* longest = nullptr;
   for (const SweepColumn& c : columns)
     if (has_frames(c) &&
@@ -57,20 +58,29 @@ std::vector<double> times_of(const std::vector<SweepColumn>& columns, int rows) 
       longest = &c;
   std::vector<double> times;
   if (!longest) return times;
-  const int last = static_cast<int>(instants(*longest).size()) - 1, count = std::min(rows, std::max(1, last));
+  for (double time : page.times) times.push_back(second(*longest, frame_at(*longest, time)));
+  if (!times.empty()) return times;
+  const int last = static_cast<int>(instants(*longest).size()) - 1,
+            count = std::min(page.rows, std::max(1, last));
   for (int r = 1; r <= count; ++r)
     times.push_back(second(*longest, static_cast<std::size_t>(std::lround(1.0 * r * last / count))));
   return times;
 }
 
-std::string instant_text(const std::vector<SweepColumn>& columns, double time) {
+// "t = 0.50 s, hang".
+std::string instant_text(const std::vector<SweepColumn>& columns, double time, int decimals = 2) {
   for (const SweepColumn& c : columns) {
     if (!has_frames(c)) continue;
     const Frames::Instant& instant = instants(c).at(frame_at(c, time));
     if (std::abs(instant.time - time) > 1e-9) continue;
-    return fmt::format("t = {:.2f} s{}{}", time, instant.phase.empty() ? "" : ", ", instant.phase);
+    return fmt::format("t = {:.{}f} s{}{}", time, decimals, instant.phase.empty() ? "" : ", ", instant.phase);
   }
-  return fmt::format("t = {:.2f} s", time);
+  return fmt::format("t = {:.{}f} s", time, decimals);
+}
+
+// Of a row: times of one's own may be milliseconds apart.
+std::string row_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns, double time) {
+  return instant_text(columns, time, page.times.empty() ? 2 : 3);
 }
 
 struct Drawn {
@@ -79,7 +89,7 @@ struct Drawn {
   std::vector<double> times;
 
   render::ComparisonRow pictures(double time) const {
-    render::ComparisonRow row{instant_text(columns, time), {}};
+    render::ComparisonRow row{row_text(page, columns, time), {}};
     for (const SweepColumn& c : columns) {
       row.cells.emplace_back();
       if (!has_frames(c)) continue;
@@ -129,7 +139,7 @@ struct Drawn {
         if (over.empty()) over = render::Image(shape.width(), shape.height(), render::Rgb8{255, 255, 255});
         render::draw_outline(over, shape, render::method_color(c), std::max(1, shape.width() / 320));
       }
-      row.cells.push_back({std::move(over), instant_text(columns, time)});
+      row.cells.push_back({std::move(over), row_text(page, columns, time)});
     }
     return row;
   }
@@ -151,7 +161,7 @@ render::ComparisonSheet head_of(const ComparisonPage& page, const std::vector<Sw
   sheet.notes = page.notes;
   sheet.cell_width = kCellWidth;
   for (std::size_t c = 0; c < columns.size(); ++c)
-    sheet.columns.push_back({columns[c].name, numbers_of(columns[c]), render::method_color(c)});
+    sheet.columns.push_back({columns[c].name, numbers_of(page, columns[c]), render::method_color(c)});
   for (const SweepColumn& c : columns)
     if (has_frames(c)) sheet.metres_per_pixel = c.manifest->frames->metres_per_pixel;
   sheet.scale_note = "at the cloth's middle";
@@ -232,21 +242,31 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
          columns);
 }
 
-// Those of shown_numbers() that stand below a column.
-std::vector<std::string> own_metrics(const SweepColumn& column) {
-  std::vector<std::string> keys;
-  if (!column.manifest) return keys;
-  const Metrics& metrics = column.manifest->metrics;
-  const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
-  for (const auto& [key, meaning] : shown_numbers())
-    if ((metrics[key].is_number() || metrics[key].is_text()) && keys.size() < most) keys.push_back(key);
+// Those that the page asks for, or all of shown_numbers().
+std::vector<std::string> candidates(const ComparisonPage& page) {
+  std::vector<std::string> keys = page.metrics;
+  if (keys.empty())
+    for (const ShownNumber& number : shown_numbers()) keys.push_back(number.metric);
   return keys;
 }
 
-// What these experiments are asked for, a bar a column.
-void plot_answers(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
-  for (const char* key : {"drape_coefficient_percent", "recovery_angle_deg"}) {
-    render::Plot plot{title, {""}, {split_unit(key).text()}};
+// Those of them that stand below a column: as many of the usual ones as there is room for.
+std::vector<std::string> own_metrics(const ComparisonPage& page, const SweepColumn& column) {
+  if (!column.manifest) return {};
+  std::vector<std::string> keys = candidates(page);
+  const Metrics& metrics = column.manifest->metrics;
+  std::erase_if(keys,
+                [&](const std::string& key) { return !metrics[key].is_number() && !metrics[key].is_text(); });
+  const std::size_t most = kMostNumbers - (column.stopped.empty() ? 0 : 1);
+  if (page.metrics.empty() && keys.size() > most) keys.resize(most);
+  return keys;
+}
+
+// The page's metrics, or what these experiments are asked for, a bar a column.
+void plot_answers(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+  const std::vector<std::string> usual = {"drape_coefficient_percent", "recovery_angle_deg"};
+  for (const std::string& key : page.metrics.empty() ? usual : page.metrics) {
+    render::Plot plot{page.title, {""}, {split_unit(key).text()}};
     std::vector<double> values;
     for (const SweepColumn& c : columns) {
       if (!c.manifest || !c.manifest->metrics[key].is_number()) continue;
@@ -255,8 +275,11 @@ void plot_answers(Run& run, const std::string& title, const std::vector<SweepCol
     }
     if (values.size() < 2) continue;
     plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
-    plot.y.high = std::max(1.0, 1.05 * *std::max_element(values.begin(), values.end()));
-    run.plot(std::string("plot_") + key, plot);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    plot.y.low = 1.05 * std::min(0.0, *least);
+    plot.y.high = 1.05 * std::max(0.0, *most);
+    if (plot.y.low == plot.y.high) plot.y.high = 1;
+    run.plot("plot_" + key, plot);
   }
 }
 
@@ -264,29 +287,27 @@ void plot_answers(Run& run, const std::string& title, const std::vector<SweepCol
 
 std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::vector<std::string> texts;
-  for (double time : times_of(columns, page.rows)) texts.push_back(instant_text(columns, time));
+  for (double time : times_of(page, columns)) texts.push_back(row_text(page, columns, time));
   return texts;
 }
 
-std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns) {
-  std::vector<std::string> keys;
-  for (const ShownNumber& number : shown_numbers()) {
-    const char* key = number.metric;
-    const bool shown = std::any_of(columns.begin(), columns.end(), [&](const SweepColumn& c) {
-      const std::vector<std::string> own = own_metrics(c);
+std::vector<std::string> shown_metrics(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+  std::vector<std::string> keys = candidates(page);
+  std::erase_if(keys, [&](const std::string& key) {
+    return std::none_of(columns.begin(), columns.end(), [&](const SweepColumn& c) {
+      const std::vector<std::string> own = own_metrics(page, c);
       return std::find(own.begin(), own.end(), key) != own.end();
     });
-    if (shown) keys.push_back(key);
-  }
+  });
   return keys;
 }
 
-std::vector<std::string> numbers_of(const SweepColumn& column) {
+std::vector<std::string> numbers_of(const ComparisonPage& page, const SweepColumn& column) {
   std::vector<std::string> lines;
   if (!column.stopped.empty()) lines.push_back("stopped: " + column.stopped);
   if (!column.manifest) return lines;
   const Metrics& metrics = column.manifest->metrics;
-  for (const std::string& key : own_metrics(column)) {
+  for (const std::string& key : own_metrics(page, column)) {
     lines.push_back(metrics[key].is_text() ? split_unit(key).name + " " + metrics[key].text()
                                            : metric_text(key, metrics[key].number()));
     if (is_headline(metrics, key)) lines.push_back(headline_words(metrics, key).errors);
@@ -301,7 +322,7 @@ std::vector<std::string> numbers_of(const SweepColumn& column) {
 }
 
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
-  const Drawn drawn{page, columns, times_of(columns, page.rows)};
+  const Drawn drawn{page, columns, times_of(page, columns)};
   if (drawn.times.empty()) throw Error::run("no column has a picture");
   render::ComparisonSheet sheet = head_of(page, columns);
   for (double time : drawn.times) {
@@ -320,10 +341,10 @@ void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vecto
   if (page.video != "none") film(run, page, columns);
 }
 
-void plot_comparison(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
-  plot_series(run, title, columns);
-  plot_curves(run, title, columns);
-  plot_answers(run, title, columns);
+void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+  plot_series(run, page.title, columns);
+  plot_curves(run, page.title, columns);
+  plot_answers(run, page, columns);
 }
 
 }  // namespace hysteron::experiments

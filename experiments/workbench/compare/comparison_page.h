@@ -12,12 +12,14 @@ namespace hysteron::experiments {
 struct ComparisonPage {
   std::string title;
   std::vector<std::string> notes;
-  int rows = 4;            // instants
-  std::string look;        // of the pictures
-  int to = -1;             // the column that others differ from; -1: no differences
-  bool curvature = false;  // what differs: curvature, as the columns pictured it, not pictures
-  bool outlines = true;    // of all columns, over each other
-  std::string video;       // none | mp4 | gif
+  int rows = 4;                      // instants
+  std::vector<double> times;         // of the rows, in their place [s]; empty: spread evenly
+  std::vector<std::string> metrics;  // below the columns and in bars; empty: those of shown_numbers()
+  std::string look;                  // of the pictures
+  int to = -1;                       // the column that others differ from; -1: no differences
+  bool curvature = false;            // what differs: curvature, as the columns pictured it, not pictures
+  bool outlines = true;              // of all columns, over each other
+  std::string video;                 // none | mp4 | gif
 };
 
 // Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
@@ -31,16 +33,17 @@ struct ShownNumber {
 };
 const std::vector<ShownNumber>& shown_numbers();
 
-// The numbers that a page shows of a column: what the experiment itself asks for, then what any run has.
-std::vector<std::string> numbers_of(const SweepColumn& column);
+// The numbers that a page shows of a column: those that it asks for, or what the experiment itself is asked
+// for, then what any run has.
+std::vector<std::string> numbers_of(const ComparisonPage& page, const SweepColumn& column);
 
 // Names of the metrics among them, of any column.
-std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns);
+std::vector<std::string> shown_metrics(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 // "t = 0.50 s, hang" of each of the page's rows.
 std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
 // Each of the experiment's own columns of metrics.csv against time, a line a column of the page; the curves
-// that its manifest's `curves` name; and bars of what it is asked for.
-void plot_comparison(Run& run, const std::string& title, const std::vector<SweepColumn>& columns);
+// that its manifest's `curves` name; and bars of the page's metrics, or of what the experiment is asked for.
+void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
 }  // namespace hysteron::experiments

@@ -95,6 +95,7 @@ void Session::visit(Archive& archive, const Question& question, Record& series) 
   meshes_.visit(archive);
   recoveries_.visit(archive);
   series.visit(archive);
+  probes_.visit(archive);
   if (pictures_) pictures_->visit(archive, *run_);
   question.visit(archive);
   std::string state;

@@ -107,10 +107,11 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
       simulation_(make_simulation(setup.scene, fitting(setup, cloth_))),
       rest_angle_(rest_angles(cloth_.mesh)),
+      probes_(setup.options.probe, cloth_.mesh, simulation_->dimension()),
       recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
-    std::cout << text_of(memory_need(setup, cloth_.mesh.faces())) << std::endl;
+    std::cout << probes_.text() << text_of(memory_need(setup, cloth_.mesh.faces())) << std::endl;
     return;
   }
   if (!setup.options.dump_scene.empty()) {
@@ -242,6 +243,7 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   for (double value : question.measure(instant)) row.push_back(value);
   for (const auto& [name, joules] : simulation_->ledger().rows()) row.push_back(joules);
   series.row(row);
+  probes_.record(*simulation_, x);
   const bool pictured = !question.pictured || question.pictured(instant);
   if (pictures_ && pictured) pictures_->frame(*run_);
   watch_folds(x);
@@ -343,6 +345,7 @@ bool Session::simulate(const Question& question) {
   columns.insert(columns.end(), energy.begin(), energy.end());
   Record series(run_->path("metrics.csv"), columns);
   run_->manifest().series = question.columns;
+  probes_.begin(*run_);
 
   bool settled = false;
   try {
@@ -354,14 +357,17 @@ bool Session::simulate(const Question& question) {
   }
   meshes_.finish(*run_, cloth_);
   series.finish();
+  probes_.finish();
   return settled;
 }
 
 void Session::finish(const std::string& title) {
   const std::string unrest = unrest_words(run_->metrics());
   if (pictures_) pictures_->finish(*run_, title + (unrest.empty() ? "" : ". " + unrest));
+  if (pictures_) probes_.plot(*run_, setup_.scene.fabric.name + ", law " + setup_.scene.law);
   const Ledger ledger = simulation_->ledger();
   Manifest& manifest = run_->manifest();
+  probes_.name_curves(manifest);
   manifest.energy = ledger.rows();
   for (const auto& [stage, seconds] : simulation_->stage_seconds()) run_->add_seconds(stage, seconds);
   manifest.state_hash = fmt::format("{:016x}", simulation_->state_hash());

@@ -11,6 +11,7 @@
 #include "experiments/workbench/pictures/pictures.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "experiments/workbench/session/mesh_export.h"
+#include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/recoveries.h"
 #include "render/camera.h"
@@ -105,6 +106,7 @@ class Session {
   std::unique_ptr<Run> run_;
   std::unique_ptr<Pictures> pictures_;
   std::vector<double> rest_angle_;
+  Probes probes_;
   MeshExport meshes_;
   Recoveries recoveries_;
   long intersections_ = 0;  // pairs of triangles, of all recorded instants

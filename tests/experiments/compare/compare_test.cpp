@@ -267,6 +267,53 @@ TEST(Compare, CaptionsItsFiguresFromTheManifests) {
   EXPECT_NE(text_of(folder.path() / "index.html").find("Columns: linear, prandtl."), std::string::npos);
 }
 
+std::string refusal_of(const std::string& more) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome =
+      program("compare swing --laws linear,prandtl --out " + out.string() + kSmall + more);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  return outcome.err;
+}
+
+TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.times 0.1,0.035 --compare.metrics "
+                    "max_stretch_percent,decay_shape,bending_friction_J --out " +
+                    out.string() + kSmall)
+                .exit_code,
+            0);
+  const std::string table = text_of(out / "table.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "law,max_stretch_percent,decay_shape,bending_friction_J,stopped");
+  const Json metrics = Json::parse(text_of(out / "manifest.json"))["metrics"];
+  EXPECT_EQ(metrics.size(), 6u) << metrics;
+  EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
+  // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
+  const std::string captions = text_of(out / "README.md");
+  for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "below the columns: max stretch [%]",
+                           "; bending friction [J]", "(plot_bending_friction_J.png)"})
+    EXPECT_NE(captions.find(part), std::string::npos) << part << captions;
+  EXPECT_LT(captions.find("max stretch [%]"), captions.find("decay shape"));
+}
+
+TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
+  EXPECT_EQ(refusal_of(" --compare.times 0.05,0.11"),
+            "hysteron compare: compare.times = 0.11 s must be in [0, 0.1] s, the time of the run "
+            "(--compare.times)\n");
+  EXPECT_NE(refusal_of(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
+}
+
+// Which metrics there are is known once the columns have run, and they are kept.
+TEST(Compare, NamesTheMetricsThatThereAreWhereOneIsUnknown) {
+  const std::string words = refusal_of(" --no-images --compare.metrics turns,turn");
+  EXPECT_EQ(words.find("hysteron compare: compare.metrics = turn must be among turns, decay_shape, "), 0u)
+      << words;
+  EXPECT_NE(words.find("max_stretch_percent"), std::string::npos) << words;
+}
+
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = " --out " + (folder.path() / "out").string() + kSmall;

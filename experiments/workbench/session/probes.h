@@ -1,0 +1,57 @@
+// The cloth at material points, as a time series (--probe): probes.csv.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/session/record.h"
+#include "sim/mesh/material_point.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+// Where the points are, and what the solver knows of the bending element that they are in: the face that
+// contains them, or, of element `hinge`, the hinge at its nearest edge.  In a face K and M are tensors in its
+// warp-weft frame: their warp, weft and twist components are K_xx, K_yy and K_xy.
+class Probes {
+ public:
+  // `text`: "x,y[;x,y...]" [m], on the flat cloth; "": no probes.  `dimension`: of the elements.  Throws
+  // Error::request for other texts, cloth that is not flat at rest and points beside it, with where it lies.
+  Probes(const std::string& text, const ClothMesh& mesh, int dimension);
+
+  bool empty() const { return all_.empty(); }
+  // "probe1 at (0.1, 0.2) m: triangle 345", a line each.
+  std::string text() const;
+
+  // Opens probes.csv.  Throws Error::machine where it cannot be written, as the others do.
+  void begin(Run& run);
+  void record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);
+  void finish();
+  void visit(Archive& archive);
+
+  // For comparisons, behind those that the experiment has named itself: height and curvature against time,
+  // moment against curvature.
+  void name_curves(Manifest& manifest) const;
+  // Height and curvature of all points against time, moments against curvatures.  `what`: "wool, law linear".
+  void plot(Run& run, const std::string& what) const;
+
+ private:
+  struct Probe {
+    std::string name;    // "probe1"
+    Eigen::Vector2d at;  // on the flat cloth [m]
+    MaterialPoint point;
+    int element;
+  };
+
+  std::vector<std::string> columns() const;
+  std::vector<std::string> directions() const;  // "_warp", "_weft"; "" of a hinge
+
+  const ClothMesh& mesh_;
+  int dimension_;
+  std::vector<Probe> all_;
+  std::optional<Record> series_;
+};
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,109 @@
+// The cloth at material points against time (--probe).
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/base/csv.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double kRounding = 1e-12;
+
+// Equally stiff along warp and weft, without viscosity.
+const std::string kSwing =
+    "swing --triangles 60 --seconds 0.1 --fps 60 --device cpu --threads 1 --quiet --fabric.weft-bending 1 "
+    "--fabric.bias-bending 1 --fabric.damping 0 --no-images";
+
+std::string in(const fs::path& out) { return " --out " + out.string(); }
+
+std::vector<double> column(const fs::path& table, const std::string& name) {
+  const Table all = read_whole_csv(table, "test");
+  const Column* found = all.find(name);
+  EXPECT_TRUE(found) << name;
+  return found ? found->values : std::vector<double>();
+}
+
+// M = b2 K and nothing is left without moment, in each component; a row for each of metrics.csv.
+void expect_linear(const std::string& element, const std::vector<std::string>& components) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out", probes = out / "probes.csv";
+  ASSERT_EQ(program(kSwing + " --law linear --probe 0.024,0.008 --element " + element + in(out)).exit_code,
+            0);
+  const double b2 = Json::parse(text_of(out / "manifest.json"))["scene"]["fabric"]["b2"];
+  for (const std::string& component : components) {
+    const auto k = column(probes, "probe1_curvature" + component + " [1/m]"),
+               m = column(probes, "probe1_moment" + component + " [N]"),
+               left = column(probes, "probe1_residual_curvature" + component + " [1/m]");
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      EXPECT_NEAR(m[i], b2 * k[i], kRounding * b2 * std::abs(k[i])) << component;
+      EXPECT_EQ(left[i], 0);
+    }
+  }
+  // Along the strip, which bends; the first component.
+  EXPECT_GT(std::abs(column(probes, "probe1_curvature" + components[0] + " [1/m]").back()), 1);
+  EXPECT_EQ(column(probes, "time [s]"), column(out / "metrics.csv", "time [s]"));
+}
+
+TEST(Probes, InAFaceOfAnElasticLawHaveItsRigidityTimesTheCurvature) {
+  expect_linear("shape", {"_warp", "_weft", "_twist"});
+}
+
+TEST(Probes, AtAHingeOfAnElasticLawHaveItsRigidityTimesTheCurvature) { expect_linear("hinge", {""}); }
+
+// The strip is held up to 10 mm, and hangs down from there.
+TEST(Probes, StayWhereTheClothIsHeldAndFallWhereItIsFree) {
+  const Folder folder;
+  ASSERT_EQ(program(kSwing + " --probe '0.009,0.011;0.08,0.02'" + in(folder.path() / "out")).exit_code, 0);
+  const fs::path probes = folder.path() / "out/probes.csv";
+  for (const double x : column(probes, "probe1_x [m]")) EXPECT_NEAR(x, 0.009, kRounding);
+  for (const double y : column(probes, "probe1_y [m]")) EXPECT_NEAR(y, 0.011, kRounding);
+  for (const double z : column(probes, "probe1_z [m]")) EXPECT_EQ(z, 0);
+  EXPECT_NEAR(column(probes, "probe2_x [m]").front(), 0.08, kRounding);
+  EXPECT_LT(column(probes, "probe2_z [m]").back(), -0.01);
+  const std::vector<double> share = column(probes, "probe1_friction_share");
+  EXPECT_LE(*std::max_element(share.begin(), share.end()), 1 + kRounding);
+}
+
+TEST(Probes, AreThoseOfTheRunThatIsRunAgain) {
+  const Folder folder;
+  const fs::path first = folder.path() / "first", again = folder.path() / "again";
+  ASSERT_EQ(program(kSwing + " --probe '0.02,0.01;0.08,0.02'" + in(first)).exit_code, 0);
+  ASSERT_EQ(program("rerun " + first.string() + " --quiet" + in(again)).exit_code, 0);
+  EXPECT_EQ(text_of(again / "probes.csv"), text_of(first / "probes.csv"));
+  const Json files = Json::parse(text_of(again / "manifest.json"))["files"];
+  EXPECT_NE(std::find(files.begin(), files.end(), "probes.csv"), files.end());
+}
+
+TEST(Probes, ChangeNothingInTheRun) {
+  const Folder folder;
+  const auto hash = [&](const std::string& name, const std::string& more) {
+    EXPECT_EQ(program(kSwing + more + in(folder.path() / name)).exit_code, 0);
+    return Json::parse(text_of(folder.path() / name / "manifest.json"))["state_hash"].get<std::string>();
+  };
+  EXPECT_EQ(hash("with", " --probe 0.02,0.01"), hash("without", ""));
+}
+
+TEST(Probes, BesideTheClothAreRefusedWithWhereItLies) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const auto refusal = [&](const std::string& experiment, const std::string& more) {
+    const Outcome outcome = program(experiment + " --quick --device cpu" + in(out) + more);
+    EXPECT_EQ(outcome.exit_code, 2) << more;
+    EXPECT_FALSE(fs::exists(out));
+    return outcome.err;
+  };
+  EXPECT_EQ(refusal("run hanging-square", " --probe '0,0;0.2,0.6'"),
+            "hysteron run: probe = 0.2,0.6 is beside the cloth, which at rest has x in [0, 0.5] and y in "
+            "[0, 0.5] m (--probe)\n");
+  EXPECT_EQ(refusal("swing", " --probe '0.02;0.03'"),
+            "hysteron swing: probe = 0.02 must be x,y[;x,y...], numbers in m (--probe)\n");
+  EXPECT_NE(refusal("swing", " --probe 0.02,0.01 --cloth.shape tube").find("flat at rest"),
+            std::string::npos);
+  EXPECT_NE(refusal("fold", " --probe 0.02,0.01 --fold.law-alone").find("no cloth"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
