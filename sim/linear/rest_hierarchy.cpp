@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kCoarsestNodes = 24;  // on a GPU a dense inverse of more takes longer than another level
+constexpr int kCoarsestNodes = 24;  // on a CPU a dense inverse of more takes longer than another level
 // A level that keeps more than this share of the nodes is not worth its cost (cloth in many small pieces).
 constexpr double kWorthwhile = 0.5;
 // Edges longer than this many of the shortest one at either end keep no root away: a mesh of slender
