@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/linear/compressed_rows.h"
+
 namespace hysteron {
 
 namespace {
@@ -45,15 +47,7 @@ Adjacency pattern_of(const Adjacency& elements, const BlockRows<Real, Device>& n
     for (int a = elements.start[e]; a < elements.start[e + 1]; ++a)
       for (int b = elements.start[e]; b < elements.start[e + 1]; ++b)
         if (a != b) neighbours[elements.item[a]].push_back(elements.item[b]);
-  Adjacency pattern;
-  pattern.start.push_back(0);
-  for (auto& row : neighbours) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    pattern.item.insert(pattern.item.end(), row.begin(), row.end());
-    pattern.start.push_back(static_cast<int>(pattern.item.size()));
-  }
-  return pattern;
+  return compressed(neighbours);
 }
 
 int slot_in(const int* row_ptr, const std::vector<int>& col, int row, int column) {

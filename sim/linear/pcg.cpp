@@ -184,9 +184,10 @@ void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Rea
 template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
   if (system.self_contact) return false;
-  const bool in_loops = system.bending && system.whole.rows == 0;  // which a launch of its own cannot hold
-  const bool has_cycle = !system.preconditioner || system.preconditioner->in_one_launch();
-  if (!in_loops && has_cycle && iterate_in_one_launch(device_, iterations(system, held, x))) return true;
+  if (!system.bending || system.whole.rows > 0) {  // no loops of bending's are between
+    const PcgIterations<Real> all = iterations(system, held, x);
+    if ((all.cycle || !system.preconditioner) && iterate_in_one_launch(device_, all)) return true;
+  }
   const BlockRowsView<Real>& matrix = system.matrix;
   const std::vector<const void*> key = {matrix.row_ptr,
                                         matrix.col,

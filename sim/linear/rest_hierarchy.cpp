@@ -9,6 +9,8 @@
 #include <limits>
 #include <queue>
 
+#include "sim/linear/compressed_rows.h"
+
 namespace hysteron {
 namespace {
 
@@ -33,18 +35,6 @@ struct Surface {
   Adjacency neighbour;
   int size() const { return static_cast<int>(position.size()); }
 };
-
-Adjacency compressed(std::vector<std::vector<int>>& rows) {
-  Adjacency result;
-  result.start.push_back(0);
-  for (auto& row : rows) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    result.item.insert(result.item.end(), row.begin(), row.end());
-    result.start.push_back(static_cast<int>(result.item.size()));
-  }
-  return result;
-}
 
 void insert_once(std::vector<int>& row, int item) {
   if (std::find(row.begin(), row.end(), item) == row.end()) row.push_back(item);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/linear/compressed_rows.h"
+
 namespace hysteron {
 
 CouplingList::CouplingList(const Couplings& couplings) : below_(couplings.start.size() - 1) {
@@ -17,14 +19,7 @@ void CouplingList::add(std::span<const int> nodes) {
 }
 
 Couplings CouplingList::take() {
-  Couplings result;
-  result.start.push_back(0);
-  for (auto& row : below_) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    result.item.insert(result.item.end(), row.begin(), row.end());
-    result.start.push_back(static_cast<int>(result.item.size()));
-  }
+  Couplings result = compressed(below_);
   below_.clear();
   return result;
 }
