@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/bending/bending_elements.h"
 #include "sim/linear/compressed_rows.h"
 
 namespace hysteron {
@@ -15,24 +16,12 @@ std::vector<T> downloaded(Device& device, const T* from, std::size_t count) {
   return values;
 }
 
-// Rows: elements; items: the vertices of the hinges that their curvatures depend on, each once.
 template <class Real, class Device>
 Adjacency vertices_of_elements(Device& device, const BendingFactors<Real>& factors) {
   const auto start = downloaded(device, factors.start, factors.elements + 1);
   const auto hinge = downloaded(device, factors.hinge, factors.items);
   const auto corner = downloaded(device, factors.corner, factors.hinges);
-  Adjacency vertices;
-  vertices.start.push_back(0);
-  for (int e = 0; e < factors.elements; ++e) {
-    const auto begin = vertices.item.size();
-    for (int j = start[e]; j < start[e + 1]; ++j)
-      for (int k = 0; k < 4; ++k)
-        if (const int v = corner[hinge[j]][k];
-            std::find(vertices.item.begin() + begin, vertices.item.end(), v) == vertices.item.end())
-          vertices.item.push_back(v);
-    vertices.start.push_back(static_cast<int>(vertices.item.size()));
-  }
-  return vertices;
+  return hysteron::vertices_of_elements(factors.elements, start.data(), hinge.data(), corner.data());
 }
 
 // Off-diagonal blocks of vertices that share an element, or a block of the narrower matrix.

@@ -4,23 +4,34 @@
 
 namespace hysteron {
 
+Adjacency vertices_of_elements(int elements, const int* start, const int* hinge,
+                               const Eigen::Vector4i* corner) {
+  Adjacency vertices;
+  vertices.start.push_back(0);
+  for (int e = 0; e < elements; ++e) {
+    const auto first = vertices.item.size();
+    for (int j = start[e]; j < start[e + 1]; ++j)
+      for (const int v : corner[hinge[j]])
+        if (std::find(vertices.item.begin() + first, vertices.item.end(), v) == vertices.item.end())
+          vertices.item.push_back(v);
+    vertices.start.push_back(static_cast<int>(vertices.item.size()));
+  }
+  return vertices;
+}
+
 template <class Real>
 BendingElements<Real>::BendingElements(const Bending<Real, Cpu>& bending) : bending_(bending) {
   const BendingFactors<Real> factors = bending.factors();
-  vertex_.start.push_back(0);
+  vertex_ = vertices_of_elements(factors.elements, factors.start, factors.hinge, factors.corner);
   for (int e = 0; e < factors.elements; ++e) {
-    std::vector<int> vertices;
+    const auto first = vertex_.item.begin() + vertex_.start[e];
     for (int j = factors.start[e]; j < factors.start[e + 1]; ++j) {
       std::array<int, 4> corner;
-      for (int k = 0; k < 4; ++k) {
-        const int v = factors.corner[factors.hinge[j]][k];
-        corner[k] = static_cast<int>(std::find(vertices.begin(), vertices.end(), v) - vertices.begin());
-        if (corner[k] == static_cast<int>(vertices.size())) vertices.push_back(v);
-      }
+      for (int k = 0; k < 4; ++k)
+        corner[k] = static_cast<int>(
+            std::find(first, vertex_.item.end(), factors.corner[factors.hinge[j]][k]) - first);
       corner_.push_back(corner);
     }
-    vertex_.item.insert(vertex_.item.end(), vertices.begin(), vertices.end());
-    vertex_.start.push_back(static_cast<int>(vertex_.item.size()));
   }
 }
 

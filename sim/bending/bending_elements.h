@@ -6,6 +6,11 @@
 
 namespace hysteron {
 
+// Rows: elements; items: the vertices of the hinges that their curvatures depend on, each once.  `start` and
+// `hinge` are the operator's rows, `corner` the vertices of each hinge, on the host.
+Adjacency vertices_of_elements(int elements, const int* start, const int* hinge,
+                               const Eigen::Vector4i* corner);
+
 // An element couples all vertices of the hinges whose angles its curvature depends on.
 template <class Real>
 class BendingElements : public ElementStiffness {

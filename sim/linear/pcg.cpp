@@ -157,7 +157,7 @@ PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const ch
           {product_of(system, static_cast<const Vec3<Real>*>(p)), held, p, q_.data(), s},
           {{held, p, q_.data(), x, r_.data(), s}, inverse_.data(), z_.data()},
           {held, z_.data(), p, s},
-          system.preconditioner ? system.preconditioner->in_one_launch() : nullptr,
+          nullptr,
           scalars_.data()};
 }
 
@@ -185,7 +185,8 @@ template <class Real, class Device>
 bool Pcg<Real, Device>::iterate_on_device(const System& system, const char* held, Vec3<Real>* x) {
   if (system.self_contact) return false;
   if (!system.bending || system.whole.rows > 0) {  // no loops of bending's are between
-    const PcgIterations<Real> all = iterations(system, held, x);
+    PcgIterations<Real> all = iterations(system, held, x);
+    if (system.preconditioner) all.cycle = system.preconditioner->in_one_launch();
     if ((all.cycle || !system.preconditioner) && iterate_in_one_launch(device_, all)) return true;
   }
   const BlockRowsView<Real>& matrix = system.matrix;
