@@ -1,6 +1,13 @@
-// The catalogue of a program that reads files only: one experiment stands for those that manifests and
-// studies name, so that no other has to be compiled.
+// What a program that reads files only has instead of a solver: one experiment stands for those that
+// manifests and studies name, and no run has others beside it.
 #include "experiments/workbench/app/experiment.h"
+#include "sim/time/together.h"
+
+namespace hysteron {
+
+int jobs_together() { return 1; }
+
+}  // namespace hysteron
 
 namespace hysteron::experiments {
 
