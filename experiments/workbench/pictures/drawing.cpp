@@ -29,6 +29,13 @@ render::Box framed_box(const Options& options, render::Box box) {
 
 }  // namespace
 
+render::PictureSize picture_size(const Options& options) {
+  constexpr int kDraftSamples = 4;  // drawn at once
+  render::PictureSize size{options.width(), options.height()};
+  if (options.quality == "draft") size.samples = kDraftSamples;
+  return size;
+}
+
 render::Camera camera_of(const Options& options, const render::Box& bounds) {
   const float aspect = static_cast<float>(options.width()) / static_cast<float>(options.height());
   const Eigen::Vector3f direction = options.camera_direction.cast<float>();

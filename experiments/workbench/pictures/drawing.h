@@ -9,10 +9,13 @@
 #include "experiments/workbench/app/options.h"
 #include "render/camera.h"
 #include "render/caption.h"
+#include "render/cloth_view.h"
 #include "render/look.h"
 
 namespace hysteron::experiments {
 
+// The options' size and quality.
+render::PictureSize picture_size(const Options& options);
 // The options' camera: as near as `bounds`, or the options' box, stays whole, unless they give a distance.
 render::Camera camera_of(const Options& options, const render::Box& bounds);
 // The look in the options' light, "studio" or "raking", before their background.

@@ -46,7 +46,7 @@ MeshPictures::MeshPictures(const Options& options, const Choice& choice)
       choice_(choice),
       look_(look_of(options, choice.range)),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer))),
-      view_(*offscreen_, render::PictureSize{options.width(), options.height()}) {
+      view_(*offscreen_, picture_size(options)) {
   view_.set_look(look_);
   view_.set_ground(choice.ground);
   view_.set_bounds(choice.bounds);

@@ -104,7 +104,7 @@ SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const C
                              const render::Box& bounds, std::optional<float> floor, int cuda_device)
     : scenery_(scene.obstacle),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
-      view_(*offscreen_, render::PictureSize{options.width(), options.height()}) {
+      view_(*offscreen_, picture_size(options)) {
   const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
   const std::vector<float> pattern = pattern_of(cloth.mesh, scene.cloth);
   view_.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "render/compare.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -217,6 +218,19 @@ TEST(Camera, KeepsABoxWholeAroundItsTarget) {
   options.camera_target.clear();
   options.camera_box = {0, 0, -1, 1, 1, 1};
   EXPECT_EQ(camera_of(options, box).eye(), camera_of(Options(), {{0, 0, -1}, {1, 1, 1}}).eye());
+}
+
+TEST_F(Scenes, AreDrawnWithFewerSamplesAsADraft) {
+  const auto picture_of = [&](const std::string& quality) {
+    const Outcome outcome = run(kSquare, "--fps 10 --size 64x48 --quality " + quality);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const render::Image picture = render::read_png(out() / "frames" / "0001.png");
+    std::filesystem::remove_all(out());
+    return picture;
+  };
+  const auto difference = render::compare(picture_of("final"), picture_of("draft"));
+  EXPECT_GT(difference.mean_abs, 0);
+  EXPECT_GT(difference.psnr_db, 40);  // measured 47.6
 }
 
 TEST(Camera, RefusesPlacesOfTheWrongSize) {
