@@ -23,12 +23,15 @@ bool may_use_graphs() {
 
 Cuda::Cuda(int device) : index(device), batch(CudaBatch::current()), graphs(may_use_graphs()) {
   check_cuda(cudaSetDevice(index), "select device");
+  int major = 0;
+  check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, index), "compute capability");
+  early_blocks = major >= 9;
   if (batch)
     stream = batch->stream();
   else
     check_cuda(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "create stream");
-  check_cuda(cudaMalloc(&arrived, sizeof(unsigned)), "allocate");
-  check_cuda(cudaMemset(arrived, 0, sizeof(unsigned)), "allocate");
+  check_cuda(cudaMalloc(&arrived, 2 * sizeof(unsigned)), "allocate");
+  check_cuda(cudaMemset(arrived, 0, 2 * sizeof(unsigned)), "allocate");
   check_cuda(cudaHostAlloc(&staging, kStaged, cudaHostAllocDefault), "allocate on the host");
 }
 

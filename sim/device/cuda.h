@@ -34,6 +34,7 @@ struct Cuda {
   unsigned* arrived = nullptr;  // blocks that have delivered their partial sums
   void* staging = nullptr;      // pinned memory of the host
   bool graphs;                  // loops may be graphs (while_loop.h); HYSTERON_CUDA_GRAPHS=0: none
+  bool early_blocks;            // after_the_last_loop() works
   std::unique_ptr<KernelProfile<Cuda>> profile;
 
   explicit Cuda(int device);
@@ -88,9 +89,20 @@ class KernelProfile<Cuda> {
   KernelCosts costs_;
 };
 
+// Where a GPU can, a loop's blocks come while the last ones of the loop before are at work, so that they are
+// there when it ends (programmatic dependent launch): here they wait for its end, and let the next loop's
+// come.  Every kernel that is launched so calls it first.
+__device__ inline void after_the_last_loop() {
+#if __CUDA_ARCH__ >= 900
+  asm volatile("griddepcontrol.wait;" ::: "memory");
+  asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
+#endif
+}
+
 // A loop is an object that a kernel takes by value; its blocks are part of it.
 template <class Loop>
 __global__ void loop_kernel(const Loop loop) {
+  after_the_last_loop();
   loop();
 }
 
@@ -110,8 +122,16 @@ void launch(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
     return cuda.batch->order(kBatched, kernel.name, loop);
   }
   const Profiled<Cuda> profiled(cuda, kernel);
-  loop_kernel<<<loop.blocks, kThreadsPerBlock, 0, cuda.stream>>>(loop);
-  check_cuda(cudaGetLastError(), kernel.name);
+  cudaLaunchAttribute early{};
+  early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+  early.val.programmaticStreamSerializationAllowed = 1;
+  cudaLaunchConfig_t config{};
+  config.gridDim = loop.blocks;
+  config.blockDim = kThreadsPerBlock;
+  config.stream = cuda.stream;
+  config.attrs = &early;
+  config.numAttrs = cuda.early_blocks ? 1 : 0;
+  check_cuda(cudaLaunchKernelEx(&config, loop_kernel<Loop>, loop), kernel.name);
 }
 
 inline unsigned blocks_for(int n, int per_block = kThreadsPerBlock) {

@@ -5,9 +5,35 @@
 
 #include "sim/device/rows.h"
 #ifdef __CUDACC__
-#include <cooperative_groups.h>
 
 namespace hysteron {
+
+// Blocks of a launch that arrive here, in memory that is zero before it and after leave().
+class GridBarrier {
+ public:
+  explicit __device__ GridBarrier(unsigned* arrived) : arrived_(arrived) {}
+
+  // Every thread waits until all blocks have come, and sees what they wrote before.
+  __device__ void wait() {
+    __syncthreads();
+    expected_ += gridDim.x;  // less than 2^32 before the launch ends: some 10^7 times
+    if (threadIdx.x == 0) {
+      asm volatile("red.release.gpu.global.add.u32 [%0], 1;" ::"l"(arrived_) : "memory");
+      unsigned now;
+      do asm volatile("ld.acquire.gpu.global.u32 %0, [%1];" : "=r"(now) : "l"(arrived_) : "memory");
+      while (now < expected_);
+    }
+    __syncthreads();
+  }
+  // After it none may wait.  The second number counts blocks that wait no longer.
+  __device__ void leave() {
+    if (threadIdx.x == 0 && atomicAdd(arrived_ + 1, 1u) == gridDim.x - 1) arrived_[0] = arrived_[1] = 0;
+  }
+
+ private:
+  unsigned* arrived_;
+  unsigned expected_ = 0;
+};
 
 class GridTeam {
  public:
@@ -16,36 +42,37 @@ class GridTeam {
   // Numbers of scratch: two sums of one term, since a block may be late to read the first.
   static constexpr int kScratch = 2 * kRowSumBlocks;
 
-  explicit __device__ GridTeam(double* scratch) : scratch_(scratch) {}
+  __device__ GridTeam(double* scratch, unsigned* arrived) : scratch_(scratch), barrier_(arrived) {}
+  __device__ void leave() { barrier_.leave(); }  // every thread's last call
 
   template <class Body>
-  __device__ void for_each(int n, const Body& body) const {
+  __device__ void for_each(int n, const Body& body) {
     for (int i = blockIdx.x * kThreads + threadIdx.x; i < n; i += gridDim.x * kThreads) body(i);
-    wait();
+    barrier_.wait();
   }
   template <class Body>
-  __device__ void for_each_row(int rows, const Body& body) const {
+  __device__ void for_each_row(int rows, const Body& body) {
     constexpr int kWarps = kThreads / Warp::kCount;
     // Neighbouring rows go to different multiprocessors: few rows use all of them.
     const int warp = threadIdx.x / Warp::kCount * gridDim.x + blockIdx.x;
     for (int i = warp; i < rows; i += gridDim.x * kWarps) body(i, Warp{});
-    wait();
+    barrier_.wait();
   }
   // The total, in every thread.
   template <class Body>
   __device__ double sum(int n, const Body& body) {
     return sum_of_blocks(n, sum_blocks(n, kThreadsPerBlock, kSumBlocks), body);
   }
-  template <class Body>
+  template <class Lanes, class Body>
   __device__ double row_sum(int rows, const Body& body) {
-    return sum_of_blocks(rows * Warp::kCount, sum_blocks(rows, kRowsPerBlock, kRowSumBlocks),
-                         LaneOfRow<Body>{body});
+    const int warps = warps_for<Lanes>(rows);
+    return sum_of_blocks(warps * Warp::kCount, sum_blocks(warps, kWarpsPerBlock, kRowSumBlocks),
+                         LaneOfRow<Lanes, Body>{rows, body});
   }
 
  private:
   static __device__ int group() { return threadIdx.x / kThreadsPerBlock; }
   static __device__ int rank() { return threadIdx.x % kThreadsPerBlock; }
-  static __device__ void wait() { cooperative_groups::this_grid().sync(); }
   // As block_sum(), of each group: valid in its first thread.  All threads of the block call it.
   static __device__ double group_sum(double term) {
     __shared__ double shared[kGroups][kThreadsPerBlock / Warp::kCount];
@@ -69,7 +96,7 @@ class GridTeam {
       const double term = group_sum(sums.term[0]);
       if (b < blocks && rank() == 0) partial[b] = term;
     }
-    wait();
+    barrier_.wait();
     __shared__ double total;
     double term = 0;
     if (group() == 0)
@@ -83,13 +110,16 @@ class GridTeam {
   }
 
   double* scratch_;
+  GridBarrier barrier_;
   int turn_ = 0;
 };
 
 template <class Body>
 __global__ void __launch_bounds__(GridTeam::kThreads)
-    grid_team_kernel(const __grid_constant__ Body body, double* scratch) {
-  body(GridTeam(scratch));
+    grid_team_kernel(const __grid_constant__ Body body, double* scratch, unsigned* arrived) {
+  GridTeam team(scratch, arrived);
+  body(team);
+  team.leave();
 }
 
 // Runs body(team) if the GPU can; false: it cannot.  Nothing may have been ordered in a batch.
@@ -111,7 +141,8 @@ bool for_grid_team(Cuda& cuda, const Kernel& kernel, const Body& body) {
   config.stream = cuda.stream;
   config.attrs = &together;
   config.numAttrs = 1;
-  check_cuda(cudaLaunchKernelEx(&config, grid_team_kernel<Body>, body, cuda.partial), kernel.name);
+  check_cuda(cudaLaunchKernelEx(&config, grid_team_kernel<Body>, body, cuda.partial, cuda.arrived),
+             kernel.name);
   return true;
 }
 

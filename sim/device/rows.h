@@ -1,5 +1,6 @@
-// Loops over long rows.  On a GPU a warp takes each row, its lanes a part of it each; on the CPU one lane
-// walks the row from its first element to its last, as a plain loop would.
+// Loops over long rows.  On a GPU a warp takes each row, its lanes a part of it each, or nine of its threads
+// do where rows are many; on the CPU one lane walks the row from its first element to its last, as a plain
+// loop would.
 #pragma once
 
 #include "sim/device/device.h"
@@ -19,7 +20,8 @@ struct SingleLane {
 
 // The 32 threads that take a row on a GPU; all of them call these functions together.
 struct Warp {
-  static constexpr int kCount = 32;
+  static constexpr int kCount = 32, kRows = 1;
+  HYST_HD int slot() const { return 0; }  // of the kRows rows that the threads of a warp take
   HYST_HD int index() const {
 #ifdef __CUDA_ARCH__
     return threadIdx.x % kCount;
@@ -54,6 +56,35 @@ struct Warp {
   }
 };
 
+// Nine of a warp's threads, as many as a 3x3 block has numbers: a warp takes three rows, whose loads wait
+// together; five threads idle.
+struct NineLanes {
+  static constexpr int kCount = 9, kRows = 3;
+  HYST_HD int slot() const { return Warp{}.index() / kCount; }  // 3: of no row
+  HYST_HD int index() const { return Warp{}.index() % kCount; }
+  HYST_HD bool leads() const { return index() == 0; }
+  // As Warp's, within the row.
+  template <class Real>
+  HYST_HD Real further(Real value, [[maybe_unused]] int by) const {
+#ifdef __CUDA_ARCH__
+    return __shfl_down_sync(threads(), value, by);
+#else
+    return value;
+#endif
+  }
+  template <class Real>
+  HYST_HD Real value_of(Real value, [[maybe_unused]] int lane) const {
+#ifdef __CUDA_ARCH__
+    return __shfl_sync(threads(), value, slot() * kCount + lane);
+#else
+    return value;
+#endif
+  }
+
+ private:
+  HYST_HD unsigned threads() const { return 0x1ffu << (slot() * kCount); }
+};
+
 template <class Device>
 struct LanesOf;
 template <>
@@ -84,9 +115,22 @@ void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body
 }
 
 #ifdef __CUDACC__
-inline constexpr int kRowsPerBlock = kThreadsPerBlock / Warp::kCount;
+inline constexpr int kWarpsPerBlock = kThreadsPerBlock / Warp::kCount;
 
-template <class Body>
+template <class Lanes>
+HYST_HD int warps_for(int rows) {
+  return (rows + Lanes::kRows - 1) / Lanes::kRows;
+}
+
+// What a thread does for its row, if it has one.
+template <class Lanes, class Body, class... Terms>
+__device__ void at_row_of(int warp, int rows, const Body& body, Terms&... terms) {
+  const Lanes lanes;
+  const int i = warp * Lanes::kRows + lanes.slot();
+  if (lanes.slot() < Lanes::kRows && i < rows) body(i, lanes, terms...);
+}
+
+template <class Lanes, class Body>
 struct RowLoop {
   unsigned blocks;
   int rows;
@@ -95,33 +139,35 @@ struct RowLoop {
 
   __device__ void operator()() const {
     if (stop && *stop) return;
-    const int i = blockIdx.x * kRowsPerBlock + threadIdx.x / Warp::kCount;
-    if (i < rows) body(i, Warp{});
+    at_row_of<Lanes>(blockIdx.x * kWarpsPerBlock + threadIdx.x / Warp::kCount, rows, body);
   }
 };
 
-template <class Body>
+template <class Lanes = Warp, class Body>
 void for_each_row(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const int* stop = nullptr) {
-  if (rows > 0) launch(cuda, kernel, RowLoop<Body>{blocks_for(rows, kRowsPerBlock), rows, body, stop});
+  const unsigned blocks = blocks_for(warps_for<Lanes>(rows), kWarpsPerBlock);
+  if (rows > 0) launch(cuda, kernel, RowLoop<Lanes, Body>{blocks, rows, body, stop});
 }
 
-// Warps take rows in turn, which makes for_each_sum()'s elements of them.
-template <class Body>
+// Warps take rows in turn, which makes for_each_sum()'s elements of their threads.
+template <class Lanes, class Body>
 struct LaneOfRow {
+  int rows;
   Body body;
   template <int K>
   __device__ void operator()(int i, Sums<K>& sums) const {
-    body(i / Warp::kCount, Warp{}, sums);
+    at_row_of<Lanes>(i / Warp::kCount, rows, body, sums);
   }
 };
 
 // Three times the blocks of a sum over elements: rows keep more loads waiting.
 inline constexpr int kRowSumBlocks = 3 * kSumBlocks;
 
-template <int K, class Body, class Finish>
+template <int K, class Lanes = Warp, class Body, class Finish>
 void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
-  launch_sum<K>(cuda, kernel, rows * Warp::kCount, sum_blocks(rows, kRowsPerBlock, kRowSumBlocks),
-                kRowSumBlocks, LaneOfRow<Body>{body}, finish);
+  const int warps = warps_for<Lanes>(rows);
+  launch_sum<K>(cuda, kernel, warps * Warp::kCount, sum_blocks(warps, kWarpsPerBlock, kRowSumBlocks),
+                kRowSumBlocks, LaneOfRow<Lanes, Body>{rows, body}, finish);
 }
 #endif
 

@@ -2,6 +2,7 @@
 // so that the host neither waits for each round nor sends rounds that are not needed.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "sim/device/device.h"
@@ -105,12 +106,14 @@ class WhileLoop<Cuda> {
                                       cudaStreamCaptureModeThreadLocal) != cudaSuccess)
       return false;
     bool ordered = true;
+    const bool early_blocks = std::exchange(cuda.early_blocks, false);  // slower in a graph
     try {
       order();
       go_on_kernel<<<1, 1, 0, cuda.stream>>>(go_on, done);
     } catch (const Error&) {  // a real one is met again without capture
       ordered = false;
     }
+    cuda.early_blocks = early_blocks;
     return cudaStreamEndCapture(cuda.stream, &body) == cudaSuccess && ordered;
 #else
     return false;

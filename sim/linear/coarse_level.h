@@ -32,9 +32,9 @@ struct CoarseLevelView {
   const int* item;
   const Real* weight;
   BlockRowsView<Real> matrix;
-  Mat3<Real>* inverse;               // of the diagonal blocks
-  const double* inverse_eigenvalue;  // of inverse * matrix, the largest
-  Vec3<Real>*b, *x, *y;              // right-hand side; sweeps go from x to y and back; the result is in y
+  Mat3<Real>* inverse;         // of the diagonal blocks
+  double* inverse_eigenvalue;  // of inverse * matrix, the largest
+  Vec3<Real>*b, *x, *y;        // right-hand side; sweeps go from x to y and back; the result is in y
 
   HYST_HD Vec3<Real> restricted(int i, const Vec3<Real>* fine) const {
     Vec3<Real> sum = Vec3<Real>::Zero();

@@ -114,7 +114,7 @@ struct Combination {
   }
 };
 
-// A whole cycle, for the team of grid_team.h.
+// The loops of a cycle over some levels, for one launch (cycle_in_one_launch.h).
 template <class Real>
 struct CycleView {
   static constexpr int kMost = 4;
@@ -122,27 +122,6 @@ struct CycleView {
   CoarseLevelView<Real> level[kMost] = {};
   DenseRow<Real> dense = {};
   Combination<Real> combination = {};  // of which r, z and scalars are the caller's
-
-  // From the residual to the first level's y.
-  template <class Team>
-  HYST_HD void run(const Team& team, const Vec3<Real>* residual) const {
-    for (int l = 0; l < levels; ++l) {
-      const CoarseLevelView<Real>& v = level[l];
-      team.for_each_row(v.nodes, Restriction<Real>{v, l == 0 ? residual : level[l - 1].x, l < swept});
-      if (l == swept) {
-        team.for_each_row(dense.rows, dense);
-        break;
-      }
-      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
-      if (l + 1 < levels) team.for_each_row(v.nodes, LevelResidual<Real>{v});
-    }
-    for (int l = swept - 1; l >= 0; --l) {
-      const CoarseLevelView<Real>& v = level[l];
-      if (l + 1 < levels) team.for_each(v.nodes, CoarseCorrection<Real>{v, level[l + 1]});
-      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
-      team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
-    }
-  }
 };
 
 }  // namespace hysteron

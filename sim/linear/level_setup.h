@@ -120,4 +120,22 @@ struct PowerStep {
 
 static_assert(kPowerSteps % 2 == 0);  // the last vector is in y
 
+// Its last step: y' A y and y' D y, whose quotient needed no normalisation in between.
+template <class Real>
+struct RayleighTerms {
+  CoarseLevelView<Real> level;
+
+  template <class Lanes>
+  HYST_HD void operator()(int i, const Lanes& lanes, Sums<2>& sums) const {
+    const Vec3<Real> y = level.y[i], product = row_times(lanes, level.matrix, i, level.y);
+    if (!lanes.leads()) return;
+    sums.term[0] += static_cast<double>(y.dot(product));
+    sums.term[1] += static_cast<double>(y.dot(level.matrix.diagonal[i] * y));
+  }
+};
+HYST_HD inline double inverse_eigenvalue(const Sums<2>& rayleigh) {
+  constexpr double kMargin = 1.1;  // power iteration leaves it too small by some percent
+  return rayleigh.term[0] > 0 ? rayleigh.term[1] / (kMargin * rayleigh.term[0]) : 0;
+}
+
 }  // namespace hysteron

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/linear/cycle_in_one_launch.h"
 #include "sim/linear/level_setup.h"
 
 namespace hysteron {
@@ -12,8 +13,6 @@ namespace {
 // Weight of the finest level's diagonal beside the coarse levels.  Measured on flat, folded and rough cloth
 // of 2,000 ... 300,000 triangles: 0.35 ... 1 make 10 % of difference.
 constexpr double kFinestWeight = 0.6;
-// The eigenvalue found by kPowerSteps of power iteration is too small by some percent.
-constexpr double kEigenvalueMargin = 1.1;
 // Linear interpolation bends at the edges of the coarse triangles, so that each coarser level's plate is too
 // stiff; measured, half of it is best from the second level on.
 constexpr double kPlateSoftening = 0.5;
@@ -72,22 +71,19 @@ void Multigrid<Real, Device>::coarsen(BlockRowsView<Real> finer, const char* hel
                                 level.plate_off_diagonal.data(), level.plate_diagonal.data(), rigidity});
 }
 
-// The last step of power iteration, whose Rayleigh quotient needed no normalisation in between.
 template <class Real, class Device>
 void Multigrid<Real, Device>::find_eigenvalue(CoarseLevel<Real, Device>& level) {
   const CoarseLevelView<Real> v = level.view();
-  double* inverse_eigenvalue = level.inverse_eigenvalue.data();
-  for_each_row_sum<2>(
+  for_each(device_, {"multigrid: rough vector", bytes_of(level.inverse, level.x)}, v.nodes,
+           RoughStart<Real>{v});
+  const Kernel power = {"multigrid: power", level.matrix_bytes() + bytes_of(level.inverse, level.x, level.y)};
+  for (int step = 1; step < kPowerSteps; ++step)
+    for_each_block_row(device_, power, v.nodes,
+                       PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
+  for_each_block_row_sum<2>(
       device_, {"multigrid: eigenvalue", level.matrix_bytes() + level.y.bytes()}, v.nodes,
-      HYST_KERNEL(int i, const LanesOn<Device>& lanes, Sums<2>& sums) {
-        const Vec3<Real> product = row_times(lanes, v.matrix, i, v.y);
-        if (!lanes.leads()) return;
-        sums.term[0] += static_cast<double>(v.y[i].dot(product));
-        sums.term[1] += static_cast<double>(v.y[i].dot(v.matrix.diagonal[i] * v.y[i]));
-      },
-      HYST_KERNEL(const Sums<2>& total) {
-        *inverse_eigenvalue = total.term[0] > 0 ? total.term[1] / (kEigenvalueMargin * total.term[0]) : 0;
-      });
+      RayleighTerms<Real>{v},
+      HYST_KERNEL(const Sums<2>& total) { *v.inverse_eigenvalue = inverse_eigenvalue(total); });
 }
 
 template <class Real, class Device>
@@ -99,14 +95,8 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
     coarsen(l == 0 ? matrix : level_[l - 1].view().matrix, l == 0 ? held : nullptr,
             static_cast<Real>(plate_change(static_cast<int>(l))) * bending, level_[l]);
   for (int l = 0; l < swept(); ++l) {
-    const CoarseLevel<Real, Device>& level = level_[l];
-    const CoarseLevelView<Real> v = level_[l].view();
-    for_each(device_, {"multigrid: rough vector", bytes_of(level.inverse, level.x)}, v.nodes,
-             RoughStart<Real>{v});
-    const Kernel power = {"multigrid: power",
-                          level.matrix_bytes() + bytes_of(level.inverse, level.x, level.y)};
-    for (int step = 1; step < kPowerSteps; ++step)
-      for_each_row(device_, power, v.nodes, PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
+    if (may_take_one_launch(device_) && has_view_from(l) && eigenvalues_in_one_launch(device_, view_from(l)))
+      break;
     find_eigenvalue(level_[l]);
   }
   if (dense_) dense_->make(device_, level_.back().view().matrix);
@@ -116,41 +106,48 @@ template <class Real, class Device>
 void Multigrid<Real, Device>::sweep(CoarseLevel<Real, Device>& level, const int* stop) {
   const CoarseLevelView<Real> v = level.view();
   const Kernel sweep = sweep_of(level);
-  for_each_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x}, stop);
-  for_each_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+  for_each_block_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x}, stop);
+  for_each_block_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+}
+
+// What the finer level left comes down to level l: its solution where that is the last, else what is left.
+template <class Real, class Device>
+void Multigrid<Real, Device>::descend(int l, const Vec3<Real>* residual, const int* stop) {
+  CoarseLevel<Real, Device>& level = level_[l];
+  const CoarseLevelView<Real> v = level.view();
+  const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
+                                                         level.finer.size() * sizeof(Vec3<Real>) +
+                                                         bytes_of(level.inverse, level.b, level.x)};
+  const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
+  for_each_block_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
+  if (l == swept()) return dense_->apply(device_, v.b, v.y, stop);
+  for_each_block_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
+  if (l + 1 < coarse()) for_each_block_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
+}
+
+template <class Real, class Device>
+void Multigrid<Real, Device>::ascend(int l, const int* stop) {
+  if (l + 1 < coarse())
+    for_each(device_,
+             {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
+             level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
+  sweep(level_[l], stop);
 }
 
 template <class Real, class Device>
 void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
-  const int levels = static_cast<int>(level_.size());
   const int* stop = scalars ? &scalars->done : nullptr;
   const Vec3<Real>* residual = r;
-  for (int l = 0; l < levels; ++l) {
-    const CoarseLevel<Real, Device>& level = level_[l];
-    const CoarseLevelView<Real> v = level_[l].view();
-    const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
-                                                           level.finer.size() * sizeof(Vec3<Real>) +
-                                                           bytes_of(level.inverse, level.b, level.x)};
-    const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
-    for_each_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
-    if (l == swept()) {
-      dense_->apply(device_, v.b, v.y, stop);
+  int l = 0;
+  for (; l < coarse(); residual = level_[l++].x.data()) {
+    if (may_take_one_launch(device_) && has_view_from(l) &&
+        cycle_in_one_launch(device_, view_from(l), residual, stop))
       break;
-    }
-    for_each_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
-    if (l + 1 < levels) for_each_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
-    residual = v.x;
+    descend(l, residual, stop);
   }
-  for (int l = swept() - 1; l >= 0; --l) {
-    if (l + 1 < levels)
-      for_each(
-          device_,
-          {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
-          level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
-    sweep(level_[l], stop);
-  }
+  for (l = std::min(l, swept()) - 1; l >= 0; --l) ascend(l, stop);
   const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
-                    from_coarse = levels > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
+                    from_coarse = coarse() > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
   for_each_sum<1>(
       device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
       combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {
@@ -167,18 +164,29 @@ Combination<Real> Multigrid<Real, Device>::combination(const Vec3<Real>* r, Vec3
 }
 
 template <class Real, class Device>
-const CycleView<Real>* Multigrid<Real, Device>::in_one_launch() {
+bool Multigrid<Real, Device>::has_view_from(int first) const {
+  return coarse() - first <= CycleView<Real>::kMost &&
+         (first == coarse() || level_[first].nodes <= kMostNodesInOneLaunch);
+}
+
+template <class Real, class Device>
+CycleView<Real> Multigrid<Real, Device>::view_from(int first) {
+  CycleView<Real> view;
   if constexpr (Device::kGpu) {
-    view_ = {};
-    view_.levels = static_cast<int>(level_.size());
-    if (view_.levels > CycleView<Real>::kMost) return nullptr;
-    view_.swept = swept();
-    for (int l = 0; l < view_.levels; ++l) view_.level[l] = level_[l].view();
-    if (dense_) view_.dense = dense_->row(level_.back().b.data(), level_.back().y.data());
-    view_.combination = combination(nullptr, nullptr, nullptr);
-    return &view_;
+    view.levels = coarse() - first;
+    view.swept = swept() - first;
+    for (int l = 0; l < view.levels; ++l) view.level[l] = level_[first + l].view();
+    if (dense_) view.dense = dense_->row(level_.back().b.data(), level_.back().y.data());
+    view.combination = combination(nullptr, nullptr, nullptr);
   }
-  return nullptr;
+  return view;
+}
+
+template <class Real, class Device>
+const CycleView<Real>* Multigrid<Real, Device>::in_one_launch() {
+  if (!Device::kGpu || !has_view_from(0)) return nullptr;
+  view_ = view_from(0);
+  return &view_;
 }
 
 template class Multigrid<double, ThisDevice>;

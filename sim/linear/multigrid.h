@@ -41,7 +41,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   double worth() const { return 2 + (dense_ ? dense_->worth() : 0); }
   const CycleView<Real>* in_one_launch() override;
   std::size_t bytes() const override;
-  int levels() const { return 1 + static_cast<int>(level_.size()); }
+  int levels() const { return 1 + coarse(); }
 
   // The parts of the above; public because nvcc allows no device lambda in a private member function.
   void invert_diagonal(BlockRowsView<Real> matrix, const Mat3<Real>* added, const char* held,
@@ -50,10 +50,17 @@ class Multigrid : public Preconditioner<Real, Device> {
 
  private:
   Combination<Real> combination(const Vec3<Real>* r, Vec3<Real>* z, const PcgScalars* scalars) const;
-  int swept() const { return static_cast<int>(level_.size()) - (dense_ ? 1 : 0); }  // levels
+  int coarse() const { return static_cast<int>(level_.size()); }  // levels
+  int swept() const { return coarse() - (dense_ ? 1 : 0); }
+  // For one launch.
+  bool has_view_from(int first) const;
+  CycleView<Real> view_from(int first);
   // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
   void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
+  // Of a cycle, whose levels change nothing where *stop is not 0:
   void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // twice, from y to y
+  void descend(int l, const Vec3<Real>* residual, const int* stop);
+  void ascend(int l, const int* stop);
 
   Device& device_;
   int vertices_;

@@ -15,11 +15,12 @@ Pcg<Real, Device>::Pcg(Device& device, int rows, bool preconditioned)
       z_(device, rows),
       p_(device, rows),
       q_(device, rows),
+      other_p_(device, Device::kGpu && rows <= kMostRowsInOneLaunch ? rows : 0),
       scalars_(device, 1) {}
 
 template <class Real, class Device>
 std::size_t Pcg<Real, Device>::bytes() const {
-  return inverse_.bytes() + 4 * r_.bytes() + scalars_.bytes();
+  return bytes_of(inverse_, r_, z_, p_, q_, other_p_, scalars_);
 }
 
 namespace {
@@ -157,6 +158,7 @@ PcgIterations<Real> Pcg<Real, Device>::iterations(const System& system, const ch
           {product_of(system, static_cast<const Vec3<Real>*>(p)), held, p, q_.data(), s},
           {{held, p, q_.data(), x, r_.data(), s}, inverse_.data(), z_.data()},
           {held, z_.data(), p, s},
+          other_p_.data(),
           nullptr,
           scalars_.data()};
 }
@@ -165,7 +167,7 @@ template <class Real, class Device>
 void Pcg<Real, Device>::iterate(const System& system, const char* held, Vec3<Real>* x) {
   const PcgIterations<Real> loops = iterations(system, held, x);
   PcgScalars* s = scalars_.data();
-  for_each_row_sum<1>(
+  for_each_block_row_sum<1>(
       device_, {"solve: product", system.bytes + vectors(2)}, rows_, loops.product,
       HYST_KERNEL(const Sums<1>& total) { s->find_length(total.term[0]); });
   if (system.preconditioner) {

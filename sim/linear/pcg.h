@@ -95,6 +95,7 @@ class Pcg {
   double iterations_per_decade_ = 4;  // of the tolerance
   Buffer<Mat3<Real>, Device> inverse_;
   Buffer<Vec3<Real>, Device> r_, z_, p_, q_;
+  Buffer<Vec3<Real>, Device> other_p_;  // for iterations in one launch
   Buffer<PcgScalars, Device> scalars_;
   WhileLoop<Device> loop_;
 };

@@ -2,13 +2,10 @@
 #pragma once
 
 #include "sim/device/grid_team.h"
-#include "sim/linear/cycle.h"
+#include "sim/linear/cycle_in_one_launch.h"
 #include "sim/linear/pcg_loops.h"
 
 namespace hysteron {
-
-// Rows beyond which launches of their own are faster.
-inline constexpr int kMostRowsInOneLaunch = 32768;
 
 template <class Real>
 struct PcgIterations {
@@ -16,6 +13,7 @@ struct PcgIterations {
   ProductTerms<Real> product;
   AdvanceTerms<Real> advance;
   Direction<Real> direction;
+  Vec3<Real>* other_p;           // in one launch, directions are in p and here in turn
   const CycleView<Real>* cycle;  // of multigrid; null: the inverted diagonal blocks precondition
   PcgScalars* scalars;           // in the device's memory
 };
@@ -27,28 +25,50 @@ bool iterate_in_one_launch(Cpu&, const PcgIterations<Real>&) {
 }
 
 #ifdef __CUDACC__
+// The next direction p, q = A p, and p' q.  A row finds its neighbours' p itself: no loop has to be between.
+template <class Real>
+struct NextProduct {
+  SystemProduct<Real> product;
+  const char* held;
+  NextDirection<Real> next;
+  Vec3<Real>*p, *q;
+
+  template <class Lanes>
+  __device__ void operator()(int i, const Lanes& lanes, Sums<1>& sums) const {
+    if (held[i]) {
+      if (lanes.leads()) p[i] = Vec3<Real>::Zero();
+      return;
+    }
+    const Vec3<Real> row = product.at(lanes, i, next);
+    if (!lanes.leads()) return;
+    const Vec3<Real> direction = next[i];
+    p[i] = direction;
+    q[i] = row;
+    sums.term[0] += static_cast<double>(direction.dot(row));
+  }
+};
+
 template <class Real>
 struct PcgTeam {
   PcgIterations<Real> of;
   CycleView<Real> cycle;
 
-  // Every block keeps the numbers of the iteration, and finds the same.
-  __device__ void operator()(GridTeam team) const {
-    __shared__ PcgScalars own;
-    if (threadIdx.x == 0) own = *of.scalars;
-    __syncthreads();
-    ProductTerms<Real> product = of.product;
+  // Every thread keeps the numbers of the iteration, and finds the same.
+  __device__ void operator()(GridTeam& team) const {
+    PcgScalars own = *of.scalars;
+    own.beta = 0;  // the first direction is known
     AdvanceTerms<Real> advance = of.advance;
-    Direction<Real> direction = of.direction;
-    product.scalars = advance.advance.scalars = direction.scalars = &own;
+    advance.advance.scalars = &own;
+    Vec3<Real>*before = of.direction.p, *p = of.other_p;
     while (!own.done) {
-      const double curvature = team.row_sum(of.rows, product);
-      if (threadIdx.x == 0) own.find_length(curvature);
-      __syncthreads();
-      const double residual = of.cycle ? preconditioned(team, advance.advance) : team.sum(of.rows, advance);
-      if (threadIdx.x == 0) own.advance(residual);
-      __syncthreads();
-      if (!own.done) team.for_each(of.rows, direction);
+      const NextDirection<Real> next{of.direction.z, before, static_cast<Real>(own.beta)};
+      own.find_length(block_row_sum(
+          team, of.rows, NextProduct<Real>{of.product.product, of.direction.held, next, p, of.product.q}));
+      advance.advance.p = p;
+      own.advance(of.cycle ? preconditioned(team, advance.advance) : team.sum(of.rows, advance));
+      Vec3<Real>* const last = p;
+      p = before;
+      before = last;
     }
     if (blockIdx.x == 0 && threadIdx.x == 0) *of.scalars = own;
   }
@@ -56,7 +76,7 @@ struct PcgTeam {
  private:
   __device__ double preconditioned(GridTeam& team, const Advance<Real>& advance) const {
     team.for_each(of.rows, advance);
-    cycle.run(team, advance.r);
+    run_cycle(team, cycle, advance.r);
     Combination<Real> combination = cycle.combination;
     combination.r = advance.r;
     combination.z = of.advance.z;
@@ -67,7 +87,7 @@ struct PcgTeam {
 
 template <class Real>
 bool iterate_in_one_launch(Cuda& cuda, const PcgIterations<Real>& iterations) {
-  if (cuda.batch || cuda.profile || !cuda.graphs || iterations.rows > kMostRowsInOneLaunch) return false;
+  if (!may_take_one_launch(cuda) || iterations.rows > kMostRowsInOneLaunch) return false;
   return for_grid_team(cuda, "solve: iterations",
                        PcgTeam<Real>{iterations, iterations.cycle ? *iterations.cycle : CycleView<Real>{}});
 }

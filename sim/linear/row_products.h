@@ -4,7 +4,8 @@
 //
 //   lane = 9 b + 3 c + r      row r and column c of every third block, from the b-th on; five lanes idle
 //
-// and what it adds up belongs to component r of the product, r = lane % 3.
+// and what it adds up belongs to component r of the product, r = lane % 3.  Of nine lanes b is 0, and each
+// reads its number of every block.
 #pragma once
 
 #include "sim/device/rows.h"
@@ -13,38 +14,61 @@
 
 namespace hysteron {
 
+// Component k of v[i].
+template <class Real>
+HYST_HD Real number_of(const Vec3<Real>* v, int i, int k) {
+  return v[i].data()[k];
+}
+
+// z + beta p, found where it is read.
+template <class Real>
+struct NextDirection {
+  const Vec3<Real>*z, *p;
+  Real beta;
+  HYST_HD Vec3<Real> operator[](int i) const { return z[i] + beta * p[i]; }
+};
+template <class Real>
+HYST_HD Real number_of(const NextDirection<Real>& v, int i, int k) {
+  return v.z[i].data()[k] + v.beta * v.p[i].data()[k];
+}
+
 template <class Lanes, class Real>
 class LaneSum {
+  static constexpr int kBlocks = Lanes::kCount / 9;  // at once
+
  public:
   HYST_HD explicit LaneSum(const Lanes& lanes)
-      : lanes_(lanes), entry_(lanes.index() % 9), active_(lanes.index() < 27) {}
+      : lanes_(lanes), entry_(lanes.index() % 9), active_(lanes.index() < 9 * kBlocks) {}
 
-  // Block times vector.
-  HYST_HD void add(const Mat3<Real>& block, const Vec3<Real>& v) {
-    if (lanes_.index() < 9) part_ += block.data()[entry_] * v.data()[column()];
+  template <class Vector>
+  HYST_HD void add(const Mat3<Real>& block, const Vector& v, int i) {  // times v[i]
+    if (lanes_.index() < 9) part_ += block.data()[entry_] * number_of(v, i, column());
   }
   // block[j] times v[col[j]] for j in [first, last).
-  HYST_HD void add(const Mat3<Real>* block, const int* col, int first, int last, const Vec3<Real>* v) {
+  template <class Vector>
+  HYST_HD void add(const Mat3<Real>* block, const int* col, int first, int last, const Vector& v) {
     if (!active_) return;
-    for (int j = first + lanes_.index() / 9; j < last; j += 3)
-      part_ += block[j].data()[entry_] * v[col[j]].data()[column()];
+    for (int j = first + lanes_.index() / 9; j < last; j += kBlocks)
+      part_ += block[j].data()[entry_] * number_of(v, col[j], column());
   }
   // factor[j] times v[index[j]] for j in [first, last).
-  HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vec3<Real>* v) {
+  template <class Vector>
+  HYST_HD void add(const Real* factor, const int* index, int first, int last, const Vector& v) {
     if (!active_) return;
-    for (int j = first + lanes_.index() / 3; j < last; j += 9)
-      part_ += factor[j] * v[index[j]].data()[lanes_.index() % 3];
+    for (int j = first + lanes_.index() / 3; j < last; j += 3 * kBlocks)
+      part_ += factor[j] * number_of(v, index[j], lanes_.index() % 3);
   }
   // sign times the forces on a vertex.
   HYST_HD void add(Real sign, const GatheredForces<Real>& forces, int vertex) {
     if (!active_ || !forces.start) return;
-    for (int j = forces.start[vertex] + lanes_.index() / 3; j < forces.start[vertex + 1]; j += 9)
+    for (int j = forces.start[vertex] + lanes_.index() / 3; j < forces.start[vertex + 1]; j += 3 * kBlocks)
       part_ += sign * forces.force[forces.item[j]].data()[lanes_.index() % 3];
   }
 
   // The sum over the lanes, in each of them.
   HYST_HD Vec3<Real> total() const {
-    Real sum = part_ + lanes_.further(part_, 9) + lanes_.further(part_, 18);
+    Real sum = part_;
+    if constexpr (kBlocks == 3) sum = part_ + lanes_.further(part_, 9) + lanes_.further(part_, 18);
     sum = sum + lanes_.further(sum, 3) + lanes_.further(sum, 6);
     return {lanes_.value_of(sum, 0), lanes_.value_of(sum, 1), lanes_.value_of(sum, 2)};
   }
@@ -57,6 +81,35 @@ class LaneSum {
   Real part_ = 0;
 };
 
+// Rows that are given to a warp each; an H100 runs 8,448 warps at once, half of them in one launch.
+inline constexpr int kMostRowsByWarps = 4096;
+
+// for_each_row() for a body that takes any lanes: on a GPU nine threads take each of many rows.
+template <class Device, class Body>
+void for_each_block_row(Device& device, const Kernel& kernel, int rows, const Body& body,
+                        const int* stop = nullptr) {
+  if constexpr (Device::kGpu) {
+    if (rows > kMostRowsByWarps) return for_each_row<NineLanes>(device, kernel, rows, body, stop);
+  }
+  for_each_row(device, kernel, rows, body, stop);
+}
+template <int K, class Device, class Body, class Finish>
+void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, const Body& body,
+                            const Finish& finish) {
+  if constexpr (Device::kGpu) {
+    if (rows > kMostRowsByWarps) return for_each_row_sum<K, NineLanes>(device, kernel, rows, body, finish);
+  }
+  for_each_row_sum<K>(device, kernel, rows, body, finish);
+}
+#ifdef __CUDACC__
+// Team::row_sum() (sim/device/grid_team.h) likewise.
+template <class Team, class Body>
+__device__ double block_row_sum(Team& team, int rows, const Body& body) {
+  if (rows > kMostRowsByWarps) return team.template row_sum<NineLanes>(rows, body);
+  return team.template row_sum<Warp>(rows, body);
+}
+#endif
+
 template <class Lanes, class Real>
 HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matrix, int i,
                              const Vec3<Real>* v) {
@@ -64,7 +117,7 @@ HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matr
     return matrix.times(i, v);
   } else {
     LaneSum<Lanes, Real> sum(lanes);
-    sum.add(matrix.diagonal[i], v[i]);
+    sum.add(matrix.diagonal[i], v, i);
     sum.add(matrix.off_diagonal, matrix.col, matrix.row_ptr[i], matrix.row_ptr[i + 1], v);
     return sum.total();
   }
@@ -77,8 +130,8 @@ struct SystemProduct {
   ScalarRowsView<Real> softening;          // null: none
   GatheredForces<Real> bending, pressing;  // -K v and K v; null: none
 
-  template <class Lanes>
-  HYST_HD Vec3<Real> at(const Lanes& lanes, int i, const Vec3<Real>* v) const {
+  template <class Lanes, class Vector>
+  HYST_HD Vec3<Real> at(const Lanes& lanes, int i, const Vector& v) const {
     if constexpr (Lanes::kCount == 1) {
       Vec3<Real> sum = softening.off_diagonal ? matrix.times(i, v, softening) : matrix.times(i, v);
       if (bending.start) sum -= bending.at(i);
@@ -87,7 +140,7 @@ struct SystemProduct {
     } else {
       LaneSum<Lanes, Real> sum(lanes);
       const int first = matrix.row_ptr[i], last = matrix.row_ptr[i + 1];
-      sum.add(matrix.diagonal[i], v[i]);
+      sum.add(matrix.diagonal[i], v, i);
       sum.add(matrix.off_diagonal, matrix.col, first, last, v);
       if (softening.off_diagonal) sum.add(softening.off_diagonal, matrix.col, first, last, v);
       sum.add(Real(-1), bending, i);

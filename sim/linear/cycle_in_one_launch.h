@@ -1,0 +1,102 @@
+// Small levels of multigrid in one launch on a GPU, which none of them fills.
+#pragma once
+
+#include "sim/device/grid_team.h"
+#include "sim/linear/cycle.h"
+#include "sim/linear/level_setup.h"
+
+namespace hysteron {
+
+// Rows beyond which launches of their own are faster; of levels, warps take a row each.
+inline constexpr int kMostRowsInOneLaunch = 32768, kMostNodesInOneLaunch = kMostRowsByWarps;
+
+inline bool may_take_one_launch(const Cpu&) { return false; }
+// False: the caller orders the loops, with the same bits.
+template <class Real>
+bool eigenvalues_in_one_launch(Cpu&, const CycleView<Real>&) {
+  return false;
+}
+// Nothing happens where *stop is not 0.
+template <class Real>
+bool cycle_in_one_launch(Cpu&, const CycleView<Real>&, const Vec3<Real>*, const int*) {
+  return false;
+}
+
+#ifdef __CUDACC__
+// In a batch loops are shared with other cloths; a profile is of loops.
+inline bool may_take_one_launch(const Cuda& cuda) { return cuda.graphs && !cuda.batch && !cuda.profile; }
+
+template <class Real>
+struct EigenvaluesTeam {
+  CycleView<Real> cycle;
+
+  __device__ void operator()(GridTeam& team) const {
+    for (int l = 0; l < cycle.swept; ++l) {
+      const CoarseLevelView<Real>& v = cycle.level[l];
+      team.for_each(v.nodes, RoughStart<Real>{v});
+      for (int step = 1; step < kPowerSteps; ++step)
+        team.for_each_row(v.nodes, PowerStep<Real>{v, step % 2 ? v.x : v.y, step % 2 ? v.y : v.x});
+      Sums<2> total;
+      for (int k = 0; k < 2; ++k) total.term[k] = team.template row_sum<Warp>(v.nodes, RayleighTerm{{v}, k});
+      if (blockIdx.x == 0 && threadIdx.x == 0) *v.inverse_eigenvalue = inverse_eigenvalue(total);
+    }
+  }
+
+ private:
+  struct RayleighTerm {
+    RayleighTerms<Real> terms;
+    int which;
+    __device__ void operator()(int i, const Warp& lanes, Sums<1>& sums) const {
+      Sums<2> both;
+      terms(i, lanes, both);
+      sums.term[0] += both.term[which];
+    }
+  };
+};
+
+template <class Real>
+bool eigenvalues_in_one_launch(Cuda& cuda, const CycleView<Real>& cycle) {
+  return for_grid_team(cuda, "multigrid: eigenvalues", EigenvaluesTeam<Real>{cycle});
+}
+
+// From the finer level's residual to the first level's y.
+template <class Real>
+__device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const Vec3<Real>* residual) {
+  for (int l = 0; l < cycle.levels; ++l) {
+    const CoarseLevelView<Real>& v = cycle.level[l];
+    const Vec3<Real>* finer = l == 0 ? residual : cycle.level[l - 1].x;
+    team.for_each_row(v.nodes, Restriction<Real>{v, finer, l < cycle.swept});
+    if (l == cycle.swept) {
+      team.for_each_row(cycle.dense.rows, cycle.dense);
+      break;
+    }
+    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+    if (l + 1 < cycle.levels) team.for_each_row(v.nodes, LevelResidual<Real>{v});
+  }
+  for (int l = cycle.swept - 1; l >= 0; --l) {
+    const CoarseLevelView<Real>& v = cycle.level[l];
+    if (l + 1 < cycle.levels) team.for_each(v.nodes, CoarseCorrection<Real>{v, cycle.level[l + 1]});
+    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
+    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+  }
+}
+
+template <class Real>
+struct CycleTeam {
+  CycleView<Real> cycle;
+  const Vec3<Real>* residual;
+  const int* stop;  // null: it happens
+
+  __device__ void operator()(GridTeam& team) const {
+    if (!stop || *stop == 0) run_cycle(team, cycle, residual);
+  }
+};
+
+template <class Real>
+bool cycle_in_one_launch(Cuda& cuda, const CycleView<Real>& cycle, const Vec3<Real>* residual,
+                         const int* stop) {
+  return for_grid_team(cuda, "multigrid: small levels", CycleTeam<Real>{cycle, residual, stop});
+}
+#endif
+
+}  // namespace hysteron
