@@ -114,7 +114,7 @@ struct Combination {
   }
 };
 
-// The loops of a cycle over some levels, for one launch (cycle_in_one_launch.h).
+// The loops of a cycle over some levels, for one launch (levels_in_one_launch.h).
 template <class Real>
 struct CycleView {
   static constexpr int kMost = 4;

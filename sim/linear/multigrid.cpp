@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/linear/cycle_in_one_launch.h"
 #include "sim/linear/level_setup.h"
+#include "sim/linear/levels_in_one_launch.h"
 
 namespace hysteron {
 
@@ -110,44 +110,38 @@ void Multigrid<Real, Device>::sweep(CoarseLevel<Real, Device>& level, const int*
   for_each_block_row(device_, sweep, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
 }
 
-// What the finer level left comes down to level l: its solution where that is the last, else what is left.
-template <class Real, class Device>
-void Multigrid<Real, Device>::descend(int l, const Vec3<Real>* residual, const int* stop) {
-  CoarseLevel<Real, Device>& level = level_[l];
-  const CoarseLevelView<Real> v = level.view();
-  const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
-                                                         level.finer.size() * sizeof(Vec3<Real>) +
-                                                         bytes_of(level.inverse, level.b, level.x)};
-  const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
-  for_each_block_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
-  if (l == swept()) return dense_->apply(device_, v.b, v.y, stop);
-  for_each_block_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y}, stop);
-  if (l + 1 < coarse()) for_each_block_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
-}
-
-template <class Real, class Device>
-void Multigrid<Real, Device>::ascend(int l, const int* stop) {
-  if (l + 1 < coarse())
-    for_each(device_,
-             {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
-             level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
-  sweep(level_[l], stop);
-}
-
 template <class Real, class Device>
 void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScalars* scalars) {
+  const int levels = coarse();
   const int* stop = scalars ? &scalars->done : nullptr;
   const Vec3<Real>* residual = r;
-  int l = 0;
-  for (; l < coarse(); residual = level_[l++].x.data()) {
-    if (may_take_one_launch(device_) && has_view_from(l) &&
-        cycle_in_one_launch(device_, view_from(l), residual, stop))
+  for (int l = 0; l < levels; ++l) {
+    const CoarseLevel<Real, Device>& level = level_[l];
+    const CoarseLevelView<Real> v = level_[l].view();
+    const Kernel restriction = {"multigrid: restrict", level.gather_bytes() +
+                                                           level.finer.size() * sizeof(Vec3<Real>) +
+                                                           bytes_of(level.inverse, level.b, level.x)};
+    const Kernel rest = {"multigrid: residual", level.matrix_bytes() + bytes_of(level.b, level.x, level.y)};
+    for_each_block_row(device_, restriction, v.nodes, Restriction<Real>{v, residual, l < swept()}, stop);
+    if (l == swept()) {
+      dense_->apply(device_, v.b, v.y, stop);
       break;
-    descend(l, residual, stop);
+    }
+    for_each_block_row(device_, sweep_of(level), v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y},
+                       stop);
+    if (l + 1 < levels) for_each_block_row(device_, rest, v.nodes, LevelResidual<Real>{v}, stop);
+    residual = v.x;
   }
-  for (l = std::min(l, swept()) - 1; l >= 0; --l) ascend(l, stop);
+  for (int l = swept() - 1; l >= 0; --l) {
+    if (l + 1 < levels)
+      for_each(
+          device_,
+          {"multigrid: correct", bytes_of(level_[l + 1].finer, level_[l + 1].y, level_[l].y, level_[l].y)},
+          level_[l].nodes, CoarseCorrection<Real>{level_[l].view(), level_[l + 1].view()});
+    sweep(level_[l], stop);
+  }
   const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
-                    from_coarse = coarse() > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
+                    from_coarse = levels > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
   for_each_sum<1>(
       device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
       combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {

@@ -57,10 +57,7 @@ class Multigrid : public Preconditioner<Real, Device> {
   CycleView<Real> view_from(int first);
   // Coarse matrix of the next finer level's, and a plate of that rigidity; held may be null.
   void coarsen(BlockRowsView<Real> finer, const char* held, Real rigidity, CoarseLevel<Real, Device>& level);
-  // Of a cycle, whose levels change nothing where *stop is not 0:
   void sweep(CoarseLevel<Real, Device>& level, const int* stop);  // twice, from y to y
-  void descend(int l, const Vec3<Real>* residual, const int* stop);
-  void ascend(int l, const int* stop);
 
   Device& device_;
   int vertices_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/device/grid_team.h"
-#include "sim/linear/cycle_in_one_launch.h"
+#include "sim/linear/levels_in_one_launch.h"
 #include "sim/linear/pcg_loops.h"
 
 namespace hysteron {

@@ -43,13 +43,19 @@ class LinearSolvesOnEachDevice : public testing::TestWithParam<const char*> {
     ASSERT_TRUE(solves);
   }
   static bool on_gpu() { return GetParam() == std::string("gpu"); }
+  // On a GPU one more, whose rows and first level are too many for a warp each and for one launch.
+  static std::vector<int> triangles_here() {
+    std::vector<int> all(std::begin(kTriangles), std::end(kTriangles));
+    if (on_gpu()) all.push_back(150000);
+    return all;
+  }
   std::unique_ptr<test::LinearSolves> solves;
 };
 INSTANTIATE_TEST_SUITE_P(Devices, LinearSolvesOnEachDevice, testing::Values("cpu", "gpu"),
                          [](const auto& device) { return std::string(device.param); });
 
 TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
-  for (const int triangles : kTriangles)
+  for (const int triangles : triangles_here())
     for (const bool multigrid : {false, true}) {
       const LinearSolve solve = solves->solve(mesh_of(triangles), multigrid, kTolerance);
       EXPECT_TRUE(solve.converged) << triangles;
@@ -59,7 +65,7 @@ TEST_P(LinearSolvesOnEachDevice, LeaveTheResidualThatTheyWereAskedFor) {
 }
 
 TEST_P(LinearSolvesOnEachDevice, HaveTheBitsOfBatchesTwiceTheSame) {
-  for (const int triangles : kTriangles)
+  for (const int triangles : triangles_here())
     for (const bool multigrid : {false, true}) {
       const ClothMesh mesh = mesh_of(triangles);
       constexpr double kLoose = 1e-4;

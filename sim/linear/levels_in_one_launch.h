@@ -16,11 +16,6 @@ template <class Real>
 bool eigenvalues_in_one_launch(Cpu&, const CycleView<Real>&) {
   return false;
 }
-// Nothing happens where *stop is not 0.
-template <class Real>
-bool cycle_in_one_launch(Cpu&, const CycleView<Real>&, const Vec3<Real>*, const int*) {
-  return false;
-}
 
 #ifdef __CUDACC__
 // In a batch loops are shared with other cloths; a profile is of loops.
@@ -79,23 +74,6 @@ __device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const Ve
     team.for_each_row(v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
     team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
   }
-}
-
-template <class Real>
-struct CycleTeam {
-  CycleView<Real> cycle;
-  const Vec3<Real>* residual;
-  const int* stop;  // null: it happens
-
-  __device__ void operator()(GridTeam& team) const {
-    if (!stop || *stop == 0) run_cycle(team, cycle, residual);
-  }
-};
-
-template <class Real>
-bool cycle_in_one_launch(Cuda& cuda, const CycleView<Real>& cycle, const Vec3<Real>* residual,
-                         const int* stop) {
-  return for_grid_team(cuda, "multigrid: small levels", CycleTeam<Real>{cycle, residual, stop});
 }
 #endif
 
