@@ -82,7 +82,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
 // What the chunks' check sums say, which stb_image does not read: "" if all is well.
 std::string damage_of(std::span<const std::uint8_t> bytes) {
   constexpr size_t kSignature = 8, kAround = 12;  // [bytes]; of a chunk: length, type, check sum
-  size_t at = kSignature;
+  size_t at = kSignature, data = 0;
   while (at + kAround <= bytes.size()) {
     const size_t length = big_endian(&bytes[at]);
     const std::string type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
@@ -91,6 +91,8 @@ std::string damage_of(std::span<const std::uint8_t> bytes) {
     const bool named = std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c); });
     if (sum != big_endian(&bytes[at + 8 + length]))
       return (named ? "chunk " + type : std::string("a chunk without a name")) + " is damaged";
+    if (type == "IDAT") data += length;
+    if (type == "IDAT" && data == 0) return "chunk IDAT is empty";  // stb_image would copy from nowhere
     if (type == "IEND") return "";
     at += length + kAround;
   }
