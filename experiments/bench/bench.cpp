@@ -47,7 +47,7 @@ struct BenchOptions {
   int parts_triangles = 2000;
   double parts_after = 0.1;
   Numbers batch = {};
-  int batch_threads = 4;
+  int batch_threads = 1;
   double batch_after = 0.1;
   double budget = 120;
 };

@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace hysteron {
@@ -20,9 +21,11 @@ Bounds bounds_of(const Eigen::Vector3i& f, const std::vector<Eigen::Vector3d>& x
   return {x[f[0]].cwiseMin(x[f[1]]).cwiseMin(x[f[2]]), x[f[0]].cwiseMax(x[f[1]]).cwiseMax(x[f[2]])};
 }
 
-bool overlap(const Bounds& a, const Bounds& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+bool overlap(const Bounds& a, const Bounds& b, int axis) {
+  return a.low[axis] <= b.high[axis] && b.low[axis] <= a.high[axis];
 }
+
+using Corners = std::array<Eigen::Vector3d, 3>;
 
 class Crossing {
  public:
@@ -39,13 +42,58 @@ class Crossing {
           theirs = j;
         }
     if (shared > 1) return false;
-    if (shared == 0) return CGAL::do_intersect(triangle(a), triangle(b));
+    if (shared == 0)
+      return !are_apart(corners(a), corners(b)) && CGAL::do_intersect(triangle(a), triangle(b));
+    if (meet_at_their_corner(a, mine, b, theirs)) return false;
     // Beyond the common corner: the side opposite to it meets the other triangle.
     return CGAL::do_intersect(opposite(a, mine), triangle(b)) ||
            CGAL::do_intersect(opposite(b, theirs), triangle(a));
   }
 
  private:
+  // Most pairs are told apart by a plane found in plain arithmetic, with a margin far beyond its rounding;
+  // exact predicates, which take long where triangles lie almost in one plane, see the rest.
+  bool meet_at_their_corner(int a, int mine, int b, int theirs) const {
+    const Eigen::Vector3d& corner = position_[face_[a][mine]];
+    const auto side = [&](int f, int own, int k) { return position_[face_[f][(own + k) % 3]] - corner; };
+    const Eigen::Vector3d a1 = side(a, mine, 1), a2 = side(a, mine, 2), b1 = side(b, theirs, 1),
+                          b2 = side(b, theirs, 2);
+    const Eigen::Vector3d across = (a1 + a2).normalized() - (b1 + b2).normalized();
+    const double size = across.norm();
+    return above({across, size}, a1) && above({across, size}, a2) && above({-across, size}, b1) &&
+           above({-across, size}, b2);
+  }
+  static bool are_apart(const Corners& a, const Corners& b) {
+    const Eigen::Vector3d middle_a = (a[0] + a[1] + a[2]) / 3, middle_b = (b[0] + b[1] + b[2]) / 3;
+    const Eigen::Vector3d between = middle_a - middle_b, at = (middle_a + middle_b) / 2;
+    const double size = between.norm();
+    if (all_above({between, size}, at, a) && all_above({-between, size}, at, b)) return true;
+    return are_beside(a, b) || are_beside(b, a);
+  }
+  // All of `other` on one side of a triangle's plane.
+  static bool are_beside(const Corners& triangle, const Corners& other) {
+    const Eigen::Vector3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], normal = u.cross(v);
+    const double size = u.norm() * v.norm(), reach = u.norm() + v.norm();
+    return all_above({normal, size, reach}, triangle[0], other) ||
+           all_above({-normal, size, reach}, triangle[0], other);
+  }
+  // A plane's normal, what its rounding is relative to, and how far from the plane's origin what lies in it
+  // reaches [m].
+  struct Side {
+    Eigen::Vector3d normal;
+    double size, reach = 0;
+  };
+  static bool all_above(const Side& side, const Eigen::Vector3d& origin, const Corners& points) {
+    return std::all_of(points.begin(), points.end(),
+                       [&](const Eigen::Vector3d& x) { return above(side, x - origin); });
+  }
+  static bool above(const Side& side, const Eigen::Vector3d& x) {
+    constexpr double kMargin = 1e-12;  // rounding is some 1e-15
+    return side.normal.dot(x) > kMargin * side.size * (side.reach + x.norm());
+  }
+  Corners corners(int f) const {
+    return {position_[face_[f][0]], position_[face_[f][1]], position_[face_[f][2]]};
+  }
   Point point(int vertex) const {
     const Eigen::Vector3d& x = position_[vertex];
     return {x.x(), x.y(), x.z()};
@@ -60,17 +108,18 @@ class Crossing {
   const std::vector<Eigen::Vector3d>& position_;
 };
 
-// The axis along which the triangles spread farthest.
-int widest_axis(const std::vector<Bounds>& bounds) {
+// The axes, those first along which the triangles spread farthest.
+std::array<int, 3> axes_by_spread(const std::vector<Bounds>& bounds) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), squares = sum;
   for (const Bounds& b : bounds) {
     sum += b.low;
     squares += b.low.cwiseAbs2();
   }
   const double n = static_cast<double>(bounds.size());
-  int axis = 0;
-  (squares / n - (sum / n).cwiseAbs2()).maxCoeff(&axis);
-  return axis;
+  const Eigen::Vector3d spread = squares / n - (sum / n).cwiseAbs2();
+  std::array<int, 3> axes = {0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return spread[a] > spread[b]; });
+  return axes;
 }
 
 }  // namespace
@@ -80,18 +129,20 @@ std::vector<std::pair<int, int>> intersecting_triangles(const std::vector<Eigen:
                                                         std::size_t most) {
   std::vector<Bounds> bounds;
   for (const auto& f : face) bounds.push_back(bounds_of(f, position));
-  const int axis = widest_axis(bounds);
+  const auto [first, second, third] = axes_by_spread(bounds);
   std::vector<int> order(face.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return bounds[a].low[axis] < bounds[b].low[axis]; });
+            [&, axis = first](int a, int b) { return bounds[a].low[axis] < bounds[b].low[axis]; });
+  std::vector<Bounds> sorted;  // side by side as they are compared
+  for (const int f : order) sorted.push_back(bounds[f]);
   const Crossing cross(face, position);
   std::vector<std::pair<int, int>> found;
   for (std::size_t i = 0; i < order.size() && found.size() < most; ++i)
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const int a = order[i], b = order[j];
-      if (bounds[b].low[axis] > bounds[a].high[axis]) break;
-      if (overlap(bounds[a], bounds[b]) && cross(a, b)) found.emplace_back(std::min(a, b), std::max(a, b));
+    for (std::size_t j = i + 1; j < order.size() && sorted[j].low[first] <= sorted[i].high[first]; ++j) {
+      if (!overlap(sorted[i], sorted[j], second) || !overlap(sorted[i], sorted[j], third)) continue;
+      const auto [a, b] = std::minmax(order[i], order[j]);
+      if (cross(a, b)) found.emplace_back(a, b);
     }
   std::sort(found.begin(), found.end());
   return found;
