@@ -18,52 +18,15 @@ struct SingleLane {
   }
 };
 
-// The 32 threads that take a row on a GPU; all of them call these functions together.
-struct Warp {
-  static constexpr int kCount = 32, kRows = 1;
-  HYST_HD int slot() const { return 0; }  // of the kRows rows that the threads of a warp take
-  HYST_HD int index() const {
-#ifdef __CUDA_ARCH__
-    return threadIdx.x % kCount;
-#else
-    return 0;
-#endif
-  }
+// So many threads of a warp take a row on a GPU, 32 / kThreads rows a warp; all of a row's threads call these
+// functions together.
+template <int kThreads>
+struct LanesOfWarp {
+  static constexpr int kWarp = 32, kCount = kThreads, kRows = kWarp / kThreads;
+  HYST_HD int index() const { return in_warp() % kCount; }
+  HYST_HD int slot() const { return kRows == 1 ? 0 : in_warp() / kCount; }  // of the warp's rows; kRows: none
   HYST_HD bool leads() const { return index() == 0; }
-  // The value of the lane `by` places further; beyond the last, one's own.
-  template <class Real>
-  HYST_HD Real further(Real value, [[maybe_unused]] int by) const {
-#ifdef __CUDA_ARCH__
-    return __shfl_down_sync(0xffffffffu, value, by);
-#else
-    return value;
-#endif
-  }
-  template <class Real>
-  HYST_HD Real value_of(Real value, [[maybe_unused]] int lane) const {
-#ifdef __CUDA_ARCH__
-    return __shfl_sync(0xffffffffu, value, lane);
-#else
-    return value;
-#endif
-  }
-  // Sum of the lanes' matrices in a fixed order; valid in the lane that leads.
-  template <class Matrix>
-  HYST_HD Matrix sum_of(Matrix matrix) const {
-    for (int k = 0; k < static_cast<int>(Matrix::SizeAtCompileTime); ++k)
-      for (int by = kCount / 2; by > 0; by /= 2) matrix.data()[k] += further(matrix.data()[k], by);
-    return matrix;
-  }
-};
-
-// Nine of a warp's threads, as many as a 3x3 block has numbers: a warp takes three rows, whose loads wait
-// together; five threads idle.
-struct NineLanes {
-  static constexpr int kCount = 9, kRows = 3;
-  HYST_HD int slot() const { return Warp{}.index() / kCount; }  // 3: of no row
-  HYST_HD int index() const { return Warp{}.index() % kCount; }
-  HYST_HD bool leads() const { return index() == 0; }
-  // As Warp's, within the row.
+  // The value of the lane `by` places further; beyond the last, any.
   template <class Real>
   HYST_HD Real further(Real value, [[maybe_unused]] int by) const {
 #ifdef __CUDA_ARCH__
@@ -80,10 +43,28 @@ struct NineLanes {
     return value;
 #endif
   }
+  // Sum of the lanes' matrices in a fixed order; valid in the lane that leads.
+  template <class Matrix>
+  HYST_HD Matrix sum_of(Matrix matrix) const {
+    static_assert(kCount == kWarp, "halves of halves");
+    for (int k = 0; k < static_cast<int>(Matrix::SizeAtCompileTime); ++k)
+      for (int by = kCount / 2; by > 0; by /= 2) matrix.data()[k] += further(matrix.data()[k], by);
+    return matrix;
+  }
 
  private:
-  HYST_HD unsigned threads() const { return 0x1ffu << (slot() * kCount); }
+  HYST_HD static int in_warp() {
+#ifdef __CUDA_ARCH__
+    return threadIdx.x % kWarp;
+#else
+    return 0;
+#endif
+  }
+  HYST_HD unsigned threads() const { return (0xffffffffu >> (kWarp - kCount)) << (slot() * kCount); }
 };
+using Warp = LanesOfWarp<32>;
+// As many as a 3x3 block has numbers: the loads of three rows wait together; five threads idle.
+using NineLanes = LanesOfWarp<9>;
 
 template <class Device>
 struct LanesOf;
