@@ -91,8 +91,8 @@ std::string damage_of(std::span<const std::uint8_t> bytes) {
     const bool named = std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c); });
     if (sum != big_endian(&bytes[at + 8 + length]))
       return (named ? "chunk " + type : std::string("a chunk without a name")) + " is damaged";
-    if (type == "IDAT") data += length;
-    if (type == "IDAT" && data == 0) return "chunk IDAT is empty";  // stb_image would copy from nowhere
+    if (type == "IDAT" && (data += length) == 0)
+      return "chunk IDAT is empty";  // stb_image would copy from nowhere
     if (type == "IEND") return "";
     at += length + kAround;
   }

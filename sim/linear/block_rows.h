@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "sim/device/device.h"
+#include "sim/linear/compressed_rows.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
@@ -50,13 +52,9 @@ class BlockRows {
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           if (k != l) neighbours[f[k]].push_back(f[l]);
-    row_ptr_host_.push_back(0);
-    for (auto& row : neighbours) {
-      std::sort(row.begin(), row.end());
-      row.erase(std::unique(row.begin(), row.end()), row.end());
-      col_host_.insert(col_host_.end(), row.begin(), row.end());
-      row_ptr_host_.push_back(static_cast<int>(col_host_.size()));
-    }
+    Adjacency pattern = compressed(neighbours);
+    row_ptr_host_ = std::move(pattern.start);
+    col_host_ = std::move(pattern.item);
     row_ptr_ = Buffer<int, Device>(device, row_ptr_host_);
     col_ = Buffer<int, Device>(device, col_host_);
     off_diagonal_ = Buffer<Mat3<Real>, Device>(device, col_host_.size());

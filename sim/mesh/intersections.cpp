@@ -44,7 +44,7 @@ class Crossing {
     if (shared > 1) return false;
     if (shared == 0)
       return !are_apart(corners(a), corners(b)) && CGAL::do_intersect(triangle(a), triangle(b));
-    if (meet_at_their_corner(a, mine, b, theirs)) return false;
+    if (meet_only_at_their_corner(a, mine, b, theirs)) return false;
     // Beyond the common corner: the side opposite to it meets the other triangle.
     return CGAL::do_intersect(opposite(a, mine), triangle(b)) ||
            CGAL::do_intersect(opposite(b, theirs), triangle(a));
@@ -53,7 +53,7 @@ class Crossing {
  private:
   // Most pairs are told apart by a plane found in plain arithmetic, with a margin far beyond its rounding;
   // exact predicates, which take long where triangles lie almost in one plane, see the rest.
-  bool meet_at_their_corner(int a, int mine, int b, int theirs) const {
+  bool meet_only_at_their_corner(int a, int mine, int b, int theirs) const {
     const Eigen::Vector3d& corner = position_[face_[a][mine]];
     const auto side = [&](int f, int own, int k) { return position_[face_[f][(own + k) % 3]] - corner; };
     const Eigen::Vector3d a1 = side(a, mine, 1), a2 = side(a, mine, 2), b1 = side(b, theirs, 1),
