@@ -17,7 +17,6 @@
 #include "experiments/workbench/pages/simulated_run.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/laws/recovery.h"
-#include "sim/mesh/intersections.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -131,6 +130,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   if (method.linear_solver != Preconditioning::automatic)
     manifest.linear_solver = name_of(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
+  watch_crossings();
 }
 
 // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
@@ -143,22 +143,22 @@ void Session::watch_folds(const std::vector<Eigen::Vector3d>& x) {
   folded_ = std::max(folded_, static_cast<double>(sharp) / std::max<std::size_t>(1, angle.size()));
 }
 
-bool Session::checks_intersections() const {
-  return setup_.options.check_intersections || setup_.scene.self_contact;
+void Session::watch_crossings() {
+  if (!setup_.options.check_intersections && !setup_.scene.self_contact) return;
+  crossings_ = std::make_unique<Crossings>(cloth_.mesh.face, simulation_->cuda_device() >= 0,
+                                           [this](const std::string& line) { run_->progress(line); });
 }
 
-void Session::watch_intersections(const std::vector<Eigen::Vector3d>& x) {
-  if (!checks_intersections()) return;
+void Session::see_crossings(const std::vector<Eigen::Vector3d>& x) {
+  if (!crossings_) return;
   const auto stage = run_->stage("intersections");
-  const auto found = intersecting_triangles(cloth_.mesh.face, x);
-  intersections_ += static_cast<long>(found.size());
-  if (found.empty()) return;
-  const auto [a, b] = found.front();
-  const Eigen::Vector3d at = x[cloth_.mesh.face[a][0]];
-  run_->progress(fmt::format(
-      "warning: {} pairs of triangles cross at t = {:.4f} s, the first are {} and {} near ({:.4f}, {:.4f}, "
-      "{:.4f}) m",
-      found.size(), simulation_->time(), a, b, at.x(), at.y(), at.z()));
+  crossings_->see(simulation_->time(), x);
+}
+
+void Session::note_crossings() {
+  if (!crossings_) return;
+  const auto stage = run_->stage("intersections");
+  run_->metric("intersections", crossings_->pairs());
 }
 
 void Session::note_folds() {
@@ -248,7 +248,7 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   if (pictures_ && pictured) pictures_->frame(*run_);
   watch_folds(x);
   recoveries_.see(*simulation_);
-  watch_intersections(x);
+  see_crossings(x);
   if (pictured) meshes_.write(*run_, setup_.options.export_format, cloth_, *simulation_, x);
   run_->progress(question.progress(instant) + left);
   if (question.settled) run_->metric("fastest_m_per_s", instant.fastest);
@@ -386,7 +386,7 @@ void Session::finish(const std::string& title) {
   }
   if (!setup_.scene.obstacle.empty()) note_deep_contact();
   note_slack_hands();
-  if (checks_intersections()) run_->metric("intersections", intersections_);
+  note_crossings();
   note_folds();
   note_recovery(*run_, *simulation_, setup_.scene, recoveries_);
   run_->path("report.html");

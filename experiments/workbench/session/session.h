@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/pictures.h"
+#include "experiments/workbench/session/crossings.h"
 #include "experiments/workbench/session/interrupts.h"
 #include "experiments/workbench/session/mesh_export.h"
 #include "experiments/workbench/session/probes.h"
@@ -60,8 +62,7 @@ class Session {
   const Cloth& cloth() const { return cloth_; }
   const Scene& scene() const { return setup_.scene; }
   Simulation& simulation() { return *simulation_; }
-  long intersections() const { return intersections_; }  // of all recorded instants, where they are counted
-  Pictures* pictures() { return pictures_.get(); }       // null with --no-images
+  Pictures* pictures() { return pictures_.get(); }  // null with --no-images
 
   // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
@@ -87,8 +88,9 @@ class Session {
   void take_checkpoint(const Question& question, Record& series);
   void pause(const Question& question, Record& series, const Interrupts& interrupts);
   void drop_checkpoint();
-  bool checks_intersections() const;
-  void watch_intersections(const std::vector<Eigen::Vector3d>& x);
+  void watch_crossings();
+  void see_crossings(const std::vector<Eigen::Vector3d>& x);
+  void note_crossings();
   std::string opening_words(const Question& question) const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
@@ -109,8 +111,8 @@ class Session {
   Probes probes_;
   MeshExport meshes_;
   Recoveries recoveries_;
-  long intersections_ = 0;  // pairs of triangles, of all recorded instants
-  double folded_ = 0;       // largest share of sharply folded edges
+  std::unique_ptr<Crossings> crossings_;  // null where they are not counted
+  double folded_ = 0;                     // largest share of sharply folded edges
   bool is_complete_ = false;
   std::string state_;               // of the checkpoint to go on from; empty: none, or gone on
   std::vector<double> resumed_at_;  // [s]

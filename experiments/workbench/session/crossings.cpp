@@ -1,0 +1,44 @@
+#include "experiments/workbench/session/crossings.h"
+
+#include <fmt/core.h>
+
+#include "sim/mesh/intersections.h"
+
+namespace hysteron::experiments {
+
+Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vector3d>& x) const {
+  const auto found = intersecting_triangles(face_, x);
+  if (found.empty()) return {};
+  const auto [a, b] = found.front();
+  const Eigen::Vector3d& at = x[face_[a][0]];
+  return {static_cast<long>(found.size()),
+          fmt::format("warning: {} pairs of triangles cross at t = {:.4f} s, the first are {} and {} near "
+                      "({:.4f}, {:.4f}, {:.4f}) m",
+                      found.size(), time, a, b, at.x(), at.y(), at.z())};
+}
+
+void Crossings::see(double time, const std::vector<Eigen::Vector3d>& x) {
+  take();
+  counting_ = std::async(behind_a_gpu_ ? std::launch::async : std::launch::deferred,
+                         [this, time, x] { return found_in(time, x); });
+  if (!behind_a_gpu_) take();
+}
+
+void Crossings::take() {
+  if (!counting_.valid()) return;
+  const Found found = counting_.get();
+  pairs_ += found.pairs;
+  if (!found.line.empty()) tell_(found.line);
+}
+
+long Crossings::pairs() {
+  take();
+  return pairs_;
+}
+
+void Crossings::visit(Archive& archive) {
+  take();
+  archive(pairs_);
+}
+
+}  // namespace hysteron::experiments

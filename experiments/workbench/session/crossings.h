@@ -1,0 +1,44 @@
+// Counts the triangles that pass through each other, at every recorded instant of a run.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/base/archive.h"
+#include "sim/mesh/cloth_mesh.h"
+
+namespace hysteron::experiments {
+
+// Behind a GPU an instant is counted on a thread of its own while the next steps run, and told with the next
+// one.
+class Crossings {
+ public:
+  // `tell` gets a line for each instant that has some, on the caller's thread.
+  Crossings(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
+            std::function<void(const std::string&)> tell)
+      : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}
+
+  void see(double time, const std::vector<Eigen::Vector3d>& x);
+  // Pairs of all instants seen; waits for the last of them.
+  long pairs();
+  void visit(Archive& archive);
+
+ private:
+  struct Found {
+    long pairs;
+    std::string line;  // empty: none
+  };
+  Found found_in(double time, const std::vector<Eigen::Vector3d>& x) const;
+  void take();
+
+  std::vector<Eigen::Vector3i> face_;
+  bool behind_a_gpu_;
+  std::function<void(const std::string&)> tell_;
+  long pairs_ = 0;
+  std::future<Found> counting_;  // the last: its thread reads the faces
+};
+
+}  // namespace hysteron::experiments
