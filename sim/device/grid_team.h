@@ -50,12 +50,13 @@ class GridTeam {
     for (int i = blockIdx.x * kThreads + threadIdx.x; i < n; i += gridDim.x * kThreads) body(i);
     barrier_.wait();
   }
-  template <class Body>
+  template <class Lanes = Warp, class Body>
   __device__ void for_each_row(int rows, const Body& body) {
     constexpr int kWarps = kThreads / Warp::kCount;
     // Neighbouring rows go to different multiprocessors: few rows use all of them.
-    const int warp = threadIdx.x / Warp::kCount * gridDim.x + blockIdx.x;
-    for (int i = warp; i < rows; i += gridDim.x * kWarps) body(i, Warp{});
+    const int first = threadIdx.x / Warp::kCount * gridDim.x + blockIdx.x;
+    for (int warp = first; warp < warps_for<Lanes>(rows); warp += gridDim.x * kWarps)
+      at_row_of<Lanes>(warp, rows, body);
     barrier_.wait();
   }
   // The total, in every thread.

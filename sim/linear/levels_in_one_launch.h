@@ -7,8 +7,10 @@
 
 namespace hysteron {
 
-// Rows beyond which launches of their own are faster; of levels, warps take a row each.
-inline constexpr int kMostRowsInOneLaunch = 32768, kMostNodesInOneLaunch = kMostRowsByWarps;
+// Rows beyond which launches of their own are faster (an H100: 66,000 rows are not yet, 150,000 are).
+inline constexpr int kMostRowsInOneLaunch = 80000;
+// Nodes of a level whose eigenvalue is found in one launch: warps take a row each.
+inline constexpr int kMostNodesInOneLaunch = kMostRowsByWarps;
 
 inline bool may_take_one_launch(const Cpu&) { return false; }
 // False: the caller orders the loops, with the same bits.
@@ -60,19 +62,19 @@ __device__ void run_cycle(GridTeam& team, const CycleView<Real>& cycle, const Ve
   for (int l = 0; l < cycle.levels; ++l) {
     const CoarseLevelView<Real>& v = cycle.level[l];
     const Vec3<Real>* finer = l == 0 ? residual : cycle.level[l - 1].x;
-    team.for_each_row(v.nodes, Restriction<Real>{v, finer, l < cycle.swept});
+    for_each_block_row(team, v.nodes, Restriction<Real>{v, finer, l < cycle.swept});
     if (l == cycle.swept) {
       team.for_each_row(cycle.dense.rows, cycle.dense);
       break;
     }
-    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
-    if (l + 1 < cycle.levels) team.for_each_row(v.nodes, LevelResidual<Real>{v});
+    for_each_block_row(team, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+    if (l + 1 < cycle.levels) for_each_block_row(team, v.nodes, LevelResidual<Real>{v});
   }
   for (int l = cycle.swept - 1; l >= 0; --l) {
     const CoarseLevelView<Real>& v = cycle.level[l];
     if (l + 1 < cycle.levels) team.for_each(v.nodes, CoarseCorrection<Real>{v, cycle.level[l + 1]});
-    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
-    team.for_each_row(v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
+    for_each_block_row(team, v.nodes, JacobiSweep<Real>{v, kFirstDamping, v.y, v.x});
+    for_each_block_row(team, v.nodes, JacobiSweep<Real>{v, kSecondDamping, v.x, v.y});
   }
 }
 #endif

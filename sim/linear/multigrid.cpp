@@ -95,7 +95,8 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
     coarsen(l == 0 ? matrix : level_[l - 1].view().matrix, l == 0 ? held : nullptr,
             static_cast<Real>(plate_change(static_cast<int>(l))) * bending, level_[l]);
   for (int l = 0; l < swept(); ++l) {
-    if (may_take_one_launch(device_) && has_view_from(l) && eigenvalues_in_one_launch(device_, view_from(l)))
+    if (may_take_one_launch(device_) && has_view_from(l) && level_[l].nodes <= kMostNodesInOneLaunch &&
+        eigenvalues_in_one_launch(device_, view_from(l)))
       break;
     find_eigenvalue(level_[l]);
   }
@@ -159,8 +160,7 @@ Combination<Real> Multigrid<Real, Device>::combination(const Vec3<Real>* r, Vec3
 
 template <class Real, class Device>
 bool Multigrid<Real, Device>::has_view_from(int first) const {
-  return coarse() - first <= CycleView<Real>::kMost &&
-         (first == coarse() || level_[first].nodes <= kMostNodesInOneLaunch);
+  return coarse() - first <= CycleView<Real>::kMost;
 }
 
 template <class Real, class Device>

@@ -102,7 +102,12 @@ void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, cons
   for_each_row_sum<K>(device, kernel, rows, body, finish);
 }
 #ifdef __CUDACC__
-// Team::row_sum() (sim/device/grid_team.h) likewise.
+// Team::for_each_row() and row_sum() (sim/device/grid_team.h) likewise.
+template <class Team, class Body>
+__device__ void for_each_block_row(Team& team, int rows, const Body& body) {
+  if (rows > kMostRowsByWarps) return team.template for_each_row<NineLanes>(rows, body);
+  team.for_each_row(rows, body);
+}
 template <class Team, class Body>
 __device__ double block_row_sum(Team& team, int rows, const Body& body) {
   if (rows > kMostRowsByWarps) return team.template row_sum<NineLanes>(rows, body);

@@ -13,6 +13,8 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/linear/levels_in_one_launch.h"
+
 namespace hysteron {
 
 namespace {
@@ -81,9 +83,10 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       v_before_(device, two_step_ ? vertices_ : 0),
       displacement_(device, self_contact ? vertices_ : 0),
       forces_(device, static_ ? vertices_ : 0) {
-  // Where a GPU waits for loops rather than for memory; on a CPU they wait for nothing.
-  constexpr int kMostAssembled = 32768;  // vertices
-  if (Device::kGpu && !bending_lags_ && vertices_ <= kMostAssembled) potential_.assemble();
+  // Solves in one launch take the whole matrix; others gain by it where a GPU waits for loops rather than for
+  // memory.  On a CPU they wait for nothing.
+  const int most = self_contact ? 32768 : kMostRowsInOneLaunch;  // vertices
+  if (Device::kGpu && !bending_lags_ && vertices_ <= most) potential_.assemble();
 }
 
 template <class Real, class Device>

@@ -1,0 +1,48 @@
+// Iterations of a linear solve do not grow with the aspect ratio of the cloth.
+#include <gtest/gtest.h>
+
+#include "tests/sim/time/scenes.h"
+
+namespace hysteron {
+namespace {
+
+// Of strips so many squares wide and long, held at one end, that begin to swing: linear iterations by Newton's.
+double iterations_of_a_solve(int wide, int long_, Preconditioning solver) {
+  constexpr double kWidth = 0.02;
+  Scene scene = test::free_square(2 * wide * long_);
+  scene.cloth.shape = "strip";
+  scene.cloth.width = kWidth;
+  scene.cloth.length = kWidth * long_ / wide;
+  scene.law = "prandtl";
+  scene.integrator = Integrator::implicit;
+  scene.step = 1.0 / 60;
+  scene.solver_tolerance = Scene{}.solver_tolerance;
+  scene.linear_solver = solver;
+  Pin held;
+  held.low = {-1, -1, -1};
+  held.high = {0.011, 1, 1};
+  scene.pin = {held};
+  const auto simulation = test::Trial(scene).after(3);
+  return simulation->solver_iterations() / simulation->newton_iterations();
+}
+
+class SlenderCloth : public testing::TestWithParam<int> {};
+
+TEST_P(SlenderCloth, TakesNoMoreIterationsOfMultigridAtFortyToOne) {
+  constexpr double kMost = 40;
+  const double square = iterations_of_a_solve(GetParam(), GetParam(), Preconditioning::multigrid),
+               slender = iterations_of_a_solve(GetParam(), 40 * GetParam(), Preconditioning::multigrid);
+  EXPECT_GT(slender, 2);
+  EXPECT_LE(slender, kMost);
+  EXPECT_LE(slender, 2 * square);
+}
+
+TEST_P(SlenderCloth, TakesAFewIterationsWithAFactorisation) {
+  EXPECT_LE(iterations_of_a_solve(GetParam(), 40 * GetParam(), Preconditioning::cholesky), 6);
+}
+
+INSTANTIATE_TEST_SUITE_P(SquaresWide, SlenderCloth, testing::Values(3, 6),
+                         [](const auto& info) { return std::to_string(info.param); });
+
+}  // namespace
+}  // namespace hysteron
