@@ -127,15 +127,20 @@ HYST_HD inline Mat3<Real> membrane_block(const MembraneRest<Real>& rest, const M
   return block;
 }
 
-// One of its entries, the same bits.
+// One of its columns, the same bits.
 template <class Real>
-HYST_HD inline Real membrane_entry(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
-                                   Real factor, const Deformation<Real>& f,
-                                   const MembraneStress<Real>& tension, int i, int j, int row, int col) {
+HYST_HD inline Vec3<Real> membrane_column(const MembraneRest<Real>& rest, const MembraneStiffness<Real>& c,
+                                          Real factor, const Deformation<Real>& f,
+                                          const MembraneStress<Real>& tension, int i, int j, int col) {
   const MembraneCoefficients<Real> k = membrane_coefficients(rest, c, factor, i, j);
   const Real r1 = k.k11 * f.f1[col] + k.k12 * f.f2[col], r2 = k.k21 * f.f1[col] + k.k22 * f.f2[col];
-  const Real entry = f.f1[row] * r1 + f.f2[row] * r2;
-  return row == col ? entry + geometric_stiffness(rest, tension, i, j) : entry;
+  const Real geometric = geometric_stiffness(rest, tension, i, j);
+  Vec3<Real> column;
+  for (int row = 0; row < 3; ++row) {
+    const Real entry = f.f1[row] * r1 + f.f2[row] * r2;
+    column[row] = row == col ? entry + geometric : entry;
+  }
+  return column;
 }
 
 }  // namespace hysteron

@@ -74,12 +74,12 @@ class Membrane {
   void assemble(Real factor, Real geometric, BlockRowsView<Real> matrix, ScalarRowsView<Real> softening = {});
   // Parts of assemble(); public because nvcc allows no device lambda in a private member function.
   void assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix);
-  void assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix);
+  void assemble_columns(Real factor, Real geometric, BlockRowsView<Real> matrix);
   void assemble_softening(ScalarRowsView<Real> softening);
   template <class Stiffness>
   void gather_blocks(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
   template <class Stiffness>
-  void gather_entries(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
+  void gather_columns(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),

@@ -33,7 +33,7 @@ template <class Real, class Device>
 void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView<Real> matrix,
                                       ScalarRowsView<Real> softening) {
   if constexpr (Device::kGpu)
-    assemble_entries(factor, geometric, matrix);
+    assemble_columns(factor, geometric, matrix);
   else
     assemble_blocks(factor, geometric, matrix);
   if (softening.off_diagonal) assemble_softening(softening);
@@ -49,12 +49,12 @@ void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockR
 }
 
 template <class Real, class Device>
-void Membrane<Real, Device>::assemble_entries(Real factor, Real geometric, BlockRowsView<Real> matrix) {
+void Membrane<Real, Device>::assemble_columns(Real factor, Real geometric, BlockRowsView<Real> matrix) {
   if (friction_.any())
-    gather_entries(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
+    gather_columns(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
                    geometric, matrix);
   else
-    gather_entries(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
+    gather_columns(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
 }
 
 // A CPU computes what the entries of a block have in common once.
@@ -80,11 +80,11 @@ void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real fact
       });
 }
 
-// On a GPU neighbouring threads store neighbouring numbers; all nine of a block read the same triangles, out
-// of the cache, and what they compute again is free beside the stores.
+// On a GPU three threads take a block, a column each: neighbours store side by side, and what the numbers of
+// a column have in common is read once.
 template <class Real, class Device>
 template <class Stiffness>
-void Membrane<Real, Device>::gather_entries(const Stiffness& stiffness, Real factor, Real geometric,
+void Membrane<Real, Device>::gather_columns(const Stiffness& stiffness, Real factor, Real geometric,
                                             BlockRowsView<Real> matrix) {
   const Stiffness c = stiffness;
   const MembraneBlocks<Real> blocks = this->blocks();
@@ -95,15 +95,15 @@ void Membrane<Real, Device>::gather_entries(const Stiffness& stiffness, Real fac
       device_,
       {"membrane matrix",
        bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
-      9 * all_blocks(), HYST_KERNEL(int e) {
-        const int b = e / 9, row = e % 3, col = e % 9 / 3;  // blocks are stored by columns
-        const Real entry = blocks.gather(b, Real(0), [&](int f, int i, int j) {
-          return membrane_entry(blocks.rest[f], c.of(f), factor, deformed[f], scaled(geometric, tension[f]),
-                                i, j, row, col);
+      3 * all_blocks(), HYST_KERNEL(int e) {
+        const int b = e / 3, col = e % 3;
+        const Vec3<Real> column = blocks.gather(b, Vec3<Real>(Vec3<Real>::Zero()), [&](int f, int i, int j) {
+          return membrane_column(blocks.rest[f], c.of(f), factor, deformed[f], scaled(geometric, tension[f]),
+                                 i, j, col);
         });
         Mat3<Real>& block =
             b < blocks.off_diagonal ? matrix.off_diagonal[b] : matrix.diagonal[b - blocks.off_diagonal];
-        block(row, col) = entry;
+        block.col(col) = column;
       });
 }
 

@@ -64,9 +64,9 @@ TEST(MembraneMatrix, IsTheSumOfItsTrianglesGatheredByBlocks) {
   EXPECT_EQ(cloth.assembled(), cloth.expected());
 }
 
-TEST(MembraneMatrix, IsTheSumOfItsTrianglesGatheredByEntries) {
+TEST(MembraneMatrix, IsTheSumOfItsTrianglesGatheredByColumns) {
   Crumpled cloth;
-  cloth.membrane.assemble_entries(kFactor, kGeometric, cloth.rows.view());
+  cloth.membrane.assemble_columns(kFactor, kGeometric, cloth.rows.view());
   EXPECT_EQ(cloth.assembled(), cloth.expected());
 }
 
