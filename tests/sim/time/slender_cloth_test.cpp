@@ -1,4 +1,4 @@
-// Iterations of a linear solve do not grow with the aspect ratio of the cloth.
+// Iterations of a linear solve level off with the aspect ratio of the cloth.
 #include <gtest/gtest.h>
 
 #include "tests/sim/time/scenes.h"
@@ -29,7 +29,7 @@ double iterations_of_a_solve(int wide, int long_, Preconditioning solver) {
 
 class SlenderCloth : public testing::TestWithParam<int> {};
 
-TEST_P(SlenderCloth, TakesNoMoreIterationsOfMultigridAtFortyToOneThanAtTen) {
+TEST_P(SlenderCloth, TakesAtMostFortyIterationsOfMultigridAtFortyToOneAndHalfMoreThanAtTen) {
   constexpr double kMost = 40;
   const double short_strip = iterations_of_a_solve(GetParam(), 10 * GetParam(), Preconditioning::multigrid),
                slender = iterations_of_a_solve(GetParam(), 40 * GetParam(), Preconditioning::multigrid);
