@@ -18,15 +18,16 @@ Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vecto
 }
 
 void Crossings::see(double time, const std::vector<Eigen::Vector3d>& x) {
+  if (!behind_a_gpu_) return add(found_in(time, x));
   take();
-  counting_ = std::async(behind_a_gpu_ ? std::launch::async : std::launch::deferred,
-                         [this, time, x] { return found_in(time, x); });
-  if (!behind_a_gpu_) take();
+  counting_ = std::async(std::launch::async, [this, time, x] { return found_in(time, x); });
 }
 
 void Crossings::take() {
-  if (!counting_.valid()) return;
-  const Found found = counting_.get();
+  if (counting_.valid()) add(counting_.get());
+}
+
+void Crossings::add(const Found& found) {
   pairs_ += found.pairs;
   if (!found.line.empty()) tell_(found.line);
 }

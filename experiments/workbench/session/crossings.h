@@ -28,11 +28,12 @@ class Crossings {
 
  private:
   struct Found {
-    long pairs;
+    long pairs = 0;
     std::string line;  // empty: none
   };
   Found found_in(double time, const std::vector<Eigen::Vector3d>& x) const;
-  void take();
+  void take();  // what is being counted, if anything is
+  void add(const Found& found);
 
   std::vector<Eigen::Vector3i> face_;
   bool behind_a_gpu_;
