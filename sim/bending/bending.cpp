@@ -123,13 +123,8 @@ void Bending<Real, Device>::compute_angles(const Vec3<Real>* x, const Real* prev
         const Real angle = continued_angle(a.theta, previous[h] + rest[h]) - rest[h];
         change[h] = angle;
         if (rates.rate) rates.rate[h] = rates.inverse_time * (angle - rates.reference[h]);
-        Real* g = gradient + 8 * h;
-        for (int k = 0; k < 3; ++k) {
-          g[k] = a.g0[k];
-          g[3 + k] = a.g1[k];
-        }
-        g[6] = a.t0;
-        g[7] = a.t1;
+        Aligned<Real, 8>::of(gradient,
+                             h) = {{a.g0[0], a.g0[1], a.g0[2], a.g1[0], a.g1[1], a.g1[2], a.t0, a.t1}};
       });
 }
 

@@ -133,7 +133,8 @@ void Bending<Real, Device>::add_stiffness_diagonal(Mat3<Real>* diagonal) {
       vertices, HYST_KERNEL(int v) {
         Mat3<Real> block = diagonal[v];
         for (int j = first[v]; j < first[v + 1]; ++j) {
-          const Vec3<Real> g = angle_gradient(gradient + 8 * (item[j] / 4), item[j] % 4);
+          const Aligned<Real, 8> hinge = Aligned<Real, 8>::of(gradient, item[j] / 4);
+          const Vec3<Real> g = angle_gradient(hinge.value, item[j] % 4);
           block += stiffness[item[j] / 4] * g * g.transpose();
         }
         diagonal[v] = block;

@@ -5,6 +5,17 @@
 
 namespace hysteron {
 
+// So many numbers of an array whose beginning and parts lie on boundaries of 16 bytes, which a GPU moves
+// at once.
+template <class Real, int N>
+struct alignas(16) Aligned {
+  Real value[N];
+  HYST_HD static const Aligned& of(const Real* array, int i) {
+    return reinterpret_cast<const Aligned*>(array)[i];
+  }
+  HYST_HD static Aligned& of(Real* array, int i) { return reinterpret_cast<Aligned*>(array)[i]; }
+};
+
 // Of each hinge's angle along v: J v.
 template <class Real>
 struct HingeRates {
@@ -15,7 +26,8 @@ struct HingeRates {
 
   HYST_HD void operator()(int h) const {
     const Eigen::Vector4i c = corner[h];
-    const Real* g = gradient + 8 * h;
+    const Aligned<Real, 8> hinge = Aligned<Real, 8>::of(gradient, h);
+    const Real* g = hinge.value;
     const Vec3<Real> along = v[c[3]] - v[c[2]];
     rate[h] = Vec3<Real>(g[0], g[1], g[2]).dot(v[c[0]] - v[c[2]] - g[6] * along) +
               Vec3<Real>(g[3], g[4], g[5]).dot(v[c[1]] - v[c[2]] - g[7] * along);
@@ -53,14 +65,13 @@ struct HingeForces {
     Real torque = 0;
     for (int j = start[h]; j < start[h + 1]; ++j)
       for (int k = 0; k < D; ++k) torque += coefficient[j * D + k] * moment_area[element[j] * D + k];
-    const Real* g = gradient + 8 * h;
+    const Aligned<Real, 8> hinge = Aligned<Real, 8>::of(gradient, h);
+    const Real* g = hinge.value;
     const Vec3<Real> f0 = -torque * Vec3<Real>(g[0], g[1], g[2]);
     const Vec3<Real> f1 = -torque * Vec3<Real>(g[3], g[4], g[5]);
-    const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1);
-    force[4 * h] = f0;
-    force[4 * h + 1] = f1;
-    force[4 * h + 2] = -(f0 + f1 + f3);
-    force[4 * h + 3] = f3;
+    const Vec3<Real> f3 = -(g[6] * f0 + g[7] * f1), f2 = -(f0 + f1 + f3);
+    Aligned<Real, 12>::of(force->data(), h) = {
+        {f0[0], f0[1], f0[2], f1[0], f1[1], f1[2], f2[0], f2[1], f2[2], f3[0], f3[1], f3[2]}};
   }
 };
 

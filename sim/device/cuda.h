@@ -227,8 +227,10 @@ void launch_sum(Cuda& cuda, const Kernel& kernel, int n, unsigned blocks, int mo
 }
 
 template <int K, class Body, class Finish>
-void for_each_sum(Cuda& cuda, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
-  launch_sum<K>(cuda, kernel, n, sum_blocks(n, kThreadsPerBlock, kSumBlocks), kSumBlocks, body, finish);
+void for_each_sum(Cuda& cuda, const Kernel& kernel, int n, const Body& body, const Finish& finish,
+                  int blocks_each = 1) {
+  const int most = blocks_each * kSumBlocks;
+  launch_sum<K>(cuda, kernel, n, sum_blocks(n, kThreadsPerBlock, most), most, body, finish);
 }
 
 inline void* device_allocate(Cuda& cuda, std::size_t bytes) {

@@ -95,6 +95,10 @@ void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body
       cpu, kernel, rows, [&](int i, Sums<K>& sums) { body(i, SingleLane{}, sums); }, finish);
 }
 
+// Blocks of a sum over rows for each of one over elements, at most: rows keep more loads waiting.  An H100
+// runs them all at once if a thread takes no more than 40 registers, and the most if it takes 32.
+inline constexpr int kRowSumBlocksEach = 3, kMostSumBlocksEach = 4;
+
 #ifdef __CUDACC__
 inline constexpr int kWarpsPerBlock = kThreadsPerBlock / Warp::kCount;
 
@@ -141,14 +145,14 @@ struct LaneOfRow {
   }
 };
 
-// Three times the blocks of a sum over elements: rows keep more loads waiting.
-inline constexpr int kRowSumBlocks = 3 * kSumBlocks;
+inline constexpr int kRowSumBlocks = kRowSumBlocksEach * kSumBlocks;
 
 template <int K, class Lanes = Warp, class Body, class Finish>
-void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish) {
-  const int warps = warps_for<Lanes>(rows);
-  launch_sum<K>(cuda, kernel, warps * Warp::kCount, sum_blocks(warps, kWarpsPerBlock, kRowSumBlocks),
-                kRowSumBlocks, LaneOfRow<Lanes, Body>{rows, body}, finish);
+void for_each_row_sum(Cuda& cuda, const Kernel& kernel, int rows, const Body& body, const Finish& finish,
+                      int blocks_each = kRowSumBlocksEach) {
+  const int warps = warps_for<Lanes>(rows), most = blocks_each * kSumBlocks;
+  launch_sum<K>(cuda, kernel, warps * Warp::kCount, sum_blocks(warps, kWarpsPerBlock, most), most,
+                LaneOfRow<Lanes, Body>{rows, body}, finish);
 }
 #endif
 

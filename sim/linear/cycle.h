@@ -20,11 +20,20 @@ struct Restriction {
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes) const {
-    const Vec3<Real> b = restricted(lanes, level, i, finer);
-    if (!lanes.leads()) return;
-    level.b[i] = b;
-    if (is_swept)
-      level.x[i] = static_cast<Real>(kFirstDamping * *level.inverse_eigenvalue) * (level.inverse[i] * b);
+    const Real factor = is_swept ? static_cast<Real>(kFirstDamping * *level.inverse_eigenvalue) : Real(0);
+    if constexpr (Lanes::kCount == 1) {
+      level.b[i] = level.restricted(i, finer);
+      if (is_swept) level.x[i] = factor * (level.inverse[i] * level.b[i]);
+    } else {
+      const LaneBlock<Lanes, Real> inverse(lanes, level.inverse[i]);
+      LaneSum<Lanes, Real> sum(lanes);
+      sum.add(level.weight, level.item, level.start[i], level.start[i + 1], finer);
+      const int r = lanes.index() % 3;
+      const Real b = sum.component(), change = inverse.times(b);
+      if (lanes.index() >= 3) return;
+      level.b[i].data()[r] = b;
+      if (is_swept) level.x[i].data()[r] = factor * change;
+    }
   }
 };
 
@@ -38,12 +47,17 @@ struct JacobiSweep {
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes) const {
-    // What waits for nothing is read first.
-    const Mat3<Real> inverse = level.inverse[i];
     const Real factor = static_cast<Real>(damping * *level.inverse_eigenvalue);
-    const Vec3<Real> b = level.b[i], before = from[i];
-    const Vec3<Real> residual = b - row_times(lanes, level.matrix, i, from);
-    if (lanes.leads()) to[i] = before + factor * (inverse * residual);
+    if constexpr (Lanes::kCount == 1) {
+      const Vec3<Real> residual = level.b[i] - level.matrix.times(i, from);
+      to[i] = from[i] + factor * (level.inverse[i] * residual);
+    } else {  // what waits for nothing is read first
+      const LaneBlock<Lanes, Real> inverse(lanes, level.inverse[i]);
+      const int r = lanes.index() % 3;
+      const Real b = number_of(level.b, i, r), before = number_of(from, i, r);
+      const Real change = inverse.times(b - lane_sum_of_row(lanes, level.matrix, i, from).component());
+      if (lanes.index() < 3) to[i].data()[r] = before + factor * change;
+    }
   }
 };
 
@@ -54,8 +68,14 @@ struct LevelResidual {
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes) const {
-    const Vec3<Real> residual = level.b[i] - row_times(lanes, level.matrix, i, level.y);
-    if (lanes.leads()) level.x[i] = residual;
+    if constexpr (Lanes::kCount == 1) {
+      level.x[i] = level.b[i] - level.matrix.times(i, level.y);
+    } else {
+      const int r = lanes.index() % 3;
+      const Real b = number_of(level.b, i, r);
+      const Real residual = b - lane_sum_of_row(lanes, level.matrix, i, level.y).component();
+      if (lanes.index() < 3) level.x[i].data()[r] = residual;
+    }
   }
 };
 

@@ -112,9 +112,13 @@ struct PowerStep {
 
   template <class Lanes>
   HYST_HD void operator()(int i, const Lanes& lanes) const {
-    const Mat3<Real> inverse = level.inverse[i];
-    const Vec3<Real> product = row_times(lanes, level.matrix, i, from);
-    if (lanes.leads()) to[i] = inverse * product;
+    if constexpr (Lanes::kCount == 1) {
+      to[i] = level.inverse[i] * level.matrix.times(i, from);
+    } else {
+      const LaneBlock<Lanes, Real> inverse(lanes, level.inverse[i]);
+      const Real product = inverse.times(lane_sum_of_row(lanes, level.matrix, i, from).component());
+      if (lanes.index() < 3) to[i].data()[lanes.index()] = product;
+    }
   }
 };
 

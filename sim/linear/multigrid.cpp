@@ -28,6 +28,15 @@ double plate_change(int level) {
   return std::pow(kPlateSoftening, level) - std::pow(kPlateSoftening, level - 1);
 }
 
+// As many blocks as an H100 runs at once where the solve is not one launch.
+template <class Device, class Body, class Finish>
+void sum_over_vertices(Device& device, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
+  if constexpr (Device::kGpu) {
+    if (n > kMostRowsInOneLaunch) return for_each_sum<1>(device, kernel, n, body, finish, kMostSumBlocksEach);
+  }
+  for_each_sum<1>(device, kernel, n, body, finish);
+}
+
 }  // namespace
 
 template <class Real, class Device>
@@ -143,7 +152,7 @@ void Multigrid<Real, Device>::apply(const Vec3<Real>* r, Vec3<Real>* z, PcgScala
   }
   const std::size_t vectors = 2 * vertices_ * sizeof(Vec3<Real>),
                     from_coarse = levels > 0 ? bytes_of(level_[0].finer, level_[0].y) : 0;
-  for_each_sum<1>(
+  sum_over_vertices(
       device_, {"multigrid: combine", inverse_.bytes() + vectors + from_coarse}, vertices_,
       combination(r, z, scalars), HYST_KERNEL(const Sums<1>& total) {
         if (scalars) scalars->advance(total.term[0]);

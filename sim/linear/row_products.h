@@ -65,11 +65,15 @@ class LaneSum {
       part_ += sign * forces.force[forces.item[j]].data()[lanes_.index() % 3];
   }
 
-  // The sum over the lanes, in each of them.
-  HYST_HD Vec3<Real> total() const {
+  // Component r of the sum over the lanes, in lane r.
+  HYST_HD Real component() const {
     Real sum = part_;
     if constexpr (kBlocks == 3) sum = part_ + lanes_.further(part_, 9) + lanes_.further(part_, 18);
-    sum = sum + lanes_.further(sum, 3) + lanes_.further(sum, 6);
+    return sum + lanes_.further(sum, 3) + lanes_.further(sum, 6);
+  }
+  // The sum over the lanes, in each of them.
+  HYST_HD Vec3<Real> total() const {
+    const Real sum = component();
     return {lanes_.value_of(sum, 0), lanes_.value_of(sum, 1), lanes_.value_of(sum, 2)};
   }
 
@@ -79,6 +83,22 @@ class LaneSum {
   int entry_;
   bool active_;
   Real part_ = 0;
+};
+
+// A block, a number a lane, times a vector of which lane r has component r; so has the product.
+template <class Lanes, class Real>
+class LaneBlock {
+ public:
+  HYST_HD LaneBlock(const Lanes& lanes, const Mat3<Real>& block)
+      : lanes_(lanes), entry_(lanes.index() < 9 ? block.data()[lanes.index()] : Real(0)) {}
+  HYST_HD Real times(Real component) const {
+    const Real part = entry_ * lanes_.value_of(component, lanes_.index() / 3 % 3);
+    return part + lanes_.further(part, 3) + lanes_.further(part, 6);
+  }
+
+ private:
+  Lanes lanes_;
+  Real entry_;
 };
 
 // Rows that are given to a warp each; an H100 runs 8,448 warps at once, half of them in one launch.
@@ -95,9 +115,10 @@ void for_each_block_row(Device& device, const Kernel& kernel, int rows, const Bo
 }
 template <int K, class Device, class Body, class Finish>
 void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, const Body& body,
-                            const Finish& finish) {
+                            const Finish& finish, [[maybe_unused]] int blocks_each = kRowSumBlocksEach) {
   if constexpr (Device::kGpu) {
-    if (rows > kMostRowsByWarps) return for_each_row_sum<K, NineLanes>(device, kernel, rows, body, finish);
+    if (rows > kMostRowsByWarps)
+      return for_each_row_sum<K, NineLanes>(device, kernel, rows, body, finish, blocks_each);
   }
   for_each_row_sum<K>(device, kernel, rows, body, finish);
 }
@@ -116,16 +137,21 @@ __device__ double block_row_sum(Team& team, int rows, const Body& body) {
 #endif
 
 template <class Lanes, class Real>
+HYST_HD LaneSum<Lanes, Real> lane_sum_of_row(const Lanes& lanes, const BlockRowsView<Real>& matrix, int i,
+                                             const Vec3<Real>* v) {
+  LaneSum<Lanes, Real> sum(lanes);
+  sum.add(matrix.diagonal[i], v, i);
+  sum.add(matrix.off_diagonal, matrix.col, matrix.row_ptr[i], matrix.row_ptr[i + 1], v);
+  return sum;
+}
+
+template <class Lanes, class Real>
 HYST_HD Vec3<Real> row_times(const Lanes& lanes, const BlockRowsView<Real>& matrix, int i,
                              const Vec3<Real>* v) {
-  if constexpr (Lanes::kCount == 1) {
+  if constexpr (Lanes::kCount == 1)
     return matrix.times(i, v);
-  } else {
-    LaneSum<Lanes, Real> sum(lanes);
-    sum.add(matrix.diagonal[i], v, i);
-    sum.add(matrix.off_diagonal, matrix.col, matrix.row_ptr[i], matrix.row_ptr[i + 1], v);
-    return sum.total();
-  }
+  else
+    return lane_sum_of_row(lanes, matrix, i, v).total();
 }
 
 // What a system's matrix, softening and elements make of v.
@@ -156,18 +182,5 @@ struct SystemProduct {
     }
   }
 };
-
-// The finer vector seen from coarse node i.
-template <class Lanes, class Real>
-HYST_HD Vec3<Real> restricted(const Lanes& lanes, const CoarseLevelView<Real>& level, int i,
-                              const Vec3<Real>* finer) {
-  if constexpr (Lanes::kCount == 1) {
-    return level.restricted(i, finer);
-  } else {
-    LaneSum<Lanes, Real> sum(lanes);
-    sum.add(level.weight, level.item, level.start[i], level.start[i + 1], finer);
-    return sum.total();
-  }
-}
 
 }  // namespace hysteron

@@ -83,9 +83,10 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       v_before_(device, two_step_ ? vertices_ : 0),
       displacement_(device, self_contact ? vertices_ : 0),
       forces_(device, static_ ? vertices_ : 0) {
-  // Solves in one launch take the whole matrix; others gain by it where a GPU waits for loops rather than for
-  // memory.  On a CPU they wait for nothing.
-  const int most = self_contact ? 32768 : kMostRowsInOneLaunch;  // vertices
+  // Solves in one launch take the whole matrix; those with self-contact, in loops of their own, gain by it
+  // where a GPU waits for loops rather than for memory.  On a CPU they wait for nothing.
+  constexpr int kMostWithSelfContact = 32768;
+  const int most = self_contact ? kMostWithSelfContact : kMostRowsInOneLaunch;  // vertices
   if (Device::kGpu && !bending_lags_ && vertices_ <= most) potential_.assemble();
 }
 
