@@ -78,6 +78,7 @@ void take_back(SweepColumn& column, const SweepJobs& jobs, int exit_code, const 
   if (exit_code == 2) throw Error::request(column.name + ": " + error);
   if (exit_code != 0 && exit_code != 3) throw Error::machine(column.name + ": " + error);
   if (exit_code == 3) column.stopped = reason_of(exit_code, error);
+  if (!column.manifest) return;  // stopped before its first step, and left no folder
   write_text(column.folder / kAsked, asked(column).dump(2) + "\n");
 }
 

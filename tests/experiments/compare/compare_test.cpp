@@ -338,6 +338,19 @@ from = 0.04
       << outcome.out << outcome.err << text_of(out / "table.csv");
 }
 
+// The height of a crease's plate is found by a run of its own, before the run has a folder.
+TEST(Compare, SaysWhyAColumnDidNotBegin) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = program(
+      "compare crease --laws linear --triangles 60 --crease.force 1e7 --device cpu "
+      "--no-images --quiet --out " +
+      out.string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(text_of(out / "table.csv").find("the plate reaches the plane"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out / "linear"));
+}
+
 double last_difference(const fs::path& column) {  // [1/m]
   const auto manifest = nlohmann::json::parse(text_of(column / "manifest.json"));
   return manifest["frames"]["moments"].back()["difference_rms_per_m"].get<double>();
