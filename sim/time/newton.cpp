@@ -84,8 +84,9 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     const double length = std::sqrt(correction.size2 / total_mass);
     // Of potentials: what their sum loses, and what forces make of rounded positions.
     const double extent = std::sqrt(correction.extent2 / total_mass * vertices_);
-    const double blurred =
-        std::max(kRounding<Real> * value.size, is_free ? kBlur<Real> * value.internal * extent : 0.0);
+    const double lost = kRounding<Real> * value.size,
+                 blurred = std::max(lost, kBlur<Real> * value.internal * extent);
+    const double least_gain = is_free ? blurred : lost;
     const double step_length = search(x, value, tried, correction.slope, blurred);
     if (potential_.has_self_contact()) farthest = tuning.longer * step_length * length;
     outcome.step_lengths += step_length;
@@ -93,7 +94,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (step_length == 0) {
       outcome.converged = value.residual <= rounding ||
-                          (balanced && (unmoved || -correction.slope <= blurred));  // no more to gain
+                          (balanced && (unmoved || -correction.slope <= least_gain));  // no more to gain
       outcome.unbalanced = !outcome.converged && limits_.take_unconverged;
       outcome.converged |= outcome.unbalanced;
       outcome.evaluated = false;
