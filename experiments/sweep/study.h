@@ -30,7 +30,8 @@ struct StudyRun {
 };
 
 struct Study {
-  std::string file;
+  std::string file;  // or a sweep's manifest
+  std::string name;  // as it was called
   std::string experiment;
   std::vector<Flag> shared;  // keys that all runs have in common
   std::vector<StudyAxis> axes;
@@ -40,8 +41,9 @@ struct Study {
   std::vector<StudyRun> runs;
 };
 
-// Of a file or of assets/studies.  Throws Error::machine if it cannot be read, Error::request with file,
-// line, key and what is allowed for everything that a run would refuse of a single key.
+// Of a file, of assets/studies, or, by its manifest, of a sweep: all but its [resources].  Throws
+// Error::machine if it cannot be read, Error::request with file, line, key and what is allowed for everything
+// that a run would refuse of a single key.
 Study read_study(const std::string& name_or_file);
 
 // Every combination of the axes' values, the last axis first; sampled axes go together.  Names are those of

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/sweep/latin_hypercube.h"
+#include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/scene/assets.h"
@@ -74,14 +77,19 @@ std::string flag_text(const Value& value) {
 
 class StudyFile {
  public:
-  explicit StudyFile(const std::string& file) : file_(file) { study_.file = file; }
+  // recorded: `root` is of a manifest (recorded_study.h).
+  StudyFile(const std::string& file, const std::string& name, bool recorded)
+      : file_(file), recorded_(recorded) {
+    study_.file = file;
+    study_.name = name;
+  }
 
   Study read(const TomlNode& root) {
     refuse_unknown(root, {"experiment", "scene", "axis", "sample", "seeds", "metrics", "resources"}, "");
     choose_experiment(root);
     if (const TomlNode* scene = root.find("scene")) read_scene("", table(*scene));
     if (const TomlNode* axes = root.find("axis")) read_axes(*axes);
-    read_sample(root.find("sample"));
+    if (!recorded_) read_sample(root.find("sample"));
     if (const TomlNode* seeds = root.find("seeds")) add_seeds(*seeds);
     if (const TomlNode* metrics = root.find("metrics")) study_.metrics = texts(*metrics);
     if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
@@ -210,8 +218,11 @@ class StudyFile {
     if (axes.kind != TomlNode::Kind::array) throw refusal(axes, "axis must be an array of tables, [[axis]]");
     for (const TomlNode& node : axes.children) {
       table(node);
-      refuse_unknown(node, {"key", "values", "linear", "log"}, "axis.");
+      if (!recorded_) refuse_unknown(node, {"key", "values", "linear", "log"}, "axis.");
       read_axis(flag_of(text(node, "key", "axis.key")), node);
+      if (!recorded_) continue;
+      study_.axes.back().logarithmic = node.find("scale");
+      study_.axes.back().sampled = node.find("sampled");
     }
   }
 
@@ -219,7 +230,7 @@ class StudyFile {
     const KeyDescription& description = known_key(key, *node.find("key"));
     if (!set_.insert(key).second)
       throw refusal(node, key + " is set twice: an axis varies what nothing else sets").of(key, "");
-    if (node.children.size() != 2)
+    if (!recorded_ && node.children.size() != 2)
       throw refusal(node, "the axis " + key + " must have one of values, linear, log").of(key, "");
     const TomlNode& given = node.children[node.children[0].key == "key" ? 1 : 0];
     StudyAxis axis{key, description.unit, {}, false, given.key == "log", false};
@@ -346,6 +357,7 @@ class StudyFile {
   }
 
   std::string file_;
+  bool recorded_;
   Study study_;
   Keys keys_;                  // without fields
   std::set<std::string> set_;  // by [scene] or an axis
@@ -354,8 +366,13 @@ class StudyFile {
 }  // namespace
 
 Study read_study(const std::string& name_or_file) {
+  if (name_or_file.ends_with(".json")) {
+    const Manifest manifest = read_manifest(name_or_file);
+    const TomlNode recorded = recorded_study(manifest, name_or_file);
+    return StudyFile(name_or_file, manifest.keys->value("study", ""), true).read(recorded);
+  }
   const std::string file = find_asset("studies", name_or_file, "sweep").string();
-  return StudyFile(file).read(read_toml(file, TomlLists::allowed));
+  return StudyFile(file, asset_name(file), false).read(read_toml(file, TomlLists::allowed));
 }
 
 }  // namespace hysteron::experiments

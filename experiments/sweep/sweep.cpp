@@ -14,6 +14,7 @@
 
 #include "experiments/sweep/outcome.h"
 #include "experiments/sweep/plots.h"
+#include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/gpu_choice.h"
@@ -70,17 +71,6 @@ std::vector<SweepColumn> columns_of(const Study& study, const std::filesystem::p
   for (const StudyRun& run : study.runs)
     columns.push_back(column_of(run.name, line_of(study, run), {}, out / "runs"));
   return columns;
-}
-
-// What the manifest keeps of the study, whose file may be changed.
-Json keys_of(const Study& study) {
-  Json shared = Json::array(), axes = Json::array();
-  for (const Flag& flag : study.shared) shared.push_back(flag.path + "=" + flag.text);
-  for (const StudyAxis& axis : study.axes) axes.push_back({{"key", axis.key}, {"values", axis.values}});
-  return {{"study", asset_name(study.file)},
-          {"experiment", study.experiment},
-          {"shared", shared},
-          {"axes", axes}};
 }
 
 SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {

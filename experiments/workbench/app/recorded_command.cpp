@@ -76,6 +76,7 @@ CommandLine line_that_repeats(const RecordedRun& run) {
   } else {
     find_scene(line, run);
   }
+  if (m.experiment == "sweep") line.names = {run.file.string()};  // its study's file may be another by now
   line.command = command_of(line);
   return line;
 }

@@ -127,5 +127,37 @@ TEST_F(Sweep, WritesAWorkflowOfAJobForEachRun) {
   for (const char* file : {"Snakefile", "slurm/config.yaml"}) EXPECT_TRUE(fs::exists(flow / file)) << file;
 }
 
+// The manifest keeps the study, whose file may be gone: axes, what all runs share, and what pages show.
+TEST_F(Sweep, IsRunAgainFromItsManifestAlone) {
+  write(R"(experiment = "kes"
+metrics = ["2HB_N"]
+[scene]
+no-images = true
+law = "prandtl"
+[scene.param]
+stack = 8
+[[axis]]
+key = "fabric.k0"
+log = [40, 80]
+[[axis]]
+key = "fabric.b2"
+linear = [1e-6, 2e-6]
+[[axis]]
+key = "fabric.b1"
+values = [5e-6, 6e-6]
+[sample]
+method = "latin"
+n = 3
+)");
+  ASSERT_EQ(run("").exit_code, 0);
+  ASSERT_TRUE(fs::remove(study_));
+  const std::string folder = (folder_.path() / "out").string(), again = (folder_.path() / "again").string();
+  const Outcome outcome = program("rerun " + folder + " --no-images --out " + again);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  ASSERT_EQ(table().rows.size(), 6u);
+  expect_same(without_time(table("again")), without_time(table()));
+  EXPECT_EQ(manifest("again")["scene"], manifest("out")["scene"]);
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
