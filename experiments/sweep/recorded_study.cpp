@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
-#include "sim/scene/assets.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -35,6 +34,16 @@ TomlNode axis_node(const Json& axis) {
   return node;
 }
 
+TomlNode study_node(const Json& keys) {
+  TomlNode root, scene{TomlNode::Kind::table, "scene", 0, {}, {}},
+      axes{TomlNode::Kind::array, "axis", 0, {}, {}};
+  for (const Json& flag : keys.at("shared")) scene.children.push_back(shared_node(flag));
+  for (const Json& axis : keys.at("axes")) axes.children.push_back(axis_node(axis));
+  root.children = {value_node("experiment", keys.at("experiment")), scene, axes};
+  if (keys.contains("metrics")) root.children.push_back(list_node("metrics", keys.at("metrics")));
+  return root;
+}
+
 }  // namespace
 
 Json keys_of(const Study& study) {
@@ -51,16 +60,11 @@ Json keys_of(const Study& study) {
 }
 
 TomlNode recorded_study(const Manifest& manifest, const std::string& file) {
-  if (manifest.experiment != "sweep" || !manifest.keys || !manifest.keys->contains("axes"))
-    throw Error::request(file + " is the manifest of no sweep");
-  const Json& keys = *manifest.keys;
-  TomlNode root, scene{TomlNode::Kind::table, "scene", 0, {}, {}},
-      axes{TomlNode::Kind::array, "axis", 0, {}, {}};
-  for (const Json& flag : keys.at("shared")) scene.children.push_back(shared_node(flag));
-  for (const Json& axis : keys.at("axes")) axes.children.push_back(axis_node(axis));
-  root.children = {value_node("experiment", keys.at("experiment")), scene, axes};
-  if (keys.contains("metrics")) root.children.push_back(list_node("metrics", keys.at("metrics")));
-  return root;
+  try {
+    if (manifest.experiment == "sweep" && manifest.keys) return study_node(*manifest.keys);
+  } catch (const Json::exception&) {  // other keys, or others than texts
+  }
+  throw Error::request(file + " is not the manifest of a sweep").of("study", file);
 }
 
 }  // namespace hysteron::experiments

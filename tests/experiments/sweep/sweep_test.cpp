@@ -159,5 +159,18 @@ n = 3
   EXPECT_EQ(manifest("again")["scene"], manifest("out")["scene"]);
 }
 
+TEST_F(Sweep, IsNotReadFromTheManifestOfAnotherRun) {
+  ASSERT_EQ(run("").exit_code, 0);
+  nlohmann::json other = manifest("out");
+  study_ = folder_.path() / "other.json";
+  for (const char* keys : {R"({"law": "prandtl"})", R"({"shared": [1], "axes": [{"key": 2}]})"}) {
+    other["scene"] = nlohmann::json::parse(keys);
+    write(other.dump());
+    const Outcome outcome = run("", "again");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("is not the manifest of a sweep"), std::string::npos) << outcome.err;
+  }
+}
+
 }  // namespace
 }  // namespace hysteron::experiments
