@@ -25,8 +25,17 @@ std::string file_name(const fs::path& file) { return file.filename().string(); }
 bool is_aside(const std::string& key) {
   const auto ends = [&](const char* ending) { return key.ends_with(ending); };
   return ends("_per_step") || ends("steps_count") || ends("_relative") || key == "parts_count" ||
-         (key.starts_with("recovery_") && ends("_count")) || key == "sharp_edges_percent" ||
+         (key.starts_with("recovery_") && ends("_count")) || key.starts_with("newton_") ||
+         key == "integrator_share_percent" || key == "sharp_edges_percent" ||
          key == "residual_curvature_formula_rms_per_m";
+}
+
+// Of laws, fabrics, problems: "prandtl.recovery_angle_deg".
+Metrics without_asides(const Metrics& compared) {
+  Metrics kept;
+  for (const auto& [key, value] : compared)
+    if (!is_aside(key.substr(key.rfind('.') + 1))) kept.set(key, value);
+  return kept;
 }
 
 std::string metrics_html(const Metrics& metrics, bool has_table) {
@@ -46,7 +55,8 @@ std::string metrics_html(const Metrics& metrics, bool has_table) {
   }
   std::string html = metric_cards(first);
   const bool said = has_table || (compared.size() == 1 && !first.empty());
-  if (!compared.empty() && !said) html += html_details("Metrics", metric_table(metrics), true);
+  if (!compared.empty() && !said)
+    html += html_details("Metrics", metric_table(without_asides(metrics)), true);
   if (!others.empty()) html += html_details(counted(more, "more metric"), metric_cards(others), false);
   return html;
 }
