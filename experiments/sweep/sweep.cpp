@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "experiments/sweep/outcome.h"
@@ -24,7 +23,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
-#include "sim/scene/assets.h"
 #include "sim/time/back_end.h"
 
 namespace hysteron::experiments {

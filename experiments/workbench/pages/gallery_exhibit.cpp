@@ -115,12 +115,12 @@ Tables lists_of(const Exhibit& exhibit, PageForm form) {
     if (list.manifest) {
       runs.emplace_back(link, &*list.manifest);
       for (const auto& [key, value] : list.manifest->metrics)
-        if (!is_aside(key)) metrics.set(list.file.stem().string() + "." + key, value);
+        metrics.set(list.file.stem().string() + "." + key, value);
     } else if (list.table) {
       tables.html += table_html(file_name(list.file), *list.table, kMostColumns);
     }
   }
-  const std::string compared = metric_table(metrics);
+  const std::string compared = metric_table(without_asides(metrics));
   tables.html = runs_table(runs, form) +
                 (compared.empty() ? "" : html_details("Metrics", compared, runs.size() > 1)) + tables.html;
   return tables;

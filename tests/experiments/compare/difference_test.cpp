@@ -1,0 +1,67 @@
+// What the curvature of a cloth differs by from that of another run of the same mesh.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sim/mesh/surface.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const char* const kSmall = " --triangles 60 --seconds 0.1 --fps 30 --device cpu --size 160x120 --quiet";
+
+double last_difference(const fs::path& column) {  // [1/m]
+  const auto manifest = nlohmann::json::parse(text_of(column / "manifest.json"));
+  return manifest["frames"]["moments"].back()["difference_rms_per_m"].get<double>();
+}
+
+TEST(Compare, SubtractsTheCurvatureOfAColumn) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  ASSERT_EQ(program("compare swing --fabrics cotton-broad,feng2022-median --law prandtl --compare.to "
+                    "cotton-broad --compare.difference curvature --compare.rows 2 --out " +
+                    out.string() + kSmall)
+                .exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(out / "cotton-broad/mesh/0003.ply"));
+  EXPECT_TRUE(fs::exists(out / "feng2022-median/frames-difference/0003.png"));
+  EXPECT_GT(last_difference(out / "feng2022-median"), 1);
+  // Colours mean the same in every column: the larger k0 of the two counts, as half of 2 k0.
+  const auto looks = nlohmann::json::parse(text_of(out / "feng2022-median/manifest.json"))["frames"]["looks"];
+  EXPECT_NEAR(looks["difference"]["high"].get<double>(), 98.43617921, 1e-4);
+}
+
+// The same run gives no difference; another law gives what their exported meshes differ by.
+TEST(Difference, OfARunToItselfIsNone) {
+  const Folder folder;
+  const auto run = [&](const std::string& name, const std::string& more) {
+    return program("swing --out " + (folder.path() / name).string() + kSmall + " " + more);
+  };
+  const std::string less = " --look difference --reference " + (folder.path() / "first").string();
+  ASSERT_EQ(run("first", "--law linear --export ply").exit_code, 0);
+  ASSERT_EQ(run("again", "--law linear" + less).exit_code, 0);
+  ASSERT_EQ(run("other", "--law prandtl --export ply" + less).exit_code, 0);
+  EXPECT_EQ(last_difference(folder.path() / "again"), 0);
+  const auto curvature = [&](const char* name) {
+    return read_surface((folder.path() / name / "mesh/0003.ply").string()).curvature;
+  };
+  const std::vector<double> a = curvature("first"), b = curvature("other");
+  double square = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) square += (b[i] - a[i]) * (b[i] - a[i]);
+  const double expected = std::sqrt(square / static_cast<double>(a.size()));
+  ASSERT_GT(expected, 1);
+  EXPECT_NEAR(last_difference(folder.path() / "other") / expected, 1, 1e-6);
+
+  EXPECT_EQ(run("none", "--look difference").exit_code, 2);
+  EXPECT_EQ(run("empty", "--look difference --reference " + (folder.path() / "again").string()).exit_code, 2);
+  const Outcome finer = run("finer", "--triangles 200" + less);
+  EXPECT_EQ(finer.exit_code, 2);
+  EXPECT_NE(finer.err.find("other triangles"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
