@@ -205,7 +205,7 @@ int bench_hard_steps(Request& request) {
     scenes[i] = find_hard_steps(hard_scene(names[i], own.hard_triangles, like), own.hard_steps);
   });
   for (const HardStates& scene : scenes)
-    if (!scene.broken_off.empty()) run.progress("warning: " + scene.of.name + ": " + scene.broken_off);
+    if (!scene.broken_off.empty()) run.warn(scene.of.name + ": " + scene.broken_off);
   const std::vector<Metrics> rows =
       hard_step_table(scenes, solver_variants(), jobs,
                       [&](const std::string& done) { run.progress("taken again: " + done); });

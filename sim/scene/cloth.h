@@ -1,6 +1,7 @@
 // The cloth of a scene: its mesh at rest, where it starts, and which vertices are held.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/mesh/cloth_mesh.h"
@@ -13,6 +14,7 @@ struct Cloth {
   std::vector<Eigen::Vector3d> start;  // positions at t = 0 [m]
   std::vector<int> pin;                // per vertex: the scene's pin that holds it at t = 0, -1 = free
   std::vector<std::vector<int>> pin_vertices;  // per pin: its vertices
+  std::vector<std::string> warnings;           // what is doubtful about it, a sentence each
 
   // Per vertex: the pin that holds it at `time` [s], -1 = free.
   std::vector<int> pins(const Scene& scene, double time) const;

@@ -173,7 +173,8 @@ struct Manifest {
   std::optional<std::vector<std::string>> series;  // own columns of metrics.csv
   std::optional<Frames> frames;
   std::vector<Curve> curves;
-  std::string film_missing;  // why; "" if it is not
+  std::string film_missing;           // why; "" if it is not
+  std::vector<std::string> warnings;  // in the order in which they were given, each once
   std::vector<std::string> plots_missing, errors_missing;
   Metrics metrics;
   std::vector<std::string> asked_metrics;  // those that its scene file asks for

@@ -94,6 +94,7 @@ void add_what_some_have(const Manifest& m, Json& json) {
   if (m.frames) json["frames"] = to_json(*m.frames);
   for (const Curve& curve : m.curves) json["curves"].push_back(to_json(curve));
   if (!m.film_missing.empty()) json["film_missing"] = m.film_missing;
+  if (!m.warnings.empty()) json["warnings"] = m.warnings;
   if (!m.plots_missing.empty()) json["plots_missing"] = m.plots_missing;
   if (!m.errors_missing.empty()) json["errors_missing"] = m.errors_missing;
   if (!m.asked_metrics.empty()) json["asked_metrics"] = m.asked_metrics;
@@ -249,6 +250,7 @@ void take_what_some_have(const Json& json, Manifest& m) {
     m.curves.push_back({text_at(curve, "plot"), text_at(curve, "file"), text_at(curve, "x"),
                         text_at(curve, "y"), is_true_at(curve, "logarithmic"), text_at(curve, "caption")});
   m.film_missing = text_at(json, "film_missing");
+  m.warnings = texts_at(json, "warnings");
   m.plots_missing = texts_at(json, "plots_missing");
   m.errors_missing = texts_at(json, "errors_missing");
   m.asked_metrics = texts_at(json, "asked_metrics");

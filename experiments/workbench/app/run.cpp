@@ -147,6 +147,7 @@ void Run::begun_at(std::chrono::steady_clock::time_point time) {
 
 void Run::visit(Archive& archive) {
   archive(manifest_.files);
+  archive(manifest_.warnings);
   archive(manifest_.started);
   archive(manifest_.command);
   using Seconds = std::chrono::duration<double>;
@@ -176,6 +177,13 @@ void Run::plot(const std::string& name, const std::function<void(const fs::path&
 
 void Run::plot(const std::string& name, const render::Plot& plot) {
   this->plot(name, [&](const fs::path& base) { render::write_plot(base, plot); });
+}
+
+void Run::warn(const std::string& text) {
+  std::vector<std::string>& given = manifest_.warnings;
+  if (std::count(given.begin(), given.end(), text)) return;
+  given.push_back(text);
+  std::cerr << "warning: " << text << std::endl;
 }
 
 void Run::progress(const std::string& line) const {

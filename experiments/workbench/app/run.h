@@ -87,6 +87,8 @@ class Run {
   void plot(const std::string& name, const std::function<void(const std::filesystem::path& base)>& draw);
   void plot(const std::string& name, const render::Plot& plot);
 
+  // Says "warning: TEXT" on stderr, with --quiet too, and keeps the text in the manifest's `warnings`; once.
+  void warn(const std::string& text);
   // A line of progress on stderr, unless --quiet.
   void progress(const std::string& line) const;
 

@@ -117,10 +117,13 @@ std::string report_page(const fs::path& folder, PageForm form) {
       {"Run", run_table(manifest)}};
   std::string all;
   for (const auto& [title, html] : sections) all += html_section(title, html);
+  std::vector<Fields> warnings;
+  for (const std::string& text : manifest.warnings) warnings.push_back({{"text", text}});
   // A cloth that still moves has no shape that could be measured: the page says so before any number.
   const std::string body = filled("report.html", {{"title", title_of(manifest, ": ")},
                                                   {"badge", state_badge(manifest)},
                                                   {"unrest", unrest_words(metrics)},
+                                                  {"warnings", warnings},
                                                   {"about", about_of(manifest)},
                                                   {"command", manifest.command},
                                                   {"sections", all}});

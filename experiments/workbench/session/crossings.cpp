@@ -12,7 +12,7 @@ Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vecto
   const auto [a, b] = found.front();
   const Eigen::Vector3d& at = x[face_[a][0]];
   return {static_cast<long>(found.size()),
-          fmt::format("warning: {} pairs of triangles cross at t = {:.4f} s, the first are {} and {} near "
+          fmt::format("{} pairs of triangles cross at t = {:.4f} s, the first are {} and {} near "
                       "({:.4f}, {:.4f}, {:.4f}) m",
                       found.size(), time, a, b, at.x(), at.y(), at.z())};
 }

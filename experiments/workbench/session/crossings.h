@@ -16,7 +16,7 @@ namespace hysteron::experiments {
 // one.
 class Crossings {
  public:
-  // `tell` gets a line for each instant that has some, on the caller's thread.
+  // `tell` gets a warning for each instant that has some, on the caller's thread.
   Crossings(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
             std::function<void(const std::string&)> tell)
       : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}

@@ -130,6 +130,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   if (method.linear_solver != Preconditioning::automatic)
     manifest.linear_solver = name_of(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
+  for (const std::string& warning : cloth_.warnings) run_->warn(warning);
   watch_crossings();
 }
 
@@ -146,7 +147,7 @@ void Session::watch_folds(const std::vector<Eigen::Vector3d>& x) {
 void Session::watch_crossings() {
   if (!setup_.options.check_intersections && !setup_.scene.self_contact) return;
   crossings_ = std::make_unique<Crossings>(cloth_.mesh.face, simulation_->cuda_device() >= 0,
-                                           [this](const std::string& line) { run_->progress(line); });
+                                           [this](const std::string& text) { run_->warn(text); });
 }
 
 void Session::see_crossings(const std::vector<Eigen::Vector3d>& x) {
@@ -165,10 +166,10 @@ void Session::note_folds() {
   constexpr double kMany = 0.01;
   run_->metric("sharp_edges_percent", 100 * folded_);
   if (folded_ < kMany) return;
-  run_->progress(fmt::format(
-      "warning: up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more "
-      "than 2.5 % too soft: take more triangles",
-      100 * folded_, kSharp));
+  run_->warn(
+      fmt::format("up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more "
+                  "than 2.5 % too soft: take more triangles",
+                  100 * folded_, kSharp));
 }
 
 // Of a batch the launches and waits are not one run's.
@@ -187,9 +188,9 @@ void Session::note_deep_contact() {
   const long deep = simulation_->deep_steps();
   run_->metric("deep_contact_steps_count", deep);
   if (deep == 0) return;
-  run_->progress("warning: in " + std::to_string(deep) +
-                 " parts of steps the cloth was in an obstacle: a larger contact-stiffness or a shorter step "
-                 "keeps it out");
+  run_->warn("in " + std::to_string(deep) +
+             " parts of steps the cloth was in an obstacle: a larger contact-stiffness or a shorter step "
+             "keeps it out");
 }
 
 void Session::note_slack_hands() {
@@ -201,10 +202,10 @@ void Session::note_slack_hands() {
   run_->metric("hand_lag_m", simulation_->hand_lag());
   if (barred == 0) return;
   run_->metric("barred_hand_steps_count", barred);
-  run_->progress(fmt::format(
-      "warning: in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
-      "lagged behind by up to {:.2g} mm",
-      barred, 1e3 * simulation_->hand_lag()));
+  run_->warn(
+      fmt::format("in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
+                  "lagged behind by up to {:.2g} mm",
+                  barred, 1e3 * simulation_->hand_lag()));
 }
 
 // How much was left unbalanced, in the units of --newton-residual and --newton-velocity.
@@ -229,8 +230,8 @@ void Session::note_integrator(const Ledger& ledger) {
   run_->metric("integrator_share_percent", 100 * share);
   if (share <= kMost || share == 1 || setup_.scene.integrator == Integrator::quasi_static) return;
   const double step = setup_.scene.step * kMost / (1 - kMost) * (1 - share) / share;
-  run_->progress(
-      fmt::format("warning: the integrator took {:.0f} % of all energy that was dissipated: steps of about "
+  run_->warn(
+      fmt::format("the integrator took {:.0f} % of all energy that was dissipated: steps of about "
                   "{:.2g} s would "
                   "take {:.0f} %",
                   100 * share, step, 100 * kMost));

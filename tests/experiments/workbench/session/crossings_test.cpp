@@ -43,7 +43,7 @@ TEST_P(CountOfCrossings, IsThatOfAllInstantsAndToldByTheCaller) {
   ASSERT_EQ(told.lines.size(), 1U);
   EXPECT_EQ(
       told.lines[0],
-      "warning: 1 pairs of triangles cross at t = 0.7500 s, the first are 0 and 1 near (0.0000, 0.0000, "
+      "1 pairs of triangles cross at t = 0.7500 s, the first are 0 and 1 near (0.0000, 0.0000, "
       "0.0000) m");
   EXPECT_EQ(told.by, std::this_thread::get_id());
 }
