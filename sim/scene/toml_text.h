@@ -1,14 +1,29 @@
 // What must be known of a TOML file before it is parsed.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace hysteron {
 
 inline constexpr int kMostKeyParts = 32;  // "cloth.length" has two
 
-// The first line with a key of more parts than that; 0 if there is none.  Each part is a table in the one
-// before, and trees of such a depth are built and taken down by recursion.
-int line_of_a_long_key(std::string_view text);
+struct TomlFault {
+  int line;
+  std::string what;  // "a key has more than 32 parts"
+};
+
+// The first place at which a text is no TOML in a way that toml++ only asserts, or that its recursion cannot
+// bear:
+//  - a letter beyond ASCII behind a backslash, or outside of texts and comments: the library's tests for
+//  white space
+//    are not defined for all of them;
+//  - brackets outside of texts and comments that do not match;
+//  - a header that is not "[a.b]" or "[[a.b]]" in a line of its own;
+//  - a text that begins in the middle of a key or a value: 1"a";
+//  - a key of more than kMostKeyParts parts: each part is a table in the one before.
+// Whatever else is wrong with a text is left to the parser.
+std::optional<TomlFault> fault_before_parsing(std::string_view text);
 
 }  // namespace hysteron
