@@ -1,6 +1,8 @@
-# shellcheck shell=bash disable=SC2034  (tables are read by the scripts that source this)
+# shellcheck shell=bash disable=SC2034
+# (SC2034: tables are read by the scripts that source this.)
 # Sourced by experiments/run.sh and tests/run.sh: install what is missing, configure, build.
-# Everything said here goes to stderr; stdout belongs to the program that is run afterwards.
+# What is said here goes to stderr, the output of apt, cmake and the compiler to build/log; stdout belongs to the
+# program that is run afterwards.
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd -P)
 build_folder=$root/build
@@ -32,11 +34,52 @@ optional_program_packages=(
   "libosmesa6|second way to draw in software; Mesa 25.1 dropped it"
 )
 
+log_file=$build_folder/log  # of the last set-up
+mkdir -p "$build_folder"
+: >"$log_file"
+
 say() { printf '%s\n' "$*" >&2; }
 
 fail() {
   say "$(basename "$0"): $*"
   exit 1
+}
+
+# latest_progress: the last line of the log that says how far ninja, make or apt are.
+latest_progress() {
+  tail -c 50000 "$log_file" | grep -aoE '^(\[ *[0-9]+(/[0-9]+|%)\]|Unpacking |Setting up ).*' | tail -n 1
+}
+
+# show_progress TITLE PID: until that process ends, how far it is: in one line that is overwritten, or without a
+# terminal in one line a minute.
+show_progress() {
+  local title=$1 pid=$2 start=$SECONDS minutes=0
+  while sleep 1 && kill -0 "$pid" 2>/dev/null; do
+    if [[ -t 2 ]]; then
+      printf '\r\033[K%.79s' "$title, $((SECONDS - start)) s: $(latest_progress)" >&2
+    elif (((SECONDS - start) / 60 > minutes)); then
+      minutes=$(((SECONDS - start) / 60))
+      say "  $minutes min: $(latest_progress | cut -c -100)"
+    fi
+  done
+  [[ ! -t 2 ]] || printf '\r\033[K' >&2
+}
+
+# logged TITLE COMMAND...: runs it with its output in the log; where it fails, shows the log's end and ends the script.
+logged() {
+  local title=$1 start=$SECONDS
+  shift
+  printf '== %s\n' "$*" >>"$log_file"
+  [[ -t 2 ]] || say "$title"
+  "$@" >>"$log_file" 2>&1 </dev/null &
+  local pid=$!
+  show_progress "$title" "$pid"
+  if ! wait "$pid"; then
+    say "The last lines of $log_file:"
+    tail -n 40 "$log_file" >&2
+    fail "failed: $title. The whole log: $log_file"
+  fi
+  ((SECONDS - start < 5)) || say "$title: done in $((SECONDS - start)) s"
 }
 
 is_installed() { [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
@@ -52,8 +95,8 @@ missing_of() {
 as_root() { if [[ $(id -u) == 0 ]]; then "$@"; else sudo "$@"; fi; }
 
 apt_install() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
-    -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" >&2
+  logged "Installing packages" as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q \
+    --no-install-recommends -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@"
 }
 
 # install_missing REQUIRED OPTIONAL (names of tables): no apt call and no network if everything is there.
@@ -73,7 +116,8 @@ install_missing() {
   fi
   if [[ ${#required[@]} -gt 0 ]]; then
     rows=("${required[@]}")
-    as_root apt-get update -q >&2 || say "apt-get update failed: going on with the package lists at hand."
+    as_root apt-get update -q >>"$log_file" 2>&1 ||
+      say "apt-get update failed: going on with the package lists at hand."
   fi
   for row in "${optional[@]}"; do
     if has_candidate "${row%%|*}"; then
@@ -93,7 +137,7 @@ install_missing() {
 configure() {
   local generator=()
   [[ -f $build_folder/CMakeCache.txt ]] || generator=(-G Ninja -DCMAKE_BUILD_TYPE=Release)
-  cmake -S "$root" -B "$build_folder" "${generator[@]}" "$@" >&2
+  logged "Configuring" cmake -S "$root" -B "$build_folder" "${generator[@]}" "$@"
 }
 
-build() { cmake --build "$build_folder" --parallel "$(nproc)" "$@" >&2; }
+build() { logged "Building" cmake --build "$build_folder" --parallel "$(nproc)" "$@"; }
