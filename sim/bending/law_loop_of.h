@@ -10,19 +10,46 @@
 
 namespace hysteron {
 
+template <class Law>
+inline constexpr int kUnrolledSlots = Law::kHistory <= kShortHistory ? Law::kHistory : 8;
+
 // Numbers of a law's history, one set per element, in the device's preferred order.
 template <class Law, class Real>
 HYST_HD inline History<Real, Law::kHistory> load_history(const Real* memory, int i, int n) {
   History<Real, Law::kHistory> h;
-  if constexpr (Law::kHistory > 0)
+  if constexpr (Law::kHistory > 0) {
+    HYST_UNROLL(kUnrolledSlots<Law>)
     for (int k = 0; k < Law::kHistory; ++k) h[k] = memory[slot_index(i, k, Law::kHistory, n)];
+  }
   return h;
 }
 
 template <class Law, class Real>
 HYST_HD inline void store_history(Real* memory, int i, int n, const History<Real, Law::kHistory>& h) {
-  if constexpr (Law::kHistory > 0)
+  if constexpr (Law::kHistory > 0) {
+    HYST_UNROLL(kUnrolledSlots<Law>)
     for (int k = 0; k < Law::kHistory; ++k) memory[slot_index(i, k, Law::kHistory, n)] = h[k];
+  }
+}
+
+// Laws around other laws are long, and nvcc would compile their loops a second time for batches of cloths:
+// there each cloth launches them by itself.
+template <class Law>
+constexpr bool is_long_law() {
+  if constexpr (SettingLaw<Law> || RelaxingLaw<Law>)
+    return true;
+  else if constexpr (requires(Law & law) { law.law; })
+    return is_long_law<decltype(Law::law)>();
+  else
+    return false;
+}
+
+template <class Law, class Device, class Body>
+void for_each_element(Device& device, const Kernel& kernel, int elements, const Body& body) {
+  if constexpr (is_long_law<Law>())
+    for_each_alone(device, kernel, elements, body);
+  else
+    for_each(device, kernel, elements, body);
 }
 
 template <class Real, class Device, class Law>
@@ -45,7 +72,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     set_step_time(law, dt);
     Real* history = history_.data();
     double *lost = dissipated_.data(), *relaxed = relaxed_.data();
-    for_each(
+    for_each_element<Law>(
         device,
         {"bending law", op.bytes + step_bytes(op.elements) + bytes_of(history_, dissipated_, dissipated_)},
         op.elements, HYST_KERNEL(int i) {
@@ -71,14 +98,15 @@ class LawLoopOf : public LawLoop<Real, Device> {
     Law law = law_;
     set_step_time(law, trial.dt);
     const Real* history = history_.data();
-    for_each(
+    for_each_element<Law>(
         device, {"bending law, tried", op.bytes + step_bytes(op.elements) + op.elements * sizeof(double)},
         op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
           const auto& own = law_of(law, op.direction, i);
-          Vec<Real, D> moment = own.step(k, before).moment;
-          Real potential = step_potential(own, k, before);
+          const auto tried = tried_step(own, k, before);
+          Vec<Real, D> moment = tried.step.moment;
+          Real potential = tried.potential;
           if (trial.viscosity > 0) {
             const Vec<Real, D> rate = op.template curvature<D>(i, trial.angle_rate);
             moment += trial.viscosity * rate;
@@ -96,7 +124,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     const Real viscous = trial.viscosity > 0 ? trial.viscosity / trial.beta_dt : Real(0);
     const Real* history = history_.data();
     const std::size_t tangents = op.elements * (D * (D + 1) / 2) * sizeof(Real);
-    for_each(
+    for_each_element<Law>(
         device, {"bending tangent", op.bytes + history_.bytes() + tangents}, op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto& own = law_of(law, op.direction, i);
@@ -112,15 +140,17 @@ class LawLoopOf : public LawLoop<Real, Device> {
     if (Law::kHistory == 0 || (kind == CommandKind::edit && !EditableLaw<Law>)) return;
     const Law law = law_;
     Real* history = history_.data();
-    for_each(
+    for_each_alone(
         device, "bending command", op.elements, HYST_KERNEL(int i) {
           if (!chosen[i]) return;
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto before = load_history<Law>(history, i, op.elements);
           const auto& own = law_of(law, op.direction, i);
           const auto after = kind == CommandKind::edit ? edited(own, k, before) : ironed(own, k, before);
-          taken[i] +=
-              static_cast<double>(op.area[i] * (own.step(k, before).stored - own.step(k, after).stored));
+          Real stored[2];
+          HYST_UNROLL(1)  // a law may be long
+          for (int end = 0; end < 2; ++end) stored[end] = own.step(k, end == 0 ? before : after).stored;
+          taken[i] += static_cast<double>(op.area[i] * (stored[0] - stored[1]));
           store_history<Law>(history, i, op.elements, after);
         });
   }
@@ -129,7 +159,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
               double* energy) override {
     const Law law = law_;
     const Real* history = history_.data();
-    for_each(
+    for_each_alone(
         device, "bending energy", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto step = law_of(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
@@ -140,7 +170,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
   void residual(Device& device, const OperatorView<Real>& op, Real* curvature) override {
     const Law law = law_;
     const Real* history = history_.data();
-    for_each(
+    for_each_alone(
         device, "residual curvature", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k =
               law_of(law, op.direction, i).residual(load_history<Law>(history, i, op.elements));
@@ -152,7 +182,7 @@ class LawLoopOf : public LawLoop<Real, Device> {
     const Law law = law_;
     const Real* history = history_.data();
     const Real b2 = static_cast<Real>(curve_.b2), m0 = static_cast<Real>(curve_.friction_moment());
-    for_each(
+    for_each_alone(
         device, "friction state", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
           const auto memory = load_history<Law>(history, i, op.elements);

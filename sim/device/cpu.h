@@ -61,6 +61,13 @@ void for_each(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
     run_serially(part_begin(n, t, threads), part_begin(n, t + 1, threads), body);
 }
 
+// The same, of what is measured now and then: a batch of cloths on a GPU does not share its launch, so that
+// it is compiled once and not twice.
+template <class Body>
+void for_each_alone(Cpu& cpu, const Kernel& kernel, int n, const Body& body) {
+  for_each(cpu, kernel, n, body);
+}
+
 // Partial sums of the blocks [first, last).
 template <int K, class Body>
 HYST_NOINLINE void sum_serially(int first, int last, int n, const Body& body, double* partial) {

@@ -116,15 +116,7 @@ __global__ void batched_loop_kernel(const BatchedLoop* ordered) {
 }
 
 template <class Loop>
-void launch(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
-  ++device_counts.loops;
-  if (cuda.batch) {
-    constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
-                                              cudaStream_t stream) {
-      batched_loop_kernel<Loop><<<dim3(blocks, members), kThreadsPerBlock, 0, stream>>>(ordered);
-    };
-    return cuda.batch->order(kBatched, kernel.name, loop);
-  }
+void launch_now(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
   const Profiled<Cuda> profiled(cuda, kernel);
   cudaLaunchAttribute early{};
   early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
@@ -136,6 +128,19 @@ void launch(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
   config.attrs = &early;
   config.numAttrs = cuda.early_blocks && loop.blocks <= kMostEarlyBlocks ? 1 : 0;
   check_cuda(cudaLaunchKernelEx(&config, loop_kernel<Loop>, loop), kernel.name);
+}
+
+template <class Loop>
+void launch(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
+  ++device_counts.loops;
+  if (cuda.batch) {
+    constexpr CudaBatch::Launch kBatched = [](const BatchedLoop* ordered, unsigned blocks, unsigned members,
+                                              cudaStream_t stream) {
+      batched_loop_kernel<Loop><<<dim3(blocks, members), kThreadsPerBlock, 0, stream>>>(ordered);
+    };
+    return cuda.batch->order(kBatched, kernel.name, loop);
+  }
+  launch_now(cuda, kernel, loop);
 }
 
 inline unsigned blocks_for(int n, int per_block = kThreadsPerBlock) {
@@ -157,6 +162,15 @@ struct EachLoop {
 template <class Body>
 void for_each(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
   if (n > 0) launch(cuda, kernel, EachLoop<Body>{blocks_for(n), n, body});
+}
+
+// Of a batch: at once, behind what this member has ordered.
+template <class Body>
+void for_each_alone(Cuda& cuda, const Kernel& kernel, int n, const Body& body) {
+  if (n == 0) return;
+  if (cuda.batch) cuda.batch->send();
+  ++device_counts.loops;
+  launch_now(cuda, kernel, EachLoop<Body>{blocks_for(n), n, body});
 }
 
 // Tree sum over the block in a fixed order; the result is valid in thread 0.

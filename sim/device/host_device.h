@@ -1,4 +1,5 @@
-// The two marks that let one source serve both devices.  Only sim/device/ knows which compiler is at work.
+// The marks that let one source serve both devices.  Only sim/device/ knows which compiler is at work.
+// HYST_UNROLL(n) before a loop has nvcc write its body n times: 1 where a long body would take it minutes.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +8,13 @@
 #define HYST_HD __host__ __device__
 #define HYST_KERNEL [=] __device__
 #define HYST_NOINLINE __noinline__
+#define HYST_PRAGMA(text) _Pragma(#text)
+#define HYST_UNROLL(times) HYST_PRAGMA(unroll(times))
 #else
 #define HYST_HD
 #define HYST_KERNEL [=]
 #define HYST_NOINLINE __attribute__((noinline))  // large functions that several loops share: compile time
+#define HYST_UNROLL(times)
 #endif
 
 namespace hysteron {

@@ -16,9 +16,9 @@ struct ChapmanLaw {
   static std::vector<LawParameter> parameters() { return {law_parameter::stops()}; }
 
   static bool takes_parts(const LawChoice&) { return true; }
-  template <class Real, int D, class Visit>
+  template <class Real, int D, int N, class Visit>
   static void visit_parts(const LawChoice& c, const Visit& visit) {
-    visit_measured<Real, D>(c, c.curve.parts.branches, visit);
+    visit_measured<Real, D, N>(c, c.curve.parts.branches, visit);
   }
 };
 

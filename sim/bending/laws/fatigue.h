@@ -46,25 +46,11 @@ struct Fatigue {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const auto sound = law.step(curvature, part(before));
-    const Vec<Real, D> elastic = curvature - load_set<Real, D>(before, kSet);
-    const Real m = strength(before), slid = m * sound.dissipated,
-               spent = before[kSpent] + (slid > 0 ? slid : Real(0));
-    LawStep<Real, D, kHistory> result;
-    result.moment = b2 * elastic + m * sound.moment;
-    result.history = before;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = sound.history[i];
-
-    // D counts what weakening itself releases; the release depends on the weakening: two rounds.
-    Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);
-    after = weakened(m, strength_at(spent + after.released), sound.moment, sound.stored, elastic);
-    result.history[kSpent] = spent + after.released;
-    after = weakened(m, strength(result.history), sound.moment, sound.stored, elastic);
-    const Vec<Real, D> left = elastic - after.set;
-    result.stored = b2 * left.squaredNorm() / 2 + (m - after.loss) * sound.stored;
-    result.dissipated = slid + after.released;
-    store_set<Real, D>(curvature - left, result.history, kSet);
-    return result;
+    return step_of(law.step(curvature, part(before)), curvature, before);
+  }
+  HYST_HD TriedStep<Fatigue> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const auto sound = hysteron::tried_step(law, curvature, part(before));
+    return {step_of(sound.step, curvature, before), potential_of(sound.potential, curvature, before)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
@@ -72,8 +58,7 @@ struct Fatigue {
   }
   // Strength and set act from the next step on.
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 +
-           strength(before) * step_potential(law, curvature, part(before));
+    return potential_of(step_potential(law, curvature, part(before)), curvature, before);
   }
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
     return zero_moment(*this, history, load_set<Real, D>(history, kSet));
@@ -104,8 +89,33 @@ struct Fatigue {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
+    copy_slots<Law::kHistory>(whole, 0, result, 0);
     return result;
+  }
+  // With the step, with the potential of the law at full strength.
+  HYST_HD LawStep<Real, D, kHistory> step_of(const LawStep<Real, D, Law::kHistory>& sound,
+                                             const Vec<Real, D>& curvature, const Memory& before) const {
+    const Vec<Real, D> elastic = curvature - load_set<Real, D>(before, kSet);
+    const Real m = strength(before), slid = m * sound.dissipated,
+               spent = before[kSpent] + (slid > 0 ? slid : Real(0));
+    LawStep<Real, D, kHistory> result;
+    result.moment = b2 * elastic + m * sound.moment;
+    result.history = before;
+    copy_slots<Law::kHistory>(sound.history, 0, result.history, 0);
+
+    // D counts what weakening itself releases; the release depends on the weakening: two rounds.
+    Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);
+    after = weakened(m, strength_at(spent + after.released), sound.moment, sound.stored, elastic);
+    result.history[kSpent] = spent + after.released;
+    after = weakened(m, strength(result.history), sound.moment, sound.stored, elastic);
+    const Vec<Real, D> left = elastic - after.set;
+    result.stored = b2 * left.squaredNorm() / 2 + (m - after.loss) * sound.stored;
+    result.dissipated = slid + after.released;
+    store_set<Real, D>(curvature - left, result.history, kSet);
+    return result;
+  }
+  HYST_HD Real potential_of(Real sound, const Vec<Real, D>& curvature, const Memory& before) const {
+    return b2 * (curvature - load_set<Real, D>(before, kSet)).squaredNorm() / 2 + strength(before) * sound;
   }
   HYST_HD Real strength_at(Real spent) const {
     using std::exp;

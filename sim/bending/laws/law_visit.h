@@ -8,6 +8,7 @@
 #include "sim/bending/laws/four_directions.h"
 #include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/law_groups.h"
+#include "sim/bending/laws/measured_law.h"
 
 namespace hysteron {
 
@@ -85,16 +86,16 @@ template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
   return !c.fatigue.on() && (visit_plain<Laws, Real, D, Memory>(c, visit) || ...);
 }
-// The others, which take parts.
-template <LawDescription Law, class Real, int D, class Visit>
+// The others, which take parts, where their stops need room for N.
+template <LawDescription Law, class Real, int D, int N, class Visit>
 bool visit_with_parts(const LawChoice& c, const Visit& visit) {
-  if (c.name != Law::kName || !takes_parts<Law>(c)) return false;
-  Law::template visit_parts<Real, D>(c, visit);
+  if (c.name != Law::kName || !takes_parts<Law>(c) || room_for_stops(c) != N) return false;
+  Law::template visit_parts<Real, D, N>(c, visit);
   return true;
 }
-template <class Real, int D, class Visit, class... Laws>
+template <class Real, int D, int N, class Visit, class... Laws>
 bool visit_laws_with_parts(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
-  return (visit_with_parts<Laws, Real, D>(c, visit) || ...);
+  return (visit_with_parts<Laws, Real, D, N>(c, visit) || ...);
 }
 template <class Real, int D, class Memory, class Visit, class... Laws>
 bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
@@ -102,13 +103,16 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// A group of laws.txt; the laws of the group `fatigue` weaken, those of `parts` take a fabric's parts.
+// A group of laws.txt; the laws of the group `fatigue` weaken, those of `parts` and `many` take a fabric's
+// parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
     return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
   else if constexpr (std::is_same_v<Group, PartsLaws>)
-    return visit_laws_with_parts<Real, D>(Group{}, c, visit);
+    return visit_laws_with_parts<Real, D, kFewStops>(Group{}, c, visit);
+  else if constexpr (std::is_same_v<Group, ManyLaws>)
+    return visit_laws_with_parts<Real, D, kMostStops>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }

@@ -25,34 +25,32 @@ inline Spectrum measured_stops(const LawChoice& c) {
   return even;
 }
 
-// visit(law), setting if the fabric does.
-template <class Law, class Visit>
-void visit_setting(const LawChoice& c, const Law& law, const Visit& visit) {
-  if (c.curve.parts.set.on())
-    visit(Setting<Law>::make(law, c.curve.b2, c.curve.parts.set));
-  else
-    visit(law);
+// The law for few stops or for the most.
+constexpr int kFewStops = 8;
+inline int room_for_stops(const LawChoice& c) {
+  return measured_stops(c).size() <= kFewStops ? kFewStops : kMostStops;
 }
 
-template <class Law, class Visit>
-void visit_relaxing(const LawChoice& c, const Law& law, const RelaxingBranches& branches,
-                    const Visit& visit) {
+// visit(law) with these branches around the stops, none of them if there are none.
+template <class Stops, class Visit>
+void visit_relaxing(const Stops& stops, const RelaxingBranches& branches, const Visit& visit) {
   if (branches.empty())
-    visit_setting(c, law, visit);
+    visit(stops);
   else
-    visit_setting(c, Relaxing<Law, kMostBranches>::make(law, branches), visit);
+    visit(Relaxing<Stops, kMostBranches>::make(stops, branches));
 }
 
-// visit(law) with these branches, none of them if there are none.
-template <class Real, int D, class Visit>
+// The same with room for N stops, setting if the fabric does.
+template <class Real, int D, int N, class Visit>
 void visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
-  constexpr int kFew = 8;
   const Spectrum warp = measured_stops(c);
-  const Spectrum& weft = c.curve.parts.weft_stops;
-  if (warp.size() <= kFew)
-    visit_relaxing(c, SpectrumStops<Real, D, kFew>::make(c.curve.b2, warp, weft), branches, visit);
-  else
-    visit_relaxing(c, SpectrumStops<Real, D, kMostStops>::make(c.curve.b2, warp, weft), branches, visit);
+  const BendingParts& parts = c.curve.parts;
+  if (!parts.set.on())
+    return visit_relaxing(SpectrumStops<Real, D, N>::make(c.curve.b2, warp, parts.weft_stops), branches,
+                          visit);
+  using Stops = SpectrumStops<Real, D, N, StopLoops::rolled>;  // which setting calls in several places
+  visit_relaxing(Stops::make(c.curve.b2, warp, parts.weft_stops), branches,
+                 [&]<class Law>(const Law& law) { visit(Setting<Law>::make(law, c.curve.b2, parts.set)); });
 }
 
 }  // namespace hysteron

@@ -68,27 +68,11 @@ struct Relaxing {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
-    const auto inner = law.step(curvature, part(before));
-    LawStep<Real, D, kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
-    store_set<Real, D>(curvature, result.history, kCurvature);
-    result.moment = inner.moment;
-    result.stored = inner.stored;
-    const Vec<Real, D> change = curvature - load_set<Real, D>(before, kCurvature);
-    for (int i = 0; i < B; ++i) {
-      if (!(c[i] > 0)) continue;
-      const Relaxation<Real> now = Relaxation<Real>::over(dt / tau[i]);
-      const Vec<Real, D> old = load_set<Real, D>(before, kBranch + i * D), strained = c[i] * change;
-      const Vec<Real, D> moment = now.left * old + now.stiff * strained;
-      result.moment += moment;
-      result.stored += moment.squaredNorm() / (2 * c[i]);
-      result.relaxed +=
-          (now.f0 * old.squaredNorm() + 2 * now.f1 * old.dot(strained) + now.f2 * strained.squaredNorm()) /
-          c[i];
-      store_set<Real, D>(moment, result.history, kBranch + i * D);
-    }
-    result.dissipated = inner.dissipated + result.relaxed;
-    return result;
+    return step_around(law.step(curvature, part(before)), curvature, before);
+  }
+  HYST_HD TriedStep<Relaxing> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const auto inner = hysteron::tried_step(law, curvature, part(before));
+    return {step_around(inner.step, curvature, before), potential_around(inner.potential, curvature, before)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
@@ -97,15 +81,7 @@ struct Relaxing {
     return law.tangent(curvature, part(before)) + stiff * Tangent<Real, D>::Identity();
   }
   HYST_HD Real potential(const Vec<Real, D>& curvature, const Memory& before) const {
-    Real sum = step_potential(law, curvature, part(before));
-    const Vec<Real, D> change = curvature - load_set<Real, D>(before, kCurvature);
-    for (int i = 0; i < B; ++i) {
-      if (!(c[i] > 0)) continue;
-      const Relaxation<Real> now = Relaxation<Real>::over(dt / tau[i]);
-      sum += now.stiff * c[i] * change.squaredNorm() / 2 +
-             now.left * load_set<Real, D>(before, kBranch + i * D).dot(change);
-    }
-    return sum;
+    return potential_around(step_potential(law, curvature, part(before)), curvature, before);
   }
   // At once, as springs.
   HYST_HD Vec<Real, D> residual(const Memory& history) const {
@@ -127,8 +103,43 @@ struct Relaxing {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
+    copy_slots<Law::kHistory>(whole, 0, result, 0);
     return result;
+  }
+  // With what the law itself makes of the step.
+  HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
+                                                 const Vec<Real, D>& curvature, const Memory& before) const {
+    LawStep<Real, D, kHistory> result;
+    copy_slots<Law::kHistory>(inner.history, 0, result.history, 0);
+    store_set<Real, D>(curvature, result.history, kCurvature);
+    result.moment = inner.moment;
+    result.stored = inner.stored;
+    const Vec<Real, D> change = curvature - load_set<Real, D>(before, kCurvature);
+    for (int i = 0; i < B; ++i) {
+      if (!(c[i] > 0)) continue;
+      const Relaxation<Real> now = Relaxation<Real>::over(dt / tau[i]);
+      const Vec<Real, D> old = load_set<Real, D>(before, kBranch + i * D), strained = c[i] * change;
+      const Vec<Real, D> moment = now.left * old + now.stiff * strained;
+      result.moment += moment;
+      result.stored += moment.squaredNorm() / (2 * c[i]);
+      result.relaxed +=
+          (now.f0 * old.squaredNorm() + 2 * now.f1 * old.dot(strained) + now.f2 * strained.squaredNorm()) /
+          c[i];
+      store_set<Real, D>(moment, result.history, kBranch + i * D);
+    }
+    result.dissipated = inner.dissipated + result.relaxed;
+    return result;
+  }
+  HYST_HD Real potential_around(Real inner, const Vec<Real, D>& curvature, const Memory& before) const {
+    Real sum = inner;
+    const Vec<Real, D> change = curvature - load_set<Real, D>(before, kCurvature);
+    for (int i = 0; i < B; ++i) {
+      if (!(c[i] > 0)) continue;
+      const Relaxation<Real> now = Relaxation<Real>::over(dt / tau[i]);
+      sum += now.stiff * c[i] * change.squaredNorm() / 2 +
+             now.left * load_set<Real, D>(before, kBranch + i * D).dot(change);
+    }
+    return sum;
   }
 };
 

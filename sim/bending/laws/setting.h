@@ -37,16 +37,14 @@ struct Setting {
   }
 
   HYST_HD LawStep<Real, D, kHistory> step(const Vec<Real, D>& curvature, const Memory& before) const {
+    const Vec<Real, D> moved = flow(curvature, before);
+    return step_around(law.step(Vec<Real, D>(curvature - (set_of(before) + moved)), part(before)), moved,
+                       before);
+  }
+  HYST_HD TriedStep<Setting> tried_step(const Vec<Real, D>& curvature, const Memory& before) const {
     const Vec<Real, D> moved = flow(curvature, before), set = set_of(before) + moved;
-    const auto inner = law.step(Vec<Real, D>(curvature - set), part(before));
-    LawStep<Real, D, kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
-    store_set<Real, D>(set, result.history, Law::kHistory);
-    result.moment = inner.moment;
-    result.stored = inner.stored + hardening * set.squaredNorm() / 2;
-    result.dissipated = inner.dissipated + limit * moved.norm();
-    result.relaxed = inner.relaxed;
-    return result;
+    const auto inner = hysteron::tried_step(law, Vec<Real, D>(curvature - set), part(before));
+    return {step_around(inner.step, moved, before), with_cost_of(moved, set, inner.potential)};
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature, const Memory& before) const {
@@ -82,7 +80,7 @@ struct Setting {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
+    copy_slots<Law::kHistory>(whole, 0, result, 0);
     return result;
   }
 
@@ -91,50 +89,80 @@ struct Setting {
     const Tangent<Real, D> one = Tangent<Real, D>::Identity();
     return hardening * one + limit / size * (one - moved * moved.transpose() / (size * size));
   }
+  // With what the law makes of the step from its rest curvature.
+  HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
+                                                 const Vec<Real, D>& moved, const Memory& before) const {
+    const Vec<Real, D> set = set_of(before) + moved;
+    LawStep<Real, D, kHistory> result;
+    copy_slots<Law::kHistory>(inner.history, 0, result.history, 0);
+    store_set<Real, D>(set, result.history, Law::kHistory);
+    result.moment = inner.moment;
+    result.stored = inner.stored + hardening * set.squaredNorm() / 2;
+    result.dissipated = inner.dissipated + limit * moved.norm();
+    result.relaxed = inner.relaxed;
+    return result;
+  }
+  // The law's potential, what hardening stores and what the flow loses.
+  HYST_HD Real with_cost_of(const Vec<Real, D>& moved, const Vec<Real, D>& set, Real potential) const {
+    return potential + hardening * set.squaredNorm() / 2 + limit * moved.norm();
+  }
   HYST_HD Real potential_of(const Vec<Real, D>& moved, const Vec<Real, D>& curvature,
                             const Memory& before) const {
     const Vec<Real, D> set = set_of(before) + moved;
-    return step_potential(law, Vec<Real, D>(curvature - set), part(before)) +
-           hardening * set.squaredNorm() / 2 + limit * moved.norm();
+    return with_cost_of(moved, set, step_potential(law, Vec<Real, D>(curvature - set), part(before)));
   }
 
   // d of the step, by damped Newton steps on its potential.  From the length that the law's largest stiffness
   // would leave, which is no more than the step's, so that d is never zero on the way.
-  // Inlined, though it holds the whole law several times over: called on a GPU, it wrote beyond the stack
-  // that nvcc 13.0 had given it.
+  // Inlined, though it holds the whole law: called on a GPU, it wrote beyond the stack that nvcc 13.0 had
+  // given it.  So that it holds it but once for each of step, potential and tangent, first look, steps and
+  // halvings are one loop.
   HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
     constexpr int kMostSteps = 40, kMostHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
     const Vec<Real, D> old = set_of(before);
     const auto past = part(before);
-    const auto driving = [&](const Vec<Real, D>& moved) {
-      const Vec<Real, D> set = old + moved;
-      return Vec<Real, D>(law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set);
-    };
-    const Vec<Real, D> first = driving(Vec<Real, D>::Zero());
-    const Real size = first.norm(), precise = kPrecision * (size + 2 * hardening * old.norm() + limit);
-    if (!(size > limit + precise)) return Vec<Real, D>::Zero();
-    Vec<Real, D> moved = (size - limit) / ((law.largest_stiffness() + hardening) * size) * first;
-    Vec<Real, D> slope = limit / moved.norm() * moved - driving(moved);
-    for (int i = 0; i < kMostSteps && slope.norm() > precise; ++i) {
-      const Tangent<Real, D> stiff =
-          law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
-      const Vec<Real, D> newton = -solve_definite<Real, D>(stiff, slope);
-      const Real descent = kEnoughDescent * slope.dot(newton);
-      const Real half_slope = slope.norm() / 2;  // as it nearly always is; else the potential decides
-      Real fraction = 1;
-      Vec<Real, D> next = moved;
-      for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
+    Vec<Real, D> moved = Vec<Real, D>::Zero(), next = moved, newton = moved;
+    Real fraction = 1, precise = 0, half_slope = 0, descent = 0;
+    int halvings = 0;
+    for (int steps = -1; steps <= kMostSteps;) {
+      const Vec<Real, D> set = old + next;
+      const Vec<Real, D> driving = law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set;
+      if (steps < 0) {  // does it flow at all?
+        const Real size = driving.norm();
+        precise = kPrecision * (size + 2 * hardening * old.norm() + limit);
+        if (!(size > limit + precise)) return moved;
+        next = (size - limit) / ((law.largest_stiffness() + hardening) * size) * driving;
+        steps = 0;
+        continue;
+      }
+      const Vec<Real, D> slope = limit / next.norm() * next - driving;
+      if (steps > 0 && !(slope.norm() <= half_slope) &&  // as it nearly always is; else the potential decides
+          !descends(next, moved, fraction * descent, curvature, before) && ++halvings < kMostHalvings) {
+        fraction /= 2;
         next = moved + fraction * newton;
-        slope = limit / next.norm() * next - driving(next);
-        if (slope.norm() <= half_slope) break;
-        if (potential_of(next, curvature, before) <=
-            potential_of(moved, curvature, before) + fraction * descent)
-          break;
+        continue;
       }
       moved = next;
+      if (steps == kMostSteps || !(slope.norm() > precise)) return moved;
+      const Tangent<Real, D> stiff =
+          law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
+      newton = -solve_definite<Real, D>(stiff, slope);
+      descent = kEnoughDescent * slope.dot(newton);
+      half_slope = slope.norm() / 2;
+      fraction = 1, halvings = 0;
+      next = moved + newton;
+      ++steps;
     }
     return moved;
+  }
+  // Whether the potential falls by so much from one flow to another.
+  HYST_HD bool descends(const Vec<Real, D>& to, const Vec<Real, D>& from, Real by,
+                        const Vec<Real, D>& curvature, const Memory& before) const {
+    Real potential[2];
+    HYST_UNROLL(1)
+    for (int end = 0; end < 2; ++end) potential[end] = potential_of(end == 0 ? to : from, curvature, before);
+    return potential[0] <= potential[1] + by;
   }
 };
 

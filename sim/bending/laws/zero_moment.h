@@ -34,21 +34,27 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
   constexpr Real kPrecision = sizeof(Real) == 8 ? Real(1e-12) : Real(1e-5);
   constexpr Real kEnoughDescent = Real(1e-4);                 // Armijo's fraction of the predicted decrease
   const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
-  Vec<Real, D> curvature = start;
-  LawStep<Real, D, N> here = law.step(curvature, history);
-  for (int i = 0; i < kMostSteps; ++i) {
-    const Tangent<Real, D> tangent = law.tangent(curvature, history) + softest * Tangent<Real, D>::Identity();
-    const Vec<Real, D> newton = -solve_definite<Real, D>(tangent, here.moment);
-    if (!(newton.norm() > kPrecision * curvature.norm())) break;
-    const Real energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
-    const Real half_moment = here.moment.norm() / 2;  // decides where the energy differs by rounding only
-    Real fraction = 1;
-    for (int halving = 0; halving < kMostHalvings; ++halving, fraction /= 2) {
-      here = law.step(Vec<Real, D>(curvature + fraction * newton), history);
-      if (here.stored + here.dissipated <= energy + fraction * descent) break;
-      if (here.moment.norm() <= half_moment) break;
+  Vec<Real, D> curvature = start, newton = Vec<Real, D>::Zero();
+  Real fraction = 1, energy = 0, descent = 0;
+  Real half_moment = 0;  // decides where the energy differs by rounding only
+  for (int step = 0, halving = kMostHalvings; step <= kMostSteps;) {
+    // The one place where the law is called: it may be long, and is written here as often as it is called.
+    const Vec<Real, D> tried = curvature + fraction * newton;
+    const LawStep<Real, D, N> here = law.step(tried, history);
+    const bool enough =
+        here.stored + here.dissipated <= energy + fraction * descent || here.moment.norm() <= half_moment;
+    if (!enough && ++halving < kMostHalvings) {
+      fraction /= 2;
+      continue;
     }
-    curvature += fraction * newton;
+    curvature = tried;
+    const Tangent<Real, D> tangent = law.tangent(curvature, history) + softest * Tangent<Real, D>::Identity();
+    newton = -solve_definite<Real, D>(tangent, here.moment);
+    if (!(newton.norm() > kPrecision * curvature.norm())) break;
+    energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
+    half_moment = here.moment.norm() / 2;
+    fraction = 1, halving = 0;
+    ++step;
   }
   return curvature;
 }
