@@ -19,8 +19,28 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-std::string without_unit(std::string_view name) {
-  return std::string(trimmed(name.substr(0, name.find('['))));
+// What separates the fields of a table with this head: a semicolon or a tab that stands there outside of
+// quotes, else the comma.
+char separator_in(std::string_view head) {
+  bool quoted = false, tab = false;
+  for (const char c : head) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == ';') return ';';
+    tab = tab || c == '\t';
+  }
+  return tab ? '\t' : ',';
+}
+
+// "-0,35" is "-0.35"; what is no number stays.
+std::string with_decimal_point(std::string field) {
+  const std::size_t comma = field.find(',');
+  if (comma == field.npos) return field;
+  std::string number = field;
+  number[comma] = '.';
+  std::string_view digits = trimmed(number);
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+  return number_in(digits) ? number : field;
 }
 
 Error error_at(const std::string& file, int line, const std::string& what) {
@@ -32,6 +52,8 @@ class Rows {
  public:
   Rows(const std::string& text, const std::string& file) : text_(text), file_(file) {
     if (text.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    const std::size_t head = std::min(text.find_first_not_of(" \t\r\n", at_), text.size());
+    separator_ = separator_in(std::string_view(text).substr(head, text.find('\n', head) - head));
   }
 
   // The next row that is not blank; false at the end.
@@ -41,7 +63,10 @@ class Rows {
       lines_read_ = 0;
       fields = read();
       ++at_, ++lines_read_;
-      if (fields.size() > 1 || !trimmed(fields[0]).empty()) return true;
+      if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;
+      if (separator_ != ',')
+        for (std::string& field : fields) field = with_decimal_point(std::move(field));
+      return true;
     }
     return false;
   }
@@ -65,7 +90,7 @@ class Rows {
     while (at_ < text_.size() && text_[at_] != '\n') {
       if (text_[at_] == '"') {
         fields.back() += quoted();
-      } else if (const char c = text_[at_++]; c == ',') {
+      } else if (const char c = text_[at_++]; c == separator_) {
         fields.emplace_back();
       } else if (c != '\r') {
         fields.back() += c;
@@ -78,6 +103,7 @@ class Rows {
   const std::string& file_;
   std::size_t at_ = 0;
   int line_ = 1, lines_read_ = 0;
+  char separator_ = ',';
 };
 
 double number(std::string_view text, const Table& table, const std::string& column) {
@@ -90,13 +116,24 @@ double number(std::string_view text, const Table& table, const std::string& colu
   return *value;
 }
 
+// Why a column is not the one that is wanted: another name would not change its numbers.
+std::string other_unit(std::string_view column, const std::string& wanted) {
+  const std::string name = quantity_in(column), unit = unit_in(column), must = unit_in(wanted);
+  if (must.empty()) return fmt::format("column '{}' must be called '{}'", trimmed(column), wanted);
+  if (unit.empty())
+    return fmt::format("column '{}' names no unit; its numbers must be in {}, as '{}' says", name, must,
+                       wanted);
+  if (unit == must) return fmt::format("column '{}' must be written '{}'", trimmed(column), wanted);
+  return fmt::format("column '{}' is in {} and must be in {}: convert its numbers, not its name", name, unit,
+                     must);
+}
+
 // Index of `wanted` in the header, or -1.  A column of that name in another unit is an error, not an absence.
 int position(const std::vector<std::string>& header, const std::string& wanted, const std::string& file) {
   int found = -1;
   for (size_t i = 0; i < header.size(); ++i) {
-    if (without_unit(header[i]) != without_unit(wanted)) continue;
-    if (trimmed(header[i]) != wanted)
-      throw error_at(file, 1, fmt::format("column '{}' must be called '{}'", trimmed(header[i]), wanted));
+    if (quantity_in(header[i]) != quantity_in(wanted)) continue;
+    if (trimmed(header[i]) != wanted) throw error_at(file, 1, other_unit(header[i], wanted));
     if (found >= 0) throw error_at(file, 1, "column '" + wanted + "' stands twice");
     found = int(i);
   }
@@ -147,6 +184,16 @@ std::string quoted_where_needed(const std::string& text) {
 }
 
 }  // namespace
+
+std::string quantity_in(std::string_view column) {
+  return std::string(trimmed(column.substr(0, column.find('['))));
+}
+
+std::string unit_in(std::string_view column) {
+  const std::size_t open = column.find('['), close = column.rfind(']');
+  if (open == column.npos || close == column.npos || close < open) return "";
+  return std::string(trimmed(column.substr(open + 1, close - open - 1)));
+}
 
 const Column* Table::find(const std::string& name) const {
   const auto found =

@@ -1,11 +1,13 @@
 // Comma-separated tables: of numbers, with named columns and units in the header, `curvature [1/m],moment
 // [N]`, and of words and numbers.  The one reader and the one writer of them (RFC 4180: a field that needs it
-// stands in quotes); a byte order mark, carriage returns and blank lines are tolerated.
+// stands in quotes).  Read are also tables whose header is separated by semicolons or tabs, with decimal
+// points or commas; a byte order mark, carriage returns and blank lines are tolerated.
 #pragma once
 
 #include <concepts>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/base/atomic_file.h"
@@ -17,6 +19,10 @@ struct Column {
   std::string name;            // as in the header, with its unit: "curvature [1/m]", "edit"
   std::vector<double> values;  // one per row
 };
+
+// Of "curvature [1/m]" the quantity is "curvature" and the unit "1/m"; "" without one.
+std::string quantity_in(std::string_view column);
+std::string unit_in(std::string_view column);
 
 struct Table {
   std::vector<Column> columns;   // all of one length

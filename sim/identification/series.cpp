@@ -13,12 +13,12 @@
 namespace hysteron {
 namespace {
 
-constexpr const char* kCurvature = "curvature [1/m]";
-constexpr const char* kMoment = "moment [N]";
-constexpr const char* kTime = "time [s]";
-constexpr const char* kKesCurvature = "curvature [1/cm]";
-constexpr const char* kKesMoment = "moment [gf cm/cm]";
-constexpr double kPerCentimetre = 100;  // [1/m]
+struct CurveUnits {
+  const char *flag, *curvature, *moment;  // of --units; of the columns
+  double per_metre, newton;               // one of them in 1/m, in N
+};
+constexpr CurveUnits kSi = {"si", "1/m", "N", 1, 1};
+constexpr CurveUnits kKes = {"kes", "1/cm", "gf cm/cm", 100, kGramForceCentimetrePerCentimetre};
 
 // Work that a loop may give back, as a share of curvature range times moment range, before its rows must run
 // backwards: noise around a curve without a loop.
@@ -100,6 +100,17 @@ double relative_work(const MomentSeries& series) {
   return work / (range_of(series.drive) * range_of(series.moment));
 }
 
+// Rows of a way from one turn to the next, on the average, below which there is no way but disorder: shuffled
+// rows have 1.5.
+constexpr double kFewestRowsOfAWay = 2;
+
+void check_order(const MomentSeries& series) {
+  if (series.rows() >= kFewestRowsOfAWay * (series.reversals + 1)) return;
+  throw Error::request(series.name + ": the curvature turns " + std::to_string(series.reversals) +
+                       " times in " + std::to_string(series.rows()) +
+                       " rows, which must stand in the order in which they were measured");
+}
+
 void check_magnitudes(const MomentSeries& series) {
   const double slope = overall_slope(series);
   if (!(slope > 0)) {
@@ -113,6 +124,102 @@ void check_magnitudes(const MomentSeries& series) {
                          "rows run backwards in time");
   }
 }
+
+// A measured curve as a table, in the order of its rows.
+class CurveFile {
+ public:
+  CurveFile(const std::filesystem::path& file, const CurveUnits& units, const std::string& reader)
+      : file_(file),
+        name_(file.filename().string()),
+        units_(units),
+        reader_(reader),
+        table_(read_tester_table(
+            file, [](const std::string& field) { return quantity_in(field) == "curvature"; },
+            std::string("a column curvature [") + units.curvature + "]", reader)) {}
+
+  MomentSeries series(double ripple) const {
+    const int curvature = required("curvature"), moment = required("moment"), time = column("time");
+    check_units(unit_in(table_.head[curvature]), unit_in(table_.head[moment]));
+    MomentSeries series;
+    series.name = name_;
+    series.curvature = numbers(curvature, units_.per_metre);
+    series.moment = numbers(moment, units_.newton);
+    if (time >= 0) series.seconds = steps(time);
+    prepare(series, ripple);
+    return series;
+  }
+
+ private:
+  Error refusal(const std::string& what) const { return Error::request(name_ + ": " + what).in(reader_); }
+
+  // -1 where no column has that quantity.
+  int column(const std::string& quantity) const {
+    int found = -1;
+    for (int i = 0; i < static_cast<int>(table_.head.size()); ++i) {
+      if (quantity_in(table_.head[i]) != quantity) continue;
+      if (found >= 0) throw refusal("column '" + quantity + "' stands twice");
+      found = i;
+    }
+    return found;
+  }
+
+  int required(const std::string& quantity) const {
+    const int found = column(quantity);
+    if (found < 0) throw refusal("column '" + quantity + "' is missing");
+    return found;
+  }
+
+  void check_units(const std::string& curvature, const std::string& moment) const {
+    const auto are = [&](const CurveUnits& units) {
+      return curvature == units.curvature && moment == units.moment;
+    };
+    if (are(units_)) return;
+    const auto said = [](const CurveUnits& units) {
+      return std::string("--units ") + units.flag + " reads " + units.curvature + " and " + units.moment;
+    };
+    for (const CurveUnits& other : {kSi, kKes})
+      if (are(other))
+        throw refusal("curvature is in " + curvature + " and moment in " + moment + ": give --units " +
+                      other.flag + ", which reads these (" + said(units_) + ")");
+    const bool first = curvature != units_.curvature;
+    const std::string quantity = first ? "curvature" : "moment", unit = first ? curvature : moment;
+    const std::string must = first ? units_.curvature : units_.moment;
+    throw refusal(quantity + (unit.empty() ? " names no unit" : " is in " + unit) + " and must be in " +
+                  must + ", '" + quantity + " [" + must + "]' (" + said(kSi) + ", " + said(kKes) +
+                  "): convert numbers of other units, not their name");
+  }
+
+  std::vector<double> numbers(int column, double unit) const {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < table_.rows.size(); ++row)
+      values.push_back(unit * number_of(table_, row, static_cast<std::size_t>(column), file_, reader_));
+    return values;
+  }
+
+  // From the row before.
+  std::vector<double> steps(int column) const {
+    if (const std::string unit = unit_in(table_.head[column]); unit != "s")
+      throw refusal("time " + (unit.empty() ? "names no unit" : "is in " + unit) +
+                    " and must be in s, 'time [s]'");
+    const std::vector<double> time = numbers(column, 1);
+    std::vector<double> seconds;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      seconds.push_back(i == 0 ? 0 : time[i] - time[i - 1]);
+      if (seconds.back() >= 0) continue;
+      throw Error::request(name_ + ":" + std::to_string(table_.lines[i]) +
+                           ": time = " + number_text(time[i]) + " s must be >= " + number_text(time[i - 1]) +
+                           " s, the time of the row before")
+          .in(reader_);
+    }
+    return seconds;
+  }
+
+  std::filesystem::path file_;
+  std::string name_;
+  CurveUnits units_;
+  std::string reader_;
+  TextTable table_;
+};
 
 }  // namespace
 
@@ -142,6 +249,10 @@ void prepare(MomentSeries& series, double ripple) {
     throw Error::request(series.name + ": the curvature is " + number_text(series.curvature.front()) +
                          " 1/m in all rows, and must vary");
   }
+  if (!(range_of(series.moment) > 0)) {
+    throw Error::request(series.name + ": the moment is " + number_text(series.moment.front()) +
+                         " N in all rows, and must vary");
+  }
   const std::vector<int> turns = turning_rows(series.curvature, ripple * range);
   series.reversals = static_cast<int>(turns.size()) - 2;
   series.drive = series.curvature;
@@ -150,44 +261,16 @@ void prepare(MomentSeries& series, double ripple) {
     const double way = series.curvature[last] - series.curvature[first];
     make_monotone(&series.drive[first], last - first + 1, way >= 0 ? 1 : -1);
   }
+  check_order(series);
   check_magnitudes(series);
 }
 
 MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader) {
-  const Table table = read_csv(file, {kCurvature, kMoment}, {kTime}, reader);
-  MomentSeries series;
-  series.name = file.filename().string();
-  series.curvature = table.find(kCurvature)->values;
-  series.moment = table.find(kMoment)->values;
-  if (const Column* time = table.find(kTime)) {
-    for (std::size_t i = 0; i < time->values.size(); ++i) {
-      series.seconds.push_back(i == 0 ? 0 : time->values[i] - time->values[i - 1]);
-      if (series.seconds.back() >= 0) continue;
-      throw table.refusal(i, "time = " + number_text(time->values[i]) + " s must be >= " +
-                                 number_text(time->values[i - 1]) + " s, the time of the row before");
-    }
-  }
-  prepare(series, ripple);
-  return series;
+  return CurveFile(file, kSi, reader).series(ripple);
 }
 
 MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, const std::string& reader) {
-  const TextTable table = read_tester_table(file, kKesCurvature, reader);
-  const auto column = [&](const char* name) {
-    const auto found = std::find(table.head.begin(), table.head.end(), name);
-    if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
-    throw Error::request(file.filename().string() + " has no column '" + name + "', as --units kes says")
-        .in(reader);
-  };
-  const std::size_t curvature = column(kKesCurvature), moment = column(kKesMoment);
-  MomentSeries series;
-  series.name = file.filename().string();
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    series.curvature.push_back(kPerCentimetre * number_of(table, row, curvature, file, reader));
-    series.moment.push_back(kGramForceCentimetrePerCentimetre * number_of(table, row, moment, file, reader));
-  }
-  prepare(series, ripple);
-  return series;
+  return CurveFile(file, kKes, reader).series(ripple);
 }
 
 std::vector<LawRow> law_rows(const MomentSeries& series, bool cycling) {

@@ -24,15 +24,14 @@ struct MomentSeries {
   double largest_moment() const;     // of |moment| [N]
 };
 
-// Columns `curvature [1/m]`, `moment [N]`, optional `time [s]`.  `ripple`: curvature that comes back by less
-// than this share of its range is noise.  Throws Error::machine, and Error::request for a file that is no
-// moment-curvature curve: few rows, constant curvature, moments that fall with curvature, rows that run
-// backwards, magnitudes that no fabric has (other units).
+// Columns `curvature [1/m]`, `moment [N]`, optional `time [s]`, in a table as testers write it
+// (tester_table.h). `ripple`: curvature that comes back by less than this share of its range is noise. Throws
+// Error::machine, and Error::request for a file that is no moment-curvature curve: other units, which are
+// named with the flag that converts them, few rows, constant curvature or moments, moments that fall with
+// curvature, rows out of order or backwards, magnitudes that no fabric has (other units).
 MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
-// The same from the units of KES-FB2: columns `curvature [1/cm]` and `moment [gf cm/cm]`, and a table as
-// testers write it: lines before the head, semicolons or tabs, then decimal commas.  Throws Error::request
-// where these are not its columns.
+// The same from the units of KES-FB2: columns `curvature [1/cm]` and `moment [gf cm/cm]`.
 MomentSeries read_kes_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
 // Fills `drive` and `reversals` from `curvature`; checks as read_series does.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "sim/base/error.h"
+#include "sim/reference/fab_checks.h"
 #include "sim/reference/tester_table.h"
 
 namespace hysteron {
@@ -12,45 +14,75 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kGramForce = 9.80665e-3;         // [N], by definition
-constexpr double kCentimetre = 1e-2;              // [m]
-constexpr double kShortest = 1e-3, kLongest = 1;  // [m] no such strip is shorter or longer
-constexpr int kFewestRows = 4;                    // of a branch
+constexpr double kGramForce = 9.80665e-3;  // [N], by definition
+constexpr double kCentimetre = 1e-2;       // [m]
 
 struct UnitNames {
-  const char *length, *force;
+  const char *flag, *length, *force;  // of --units; endings of columns
   double metre, newton;
 };
-
-UnitNames names_of(TesterUnits units) {
-  if (units == TesterUnits::si) return {"_m", "_N", 1, 1};
-  return {"_cm", "_gf", kCentimetre, kGramForce};
-}
+constexpr UnitNames kSi = {"si", "_m", "_N", 1, 1};
+constexpr UnitNames kFab = {"fab", "_cm", "_gf", kCentimetre, kGramForce};
 
 struct Columns {
   std::size_t direction, test, branch, distance, force, gauge, width;
 };
 
+// "m" of "clamp_distance_m"; none unless the column is of that quantity.
+std::optional<std::string> unit_of(const std::string& column, const std::string& quantity) {
+  if (!column.starts_with(quantity)) return std::nullopt;
+  const std::string ending = column.substr(quantity.size());
+  if (ending.empty()) return "";
+  return ending.front() == '_' ? std::optional(ending.substr(1)) : std::nullopt;
+}
+
+std::string said_of(const UnitNames& units) {
+  return std::string("--units ") + units.flag + " reads " + (units.length + 1) + " and " + (units.force + 1);
+}
+
 std::size_t column_of(const TextTable& table, const std::string& name, const fs::path& file,
                       const std::string& reader) {
   const auto found = std::find(table.head.begin(), table.head.end(), name);
-  if (found == table.head.end())
-    throw Error::request(file.filename().string() + " has no column " + name +
-                         " (--units si: _m and _N, --units fab: _cm and _gf)")
+  if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
+  throw Error::request(file.filename().string() + " has no column " + name).in(reader);
+}
+
+// A length or a force; where it is there in other units, these are named.
+std::size_t column_of(const TextTable& table, const std::string& quantity, const char* ending,
+                      const fs::path& file, const std::string& reader) {
+  for (const std::string& column : table.head) {
+    const std::optional<std::string> unit = unit_of(column, quantity);
+    if (!unit || *unit == ending + 1) continue;
+    const auto is_of = [&](const UnitNames& units) {
+      return *unit == units.length + 1 || *unit == units.force + 1;
+    };
+    const std::string read = said_of(kSi) + ", " + said_of(kFab);
+    const std::string what = file.filename().string() + ": " + quantity;
+    if (unit->empty())
+      throw Error::request(what + " names no unit: it must be " + quantity + ending + " (" + read + ")")
+          .in(reader);
+    if (!is_of(kSi) && !is_of(kFab))
+      throw Error::request(what + " is in " + *unit + ": convert its numbers (" + read + ")").in(reader);
+    throw Error::request(what + " is in " + *unit + ": give --units " + (is_of(kSi) ? kSi : kFab).flag +
+                         ", which reads it (" + read + ")")
         .in(reader);
-  return static_cast<std::size_t>(found - table.head.begin());
+  }
+  return column_of(table, quantity + ending, file, reader);
 }
 
 Columns columns_of(const TextTable& table, const UnitNames& unit, const fs::path& file,
                    const std::string& reader) {
   const auto at = [&](const std::string& name) { return column_of(table, name, file, reader); };
+  const auto in = [&](const std::string& quantity, const char* ending) {
+    return column_of(table, quantity, ending, file, reader);
+  };
   return {at("direction"),
           at("test"),
           at("branch"),
-          at(std::string("clamp_distance") + unit.length),
-          at(std::string("force") + unit.force),
-          at(std::string("gauge_length") + unit.length),
-          at(std::string("width") + unit.length)};
+          in("clamp_distance", unit.length),
+          in("force", unit.force),
+          in("gauge_length", unit.length),
+          in("width", unit.length)};
 }
 
 FabLoops& loops_of(std::vector<FabLoops>& all, const std::string& direction, const std::string& test) {
@@ -58,25 +90,6 @@ FabLoops& loops_of(std::vector<FabLoops>& all, const std::string& direction, con
     if (loops.direction == direction && loops.test == test) return loops;
   all.push_back({direction, test, 0, 0, {}});
   return all.back();
-}
-
-void check(const FabLoops& loops, const std::string& where, const std::string& reader) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error::request(where + ": " + loops.name() + ": " + what).in(reader);
-  };
-  if (std::string("UDS").find(loops.test.front()) == std::string::npos) refuse("a test is U.., D.. or S..");
-  if (loops.branches.size() % 2 != 0) refuse("every cycle has a branch out and one back");
-  for (const double length : {loops.gauge, loops.width})
-    if (!(length >= kShortest && length <= kLongest))
-      refuse("a length of " + std::to_string(length) + " m is not one of a strip, " +
-             std::to_string(kShortest) + " to " + std::to_string(kLongest) + " m: other units than said?");
-  for (const FabBranch& branch : loops.branches) {
-    if (branch.force.size() < kFewestRows) refuse("a branch has fewer than 4 rows");
-    for (const double distance : branch.distance)
-      if (!(distance > 0 && distance < 3 * loops.gauge) || (loops.bends() && distance >= loops.gauge))
-        refuse("clamps at " + std::to_string(distance) + " m do not fit a gauge of " +
-               std::to_string(loops.gauge) + " m");
-  }
 }
 
 double mean_force(const BranchForces& force, int cycle) {
@@ -99,8 +112,11 @@ std::pair<double, double> extremes(const BranchForces& force, int cycle) {
 }  // namespace
 
 std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const std::string& reader) {
-  const UnitNames unit = names_of(units);
-  const TextTable table = read_tester_table(file, std::string("clamp_distance") + unit.length, reader);
+  const UnitNames& unit = units == TesterUnits::si ? kSi : kFab;
+  const std::string distance = "clamp_distance";
+  const TextTable table = read_tester_table(
+      file, [&](const std::string& field) { return unit_of(field, distance).has_value(); },
+      "a column " + distance + unit.length, reader);
   const Columns c = columns_of(table, unit, file, reader);
   std::vector<FabLoops> all;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -116,12 +132,23 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
       throw Error::request(where + ": branch " + words[c.branch] + " does not follow branch " +
                            std::to_string(loops.branches.size()) + " - 1")
           .in(reader);
-    loops.gauge = unit.metre * number(c.gauge);
-    loops.width = unit.metre * number(c.width);
+    const auto same = [&](double& of_test, std::size_t column) {
+      const double here = unit.metre * number(column);
+      if (of_test != 0 && here != of_test)
+        throw Error::request(where + ": " + table.head[column] + " = " + words[column] +
+                             " differs from that of the rows before, and one test has one strip")
+            .in(reader);
+      of_test = here;
+    };
+    same(loops.gauge, c.gauge);
+    same(loops.width, c.width);
     loops.branches.back().distance.push_back(unit.metre * number(c.distance));
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }
-  for (const FabLoops& loops : all) check(loops, file.filename().string(), reader);
+  for (const FabLoops& loops : all) {
+    check_fab_way(loops, file.filename().string(), reader);
+    check_fab_forces(loops, file.filename().string(), reader);
+  }
   return all;
 }
 

@@ -31,8 +31,8 @@ enum class TesterUnits { si, fab };
 // A table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their units
 // as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
 // decimal commas are read, too).  Force is of the whole width.  Throws Error::machine, Error::request with
-// file and line: other units than said, a column or a number that is missing, branches out of order,
-// distances that no such strip has.
+// file and line: other units than said, a column or a number that is missing, branches out of order, another
+// gauge or width within a test; and as check_fab_way() and check_fab_forces().
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader);
 

@@ -3,16 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "sim/base/csv.h"
 
 namespace hysteron {
 
-// The lines from the first on that names `first_column` (a whole field, upper and lower case alike), its
-// numbers with decimal points.  Throws Error::machine, and Error::request if there is no such line.
-TextTable read_tester_table(const std::filesystem::path& file, const std::string& first_column,
-                            const std::string& reader);
+// The lines from the first on with a field that `is_of_head` takes.  Throws Error::machine, and
+// Error::request if there is no such line (`wanted` says what it would have been: "a column curvature") or no
+// row behind it.
+TextTable read_tester_table(const std::filesystem::path& file,
+                            const std::function<bool(const std::string& field)>& is_of_head,
+                            const std::string& wanted, const std::string& reader);
 
 // The number in a field of a table; Error::request with file and line if there is none.
 double number_of(const TextTable& table, std::size_t row, std::size_t column,

@@ -43,7 +43,10 @@ TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
 
 TEST_F(Csv, RefusesBadInputWithFileAndLine) {
   EXPECT_NE(refusal("").find("in.csv:1: column 'curvature [1/m]' is missing"), std::string::npos);
-  EXPECT_NE(refusal("curvature [1/cm]\n1\n").find("'curvature [1/cm]' must be called"), std::string::npos);
+  EXPECT_NE(refusal("curvature [1/cm]\n1\n").find("column 'curvature' is in 1/cm and must be in 1/m"),
+            std::string::npos);
+  EXPECT_NE(refusal("curvature\n1\n").find("column 'curvature' names no unit; its numbers must be in 1/m"),
+            std::string::npos);
   EXPECT_NE(refusal("curvature [1/m],curvature [1/m]\n1,2\n").find("stands twice"), std::string::npos);
   EXPECT_NE(refusal("curvature [1/m]\n1\ntwo\n").find("in.csv:3: curvature [1/m] = 'two'"),
             std::string::npos);
@@ -51,6 +54,25 @@ TEST_F(Csv, RefusesBadInputWithFileAndLine) {
   EXPECT_NE(refusal("curvature [1/m],time [s]\n1\n").find("in.csv:2: 1 fields, must be 2"),
             std::string::npos);
   EXPECT_NE(refusal("curvature [1/m]\n").find("no rows"), std::string::npos);
+}
+
+// Semicolons and tabs leave the comma to the decimals; only the head tells what separates.
+TEST_F(Csv, TellsSemicolonsAndTabsFromCommasByTheHead) {
+  for (const char* text : {"note;curvature [1/m]\n\"a;b\";-1,5\n1,2,3;2,5e1\n",
+                           "note\tcurvature [1/m]\na;b\t-1.5\n1,2,3\t2,5e1\n",
+                           "\xEF\xBB\xBF\nnote,curvature [1/m]\na;b,-1.5\n\"1,2,3\",2.5e1\n"}) {
+    EXPECT_EQ(read_csv(file(text), {"curvature [1/m]"}, {}, "law").columns[0].values,
+              (std::vector<double>{-1.5, 25}))
+        << text;
+    const TextTable words = read_words(file(text));
+    EXPECT_EQ(words.rows[0][0], "a;b") << text;
+    EXPECT_EQ(words.rows[1][0], "1,2,3") << text;
+  }
+}
+
+TEST_F(Csv, RefusesDecimalCommasBetweenCommas) {
+  EXPECT_NE(refusal("curvature [1/m],time [s]\n\"0,5\",1\n").find("'0,5' must be a finite number"),
+            std::string::npos);
 }
 
 TEST_F(Csv, RefusesAFileThatIsNotThereAsAFailureOfTheMachine) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/base/error.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/identification/synthetic.h"
@@ -41,6 +43,9 @@ const std::string kGramForce =
     std::string(kHead) + "0,0\n.3,.035\n.6,.07\n.9,.106\n1.2,.14\n1.5,.177\n1.8,.21\n2.1,.25\n";
 const std::string kTwice =
     std::string(kHead) + "0,0\n30,3.4e-8\n60,6.8e-8\n90,1e-7\n120,1.4e-7\n150,1.7e-7\n180,2e-7\n210,2.4e-7\n";
+const std::string kZero = std::string(kHead) + "0,0\n10,0\n20,0\n30,0\n40,0\n50,0\n60,0\n70,0\n";
+const std::string kShuffled =
+    std::string(kHead) + "0,0\n70,7e-4\n10,1e-4\n60,6e-4\n20,2e-4\n50,5e-4\n30,3e-4\n40,4e-4\n20,2e-4\n";
 const std::string kTime = "curvature [1/m],moment [N],time [s]\n0,0,0\n10,1e-4,2\n20,2e-4,1\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -53,7 +58,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"InGramForce", kGramForce.c_str(), "times 9.80665e-05 it is"},
         BadFile{"ConvertedTwice", kTwice.c_str(), "Divided by 9.80665e-05 it is"},
         BadFile{"WithTimeThatRunsBack", kTime.c_str(), "time = 1 s must be >= 2 s"},
-        BadFile{"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n", "must be called 'curvature [1/m]'"}),
+        BadFile{"WithConstantMoments", kZero.c_str(), "the moment is 0 N in all rows, and must vary"},
+        BadFile{"WithShuffledRows", kShuffled.c_str(),
+                "turns 7 times in 9 rows, which must stand in the order"},
+        BadFile{"InUnitsOfKes", "curvature [1/cm],moment [gf cm/cm]\n0,0\n",
+                "curvature is in 1/cm and moment in gf cm/cm: give --units kes, which reads these"},
+        BadFile{"InOtherUnits", "curvature [1/cm],moment [N]\n0,0\n",
+                "curvature is in 1/cm and must be in 1/m, 'curvature [1/m]' (--units si reads 1/m and N, "
+                "--units kes reads 1/cm and gf cm/cm): convert numbers of other units, not their name"},
+        BadFile{"WithoutUnits", "curvature [1/m],moment\n0,0\n", "moment names no unit and must be in N"},
+        BadFile{"WithMinutes", "curvature [1/m],moment [N],time [min]\n0,0,0\n", "time is in min"},
+        BadFile{"WithTwoMoments", "curvature [1/m],moment [N],moment [N]\n0,0,0\n", "stands twice"},
+        BadFile{"WithoutMoment", "curvature [1/m],torque [N m]\n0,0\n", "column 'moment' is missing"},
+        BadFile{"OfAnotherKind", "x [m],y [m]\n0,0\n", "names a column curvature [1/m]"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // B = 0.118 gf cm^2/cm, as KES-FB2 prints it.
@@ -67,6 +84,31 @@ TEST(MeasuredCurve, InTheUnitsOfKesIsConverted) {
   ASSERT_EQ(series.rows(), 8);
   EXPECT_NEAR(series.curvature.back(), 210, 1e-9);
   EXPECT_NEAR(series.moment.back() / series.curvature.back(), 0.118 * 9.80665e-5, 1e-12);
+}
+
+// Semicolons and tabs with decimal commas, and commas: one curve, whose times go with it.
+TEST(MeasuredCurve, InTheUnitsOfKesKeepsItsTimesWhateverSeparatesIt) {
+  const test::Folder folder;
+  for (const char separator : {';', '\t', ','}) {
+    std::string text = "time [s],curvature [1/cm],moment [gf cm/cm]\n";
+    for (int i = 0; i < 8; ++i)
+      text += std::to_string(i) + ".25,0." + std::to_string(i) + ",0.0" + std::to_string(i) + "\n";
+    if (separator != ',') {
+      std::replace(text.begin(), text.end(), ',', separator);
+      std::replace(text.begin(), text.end(), '.', ',');
+    }
+    const MomentSeries series = read_kes_series(folder.write("loop.csv", text), kRipple, "test");
+    EXPECT_EQ(series.seconds, (std::vector<double>{0, 1, 1, 1, 1, 1, 1, 1})) << separator;
+    EXPECT_NEAR(series.curvature[7], 70, 1e-12) << separator;
+    EXPECT_NEAR(series.moment[7], 0.07 * 9.80665e-3, 1e-12) << separator;
+  }
+}
+
+TEST(MeasuredCurve, InSiIsNoneOfTheUnitsOfKes) {
+  const test::Folder folder;
+  const std::string file = folder.write("loop.csv", kGramForce);
+  const std::string said = test::error_of([&] { read_kes_series(file, kRipple, "test"); }).what();
+  EXPECT_NE(said.find("curvature is in 1/m and moment in N: give --units si"), std::string::npos) << said;
 }
 
 TEST(MeasuredCurve, IsNotGuessedToBeInOtherUnits) {

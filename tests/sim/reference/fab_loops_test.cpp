@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/reference/fab_test.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
@@ -60,9 +62,13 @@ TEST(FabLoops, InTheTestersUnitsAreTheSameLoops) {
 TEST(FabLoops, AreRefusedInOtherUnitsThanSaid) {
   const Folder folder;
   const std::string si = folder.write("a.csv", si_rows()), fab = folder.write("b.csv", fab_rows(""));
-  EXPECT_NE(refusal([&] { read_fab(si, TesterUnits::fab, "t"); }).find("clamp_distance_cm"),
+  EXPECT_NE(refusal([&] {
+              read_fab(si, TesterUnits::fab, "t");
+            }).find("clamp_distance is in m: give --units si, which reads it"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { read_fab(fab, TesterUnits::si, "t"); }).find("clamp_distance_m"),
+  EXPECT_NE(refusal([&] {
+              read_fab(fab, TesterUnits::si, "t");
+            }).find("clamp_distance is in cm: give --units fab, which reads it"),
             std::string::npos);
 }
 
@@ -94,6 +100,117 @@ TEST(FabLoops, OfAFileThatIsNotThereSayWhichFile) {
   const Error error = test::error_of([&] { read_fab(missing, TesterUnits::si, "t"); });
   EXPECT_EQ(error.exit_code(), 1);
   EXPECT_EQ(error.what(), "cannot read " + missing + ": No such file or directory");
+}
+
+// A spring of 1 N/mm and friction of 0.2 N, both per metre, along the clamps' way.
+class FabRecord : public testing::Test {
+ protected:
+  FabRecord() : loops_(made_up_loops("D1", 0.021, 0.0015, {0.004, 0.006}, 20)) {
+    loops_.direction = "L";
+    loops_.width = 0.04;
+    for (std::size_t b = 0; b < loops_.branches.size(); ++b)
+      for (std::size_t i = 0; i < loops_.branches[b].distance.size(); ++i)
+        loops_.branches[b].force[i] = 1e3 * (loops_.branches[b].distance[i] - 0.021) + (b % 2 ? 0.2 : -0.2);
+  }
+  // What reading the file says of these loops.
+  std::string said() const {
+    std::string text = kHeadSi;
+    for (std::size_t b = 0; b < loops_.branches.size(); ++b)
+      for (std::size_t i = 0; i < loops_.branches[b].distance.size(); ++i)
+        text += loops_.direction + "," + loops_.test + "," + std::to_string(b) + "," +
+                std::to_string(loops_.branches[b].distance[i]) + "," +
+                std::to_string(loops_.branches[b].force[i] * loops_.width) + "," +
+                std::to_string(loops_.gauge) + "," + std::to_string(loops_.width) + "\n";
+    return refusal([&] { read_fab(folder_.write("a.csv", text), TesterUnits::si, "t"); });
+  }
+  template <class Change>
+  void change_forces(const Change& change) {
+    for (FabBranch& branch : loops_.branches)
+      for (double& force : branch.force) force = change(force);
+  }
+  static bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+  Folder folder_;
+  FabLoops loops_;
+};
+
+TEST_F(FabRecord, IsReadWhereverTheZeroOfForceIs) {
+  for (const double zero : {0.0, 3.0, -10.0}) {
+    change_forces([&](double force) { return force + zero; });
+    EXPECT_EQ(said(), "(accepted)") << zero;
+  }
+}
+
+TEST_F(FabRecord, OfForcesThatDoNotVaryIsRefused) {
+  change_forces([](double) { return 0; });
+  EXPECT_TRUE(has(said(), "t: a.csv: L D1: the force is 0 N in all rows of cycle 1, and must vary"))
+      << said();
+}
+
+TEST_F(FabRecord, WithTheSignOfForceTurnedIsRefused) {
+  change_forces([](double force) { return -force; });
+  EXPECT_TRUE(has(said(), "turn the sign of the forces")) << said();
+}
+
+// Branches in their order, but each from its end to its beginning and the last first.
+TEST_F(FabRecord, ThatRunsBackwardsInTimeIsRefused) {
+  std::reverse(loops_.branches.begin(), loops_.branches.end());
+  for (FabBranch& branch : loops_.branches) {
+    std::reverse(branch.distance.begin(), branch.distance.end());
+    std::reverse(branch.force.begin(), branch.force.end());
+  }
+  EXPECT_TRUE(has(said(), "gives back more work than it takes")) << said();
+}
+
+TEST_F(FabRecord, WithBranchesFromTheirEndToTheirBeginningIsRefused) {
+  for (FabBranch& branch : loops_.branches) {
+    std::reverse(branch.distance.begin(), branch.distance.end());
+    std::reverse(branch.force.begin(), branch.force.end());
+  }
+  EXPECT_TRUE(has(said(), "branch 0 goes the wrong way")) << said();
+}
+
+TEST_F(FabRecord, WithRowsOutOfOrderIsRefused) {
+  FabBranch& branch = loops_.branches[1];
+  std::swap(branch.distance[4], branch.distance[9]);
+  std::swap(branch.force[4], branch.force[9]);
+  EXPECT_TRUE(has(said(), "on branch 1, which parts the clamps, they come back by 25 % of their way"))
+      << said();
+}
+
+// Testers turn late: the first rows of a branch may still go the way of the last one.
+TEST_F(FabRecord, WhoseClampsTurnLateIsRead) {
+  for (FabBranch& branch : loops_.branches) {
+    const double turn = branch.distance[0], step = branch.distance[1] - turn;
+    branch.distance[0] = turn + 0.5 * step;
+    branch.distance[1] = turn;
+  }
+  EXPECT_EQ(said(), "(accepted)");
+}
+
+TEST_F(FabRecord, ThatJumpsBetweenBranchesIsRefused) {
+  for (double& distance : loops_.branches[2].distance) distance -= 0.003;
+  EXPECT_TRUE(has(said(), "branch 2 begins at 0.0165 m, far from where the one before it ends, 0.0195 m"))
+      << said();
+}
+
+// 0.0195 m of 0.03 m: that strip would hang in a deep bow before the test begins.
+TEST_F(FabRecord, OfAnotherGaugeIsRefused) {
+  loops_.gauge = 0.03;
+  EXPECT_TRUE(has(said(), "the clamps begin 0.0195 m apart, must be within 25 % of the gauge, 0.03 m"))
+      << said();
+}
+
+TEST_F(FabRecord, WhoseStripChangesWithinATestIsRefused) {
+  std::string text = si_rows();
+  text.replace(text.rfind("0.04"), 4, "0.05");
+  EXPECT_TRUE(has(refusal([&] { read_fab(folder_.write("b.csv", text), TesterUnits::si, "t"); }),
+                  "b.csv:9: width_m = 0.05 differs"));
+}
+
+TEST_F(FabRecord, OfADirectionThatThereIsNotIsRefused) {
+  loops_.direction = "X";
+  EXPECT_TRUE(has(said(), "a direction is L (warp), W (weft) or B (bias)")) << said();
 }
 
 // The clamps' work is what the strip stores and loses.
