@@ -15,6 +15,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/identification/fab_fabric.h"
+#include "sim/reference/fab_checks.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
@@ -43,7 +44,7 @@ const KeyRow<TestFlags> kRows[] = {
     {"fab.gauge", at<&F::gauge>, "m", between(1e-3, 1), "", "without data: length of the strip between the clamps"},
     {"fab.slack", at<&F::slack>, "m", positive(), "", "without data: by which the clamps are closer at first, in bending"},
     {"fab.compressions", at<&F::compressions>, "", any(), "", "without data: of the cycles, from the gauge on, separated by commas [m]"},
-    {"fab.width", at<&F::width>, "m", positive(), "", "without data: of the strip"},
+    {"fab.width", at<&F::width>, "m", between(1e-3, 1), "", "without data: of the strip"},
     {"fab.steps", at<&F::steps>, "", between(4, 1e5), "", "without data: rows of a branch"},
     {"on", at<&F::on>, "", any(), "strip | sheet", "the strip as an elastica alone, or beside it a sheet of triangles, which bends"},
 };
@@ -95,6 +96,7 @@ FabLoops loops_without_data(const TestFlags& flags) {
   FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, flags.steps);
   loops.direction = flags.direction;
   loops.width = flags.width;
+  check_fab_way(loops, "loops to be simulated", "fab");  // as fab.csv is, when it is read
   return loops;
 }
 

@@ -34,8 +34,9 @@ struct FitFlags {
   Options options;
 };
 
-constexpr double kSameResidual = 1e-4;    // relative: what numerical differences leave
-constexpr double kNoResidual = 1e-9;      // residuals below this share of the largest moment are none
+constexpr double kSameResidual = 1e-4;  // relative: what numerical differences leave
+constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment are none
+constexpr double kMisses = 0.25;  // of the largest moment: a law farther from the data (rms) is another's
 constexpr double kLikelihoodFall = 3.84;  // twice the logarithm of the likelihood, 95 % (Wilks 1938)
 
 using F = FitFlags;
@@ -54,7 +55,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
     {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "", "that are fitted, separated by commas, the first being 1"},
     {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of the stops, separated by commas [1/m]"},
-    {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation"},
+    {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation; a fit that misses them by more than three times as much (rms) is refused"},
     {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
     {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
@@ -223,10 +224,10 @@ Json resolved(Keys keys) {
 }
 
 void finish(Run& run, const FitFlags& flags, const std::string& summary, const FabricNotes& notes) {
+  for (const std::string& warning : borrowed_warnings(notes)) run.warn(warning);
   finish_with_report(run);
   if (flags.options.json) return;
   std::cout << summary;
-  for (const std::string& warning : borrowed_warnings(notes)) std::cout << warning << "\n";
   std::cout << "written: " << (run.folder() / "fabric.toml").string() << std::endl;
 }
 
@@ -249,6 +250,7 @@ int run_fit(const CommandLine& line) {
     const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   }
+  if (flags.name.empty()) throw Error::request("name = \"\" must be the fabric's (--name)").of("name", "");
   if (!flags.fab.file.empty()) {
     fit_loops_of_fab(line, flags, keys);
     return 0;
@@ -259,6 +261,10 @@ int run_fit(const CommandLine& line) {
   const FabricNotes notes{flags.name, answer.from, if_given(flags.density), if_given(flags.thickness)};
   report_fits(run, answer.fits, notes);
   if (!answer.stops.empty()) report_stops(run, answer.stops);
+  const Identification& best = answer.fits[0];
+  if (const double share = best.residual_rms() / best.largest_moment(); !(share <= kMisses))
+    run.warn(best.law + " does not describe these data: it misses them by " + rounded(100 * share) +
+             " % of the largest moment (rms)");
   finish(run, flags, summary(answer.fits), notes);
   return 0;
 }

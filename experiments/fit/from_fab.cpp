@@ -13,11 +13,16 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/base/parallel.h"
+#include "sim/identification/series.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr int kThreads = 2;
+
+// Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
+// the largest force of stretch, which no law of stops follows to less than some percent.
+constexpr double kMostOverNoise = 3, kMostOfStretch = 0.1;
 
 std::vector<double> numbers_of(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
@@ -32,13 +37,69 @@ std::vector<double> numbers_of(const std::string& text, const std::string& key) 
   return numbers;
 }
 
+std::vector<int> cycles_of(const std::string& text) {
+  std::vector<int> cycles;
+  for (const double cycle : numbers_of(text, "fab.cycles")) {
+    if (cycle != std::floor(cycle))
+      throw Error::request("fab.cycles = " + text + " must be whole numbers, the first cycle being 1")
+          .of("fab.cycles", text);
+    cycles.push_back(static_cast<int>(cycle));
+  }
+  return cycles;
+}
+
+bool is_bias(const std::string& direction) { return strip_direction(direction) == StripDirection::bias; }
+
+// Those asked for, of which the first is warp and the second weft: a bias is neither, unless it is alone.
+// None asked for: warp before weft, whatever their order in the file, or the bias where it is alone.
 std::vector<std::string> directions_of(const std::string& text, const std::vector<FabLoops>& loops) {
   std::vector<std::string> directions = split(text);
+  if (directions.size() > 1 && (is_bias(directions[0]) || is_bias(directions[1])))
+    throw Error::request(
+        "fab.directions = " + text +
+        " must begin with warp and weft, L,W, or name the bias alone, B: it stands for neither")
+        .of("fab.directions", text);
   if (!directions.empty()) return directions;
   for (const FabLoops& one : loops)
     if (std::find(directions.begin(), directions.end(), one.direction) == directions.end())
       directions.push_back(one.direction);
+  std::stable_sort(directions.begin(), directions.end(), [](const std::string& a, const std::string& b) {
+    return strip_direction(a) < strip_direction(b);
+  });
+  if (directions.size() > 1) std::erase_if(directions, is_bias);
   return directions;
+}
+
+Error misfit(const std::string& direction, const std::string& by, double noise) {
+  return Error::request(
+             fmt::format("along {} the fit misses the forces by {}: check gauge, width, density, tests and "
+                         "cycles; data that scatter so are fitted with --fab.noise {:.2g} [N]",
+                         direction, by, noise))
+      .of("fab.noise", "");
+}
+
+void check_fit(const FabBending& b, double noise) {
+  for (const auto& [name, rigidity] : {std::pair{"b1", b.law.initial_stiffness()}, {"b2", b.law.spring}})
+    if (!(rigidity >= kLeastRigidity && rigidity <= kGreatestRigidity))
+      throw Error::request(
+          fmt::format("along {} the fit finds {} = {:.3g} N m, must be in [{:g}, {:g}] N m, as "
+                      "fabrics are: check the units of forces and lengths, and the width",
+                      b.direction, name, rigidity, kLeastRigidity, kGreatestRigidity));
+  if (!(b.residual_rms <= kMostOverNoise))
+    throw misfit(
+        b.direction,
+        fmt::format("{:.2g} times their noise of {:g} N (rms), at most {:g} times is taken for noise",
+                    b.residual_rms, noise, kMostOverNoise),
+        noise * b.residual_rms);
+}
+
+void check_fit(const FabTension& t, double width, double noise) {
+  const double most = std::max(kMostOfStretch * t.largest_force, kMostOverNoise * noise / width);
+  if (!(t.residual_rms <= most))
+    throw misfit(t.direction,
+                 fmt::format("{:.2g} % of the largest in stretch (rms), at most {:g} % is taken for noise",
+                             100 * t.residual_rms / t.largest_force, 100 * kMostOfStretch),
+                 t.residual_rms * width);
 }
 
 // Loops of one direction that bend, or that stretch, among the tests asked for.
@@ -108,8 +169,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   FabAnswer answer;
   answer.loops = read_fab(flags.file, tester_units(units), "fit");
   answer.tests = split(flags.tests);
-  for (const double cycle : numbers_of(flags.cycles, "fab.cycles"))
-    answer.cycles.push_back(static_cast<int>(cycle));
+  answer.cycles = cycles_of(flags.cycles);
   const std::vector<std::string> directions = directions_of(flags.directions, answer.loops);
   answer.found.from = where_from(flags, directions);
   FabBendingQuestion bending;
@@ -119,15 +179,19 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   bending.noise = flags.noise;
   FabTensionQuestion tension;
   tension.cycles = answer.cycles;
+  tension.noise = std::max(tension.noise, flags.noise);
   std::vector<FabBending> stops(directions.size()), one(directions.size());
   std::vector<FabTension> stretched(directions.size());
   in_parallel(directions.size(), kThreads, [&](std::size_t i) {
     if (const auto loops = asked(answer, directions[i], true); !loops.empty()) {
       stops[i] = identify_fab_bending(loops, bending);
+      check_fit(stops[i], flags.noise);
       one[i] = identify_one_stop(loops, bending);
     }
-    if (const auto loops = asked(answer, directions[i], false); !loops.empty())
+    if (const auto loops = asked(answer, directions[i], false); !loops.empty()) {
       stretched[i] = identify_fab_tension(loops, tension);
+      check_fit(stretched[i], loops[0].width, tension.noise);
+    }
   });
   for (std::size_t i = 0; i < directions.size(); ++i) {
     if (stops[i].rows > 0) answer.found.bending.push_back(stops[i]), answer.one_stop.push_back(one[i]);
@@ -140,6 +204,10 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
 }
 
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures) {
+  for (const FabBending& b : answer.found.bending)
+    if (!b.converged) run.warn("along " + b.direction + " the fit of bending did not converge");
+  for (const FabTension& t : answer.found.tension)
+    if (!t.converged) run.warn("along " + t.direction + " the fit of stretch did not converge");
   FabIdentification one{answer.one_stop, {}, answer.found.from + ", by one stop"};
   write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
   write_fab_fabric(run.path("one_stop.toml"), one, notes);
@@ -156,9 +224,9 @@ std::string summary(const FabAnswer& answer) {
     const std::vector<std::string> open = b.undetermined();
     text += fmt::format(
         "along {}: b2 = {:.3g} +- {:.2g} N m, HB = {:.3g} +- {:.2g} N, b1 = {:.3g} N m; rms {:.2g} "
-        "of the noise, {} iterations{}\n",
+        "of the noise, {} iterations\n",
         b.direction, b.law.spring, b.spring_error, b.law.friction(), b.friction_error,
-        b.law.initial_stiffness(), b.residual_rms, b.iterations, b.converged ? "" : " without converging");
+        b.law.initial_stiffness(), b.residual_rms, b.iterations);
     text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
   }
   for (const FabTension& t : answer.found.tension)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "sim/identification/covariance.h"
@@ -33,14 +34,15 @@ bool is_settling(const FabLoops& loops, int branch, std::size_t index, double se
 }
 
 // The friction moment that loses as much as the loop: 2 HB times the change of int |K| ds, the same for any
-// elastic law without weight.
-double friction_of_loop(const FabLoops& loops, int cycle) {
+// elastic law without weight.  A loop as narrow as the noise [N/m] is none: its work there is the noise's.
+double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   const FabBranch& out = loops.branches[2 * cycle];
   const auto [low, high] = std::minmax_element(out.distance.begin(), out.distance.end());
   BuckledStripTest elastica({{1, {}, {}}, loops.gauge, 0, 32}, *high, BuckledStripTest::Start::relaxed);
   const double before = elastica.bend();
   elastica.go_to(*low, 0.02);
-  return std::abs(loop_area(loops, forces_of(loops), cycle)) / (2 * (elastica.bend() - before));
+  const double work = std::max(std::abs(loop_area(loops, forces_of(loops), cycle)), noise * (*high - *low));
+  return work / (2 * (elastica.bend() - before));
 }
 
 // Parameters: logarithms of b2 and of the moments p_j r_j over their priors, then the zeros of force.
@@ -53,7 +55,8 @@ class BendingModel {
         rows_(rows_of(loops, question.cycles)) {
     double friction = 0;
     for (const FabLoops& one : loops)
-      for (const int cycle : question.cycles) friction += friction_of_loop(one, cycle - 1);
+      for (const int cycle : question.cycles)
+        friction += friction_of_loop(one, cycle - 1, question.noise / one.width);
     for (FabRow& row : rows_) {
       const FabLoops& one = loops[row.loops];
       row.weight = one.width / question.noise *
@@ -147,6 +150,11 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   high.tail(loops.size()).setConstant(kLargestZero);
   const LeastSquares best =
       minimize([&](const VectorXd& p) { return model.residuals(p); }, model.start(), low, high);
+  if (!best.residuals.allFinite())
+    throw Error::run("along " + loops[0].direction +
+                     " no equilibrium is found of a strip as stiff as its loops' " +
+                     "work suggests, b2 = " + rounded(model.prior_spring()) +
+                     " N m: check gauge, width, density and the units of forces");
   FabBending found;
   found.direction = loops[0].direction;
   found.law = model.law(best.parameters);
@@ -164,12 +172,19 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
 
 FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
   FabBending best;
+  std::optional<Error> failure;
   for (const double threshold : question.thresholds) {
     FabBendingQuestion one = question;
     one.thresholds = {threshold};
-    FabBending found = identify_fab_bending(loops, one);
-    if (best.rows == 0 || found.residual_rms < best.residual_rms) best = std::move(found);
+    try {
+      FabBending found = identify_fab_bending(loops, one);
+      if (best.rows == 0 || found.residual_rms < best.residual_rms) best = std::move(found);
+    } catch (const Error& error) {
+      if (error.exit_code() != 3) throw;
+      failure = error;
+    }
   }
+  if (best.rows == 0 && failure) throw *failure;
   return best;
 }
 

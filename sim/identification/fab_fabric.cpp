@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/reference/kes_in_plane.h"
 #include "sim/scene/fabric_reader.h"
@@ -155,10 +154,8 @@ StopsLaw mean_of(const StopsLaw& a, const StopsLaw& b) {
 
 void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
                       const FabricNotes& notes) {
-  AtomicFile target(file.string());
-  target.stream() << fabric_text(three_numbers(found), notes) << further_parameters(found)
-                  << bending_tables(found) << tension_tables(found);
-  target.commit();
+  write_fabric_text(file, fabric_text(three_numbers(found), notes) + further_parameters(found) +
+                              bending_tables(found) + tension_tables(found));
 }
 
 StripDirection strip_direction(const std::string& name) {

@@ -26,7 +26,8 @@ struct FabIdentification {
   std::string from;  // "cycle 2 of D1 in loops.csv"
 };
 
-// Every number with its source, its standard error and whether the data determine it.  Throws Error::machine.
+// Every number with its source, its standard error and whether the data determine it.  Throws as
+// write_fabric_text().
 void write_fab_fabric(const std::filesystem::path& file, const FabIdentification& found,
                       const FabricNotes& notes);
 

@@ -3,8 +3,11 @@
 #include <cmath>
 
 #include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/scene/fabric_reader.h"
 #include "sim/scene/key_table.h"
 #include "sim/scene/scene.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hysteron {
 namespace {
@@ -37,14 +40,28 @@ std::string given_or_default(const std::string& name, const std::optional<double
   return entry(name, given.value_or(otherwise), unit, from);
 }
 
+// What a scene would refuse of the fabric, before it has its name.
+void refuse_unreadable(const std::string& temporary, const std::string& file) {
+  Scene scene;
+  try {
+    scene.fabric = read_fabric(temporary, "fit").fabric;
+    check_scene(scene);
+  } catch (const Error& error) {
+    std::string reason = error.what();
+    for (std::size_t at; (at = reason.find(temporary)) != reason.npos;)
+      reason.replace(at, temporary.size(), file);
+    throw Error::run("the numbers found are no fabric's, and none is written: " + reason);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> borrowed_warnings(const FabricNotes& notes) {
   const Fabric usual;
   std::vector<std::string> lines;
   const auto warn = [&](const std::string& name, double value, const std::string& unit) {
-    lines.push_back("WARNING: " + name + " was not given: fabric.toml holds that of ANOTHER fabric, " +
-                    usual.name + ", " + number_text(value) + " " + unit + "; give --fabric." + name);
+    lines.push_back(name + " was not given: fabric.toml holds that of another fabric, " + usual.name + ", " +
+                    number_text(value) + " " + unit + "; give --fabric." + name);
   };
   if (!notes.density) warn("density", usual.density, "kg/m^2");
   if (!notes.thickness) warn("thickness", usual.thickness, "m");
@@ -57,7 +74,7 @@ std::string fabric_text(const Identification& found, const FabricNotes& notes) {
                      (open.empty() ? "determine b1, b2 and k0" : "do not determine " + join(open, ", ")) +
                      ".\n";
   for (const std::string& statement : found.statements) text += "# - " + statement + "\n";
-  for (const std::string& warning : borrowed_warnings(notes)) text += "# - " + warning + "\n";
+  for (const std::string& warning : borrowed_warnings(notes)) text += "# - warning: " + warning + "\n";
   text +=
       "name = " + quoted(notes.name) + "\ndescription = " + quoted("identified from " + notes.from) + "\n";
   text += "\n[parameters]\n" + entry("b1", found.b1.value, "N m", found.b1) +
@@ -68,10 +85,15 @@ std::string fabric_text(const Identification& found, const FabricNotes& notes) {
   return text;
 }
 
-void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
+void write_fabric_text(const std::filesystem::path& file, const std::string& text) {
   AtomicFile target(file.string());
-  target.stream() << fabric_text(found, notes);
+  target.stream() << text;
+  if (target.stream().flush()) refuse_unreadable(target.temporary(), file.string());
   target.commit();
+}
+
+void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes) {
+  write_fabric_text(file, fabric_text(found, notes));
 }
 
 }  // namespace hysteron

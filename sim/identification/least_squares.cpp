@@ -2,6 +2,7 @@
 #include "sim/identification/least_squares.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 namespace hysteron {
 namespace {
@@ -21,6 +22,13 @@ Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Eigen::VectorXd& a
     jacobian.col(j) = column;
   }
   return jacobian;
+}
+
+// Ceres logs to stderr, whatever its options say, where numbers fail it; what comes of that is told by
+// whoever asked.
+void keep_ceres_quiet() {
+  static const int once = FLAGS_minloglevel = google::GLOG_FATAL;
+  (void)once;
 }
 
 class Cost : public ceres::CostFunction {
@@ -56,6 +64,7 @@ class Cost : public ceres::CostFunction {
 
 LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
                       const Eigen::VectorXd& high) {
+  keep_ceres_quiet();
   LeastSquares result;
   result.parameters = start.cwiseMax(low).cwiseMin(high);
   const int size = static_cast<int>(start.size()), rows = static_cast<int>(residuals(start).size());

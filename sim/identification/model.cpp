@@ -77,7 +77,7 @@ Tied fit_tied(const CurveModel& model, const FromFactors& numbers, int factors, 
   const LeastSquares fit =
       minimize([&](const Eigen::VectorXd& p) { return model.residuals(point(p)); }, first, -wide, wide);
   Tied tied{point(fit.parameters), fit.residuals, fit.jacobian, fit.iterations};
-  tied.best.sum = fit.residuals.squaredNorm();
+  tied.best.sum = fit.residuals.allFinite() ? fit.residuals.squaredNorm() : INFINITY;
   return tied;
 }
 

@@ -14,10 +14,11 @@ namespace {
 
 constexpr const char* kB1 = "b1 [N m]";
 constexpr const char* kC1 = "c1 [N m2]";
-constexpr double kWindowLow = 50, kWindowHigh = 150;  // [1/m] of KES-FB2's straight line
-constexpr double kEndOfTest = 250;                    // [1/m]
-constexpr double kLargestHbOverB = 1000;              // [1/m] residual curvature M0/b2 of a radius of 1 mm
-constexpr int kDrawn = 41;                            // points of a curve that stands for the numbers
+constexpr double kWindowLow = 50, kWindowHigh = 150;   // [1/m] of KES-FB2's straight line
+constexpr double kEndOfTest = 250;                     // [1/m]
+constexpr double kLargestHbOverB = 1000;               // [1/m] residual curvature M0/b2 of a radius of 1 mm
+constexpr double kSmallestK0 = 0.1, kLargestK0 = 1e5;  // [1/m] bends of a radius of 10 m and of 10 um
+constexpr int kDrawn = 41;                             // points of a curve that stands for the numbers
 
 double square(double x) { return x * x; }
 
@@ -84,12 +85,18 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
   check_rigidity(numbers.b1.value, "virgin.b1");
   check_c1(numbers.c1.value, "virgin.c1");
   const double b1 = numbers.b1.value, c1 = numbers.c1.value, b2 = assumptions.ratio * b1;
+  const double k0 = (b2 - b1) / (2 * c1);
+  if (!(k0 >= kSmallestK0 && k0 <= kLargestK0))
+    throw Error::request("virgin.c1 = " + number_text(c1) + " N m^2 makes k0 = (b2 - b1)/(2 c1) = " +
+                         rounded(k0) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
+                         number_text(kLargestK0) + "] 1/m; 1 gf cm^3/cm is 9.80665e-07 N m^2")
+        .of("virgin.c1", number_text(c1));
   Identification result;
   result.law = "prandtl";
   result.b1 = given(numbers.b1, "virgin curve M = b1 K + c1 K^2");
   result.b2 = {b2, kNone, false, assumptions.ratio_source(), "assumed"};
   result.k0 = {
-      (b2 - b1) / (2 * c1), kNone, false,
+      k0, kNone, false,
       "k0 = (b2 - b1)/(2 c1) with c1 = " + number_text(c1) + " N m^2 and b2 " + assumptions.ratio_source(),
       "assumed"};
   // ln c1 = ln(b1 - b2) - ln k0 - ln 2
@@ -177,6 +184,10 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   const bool known = numbers.k0.given();
   const double b = numbers.b.value, k0 = known ? numbers.k0.value : assumptions.k0;
   const double b1 = b + numbers.two_hb.value / k0;
+  if (b1 > kGreatestRigidity)
+    throw Error::request("k0 = " + number_text(k0) + " 1/m makes b1 = B + 2HB/k0 = " + rounded(b1) +
+                         " N m, must be <= " + number_text(kGreatestRigidity) + " N m, as fabrics are")
+        .of(known ? "kes.k0" : "assume.k0", number_text(k0));
   Identification result;
   result.law = "prandtl";
   result.b2 = given(numbers.b, "B of KES-FB2");

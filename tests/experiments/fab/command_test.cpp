@@ -58,6 +58,17 @@ TEST_F(FabCommand, OnItsOwnRecordMeetsWhatItRecorded) {
   }
 }
 
+// `fit --fab` would not take the record.
+TEST_F(FabCommand, SimulatesNoLoopsThatItWouldNotRead) {
+  const auto said = [&](std::vector<Flag> flags) { return test::refusal([&] { fab(flags); }); };
+  EXPECT_NE(said({{"fab.slack", "0.006"}}).find("within 25 % of the gauge"), std::string::npos);
+  EXPECT_NE(said({{"fab.width", "2"}}).find("fab.width = 2 m must be in [0.001, 1]"), std::string::npos);
+  EXPECT_NE(said({{"fab.test", "S1"}, {"fab.compressions", "0.05"}}).find("do not fit a gauge"),
+            std::string::npos);
+  ASSERT_EQ(fab({{"fabric", "gray-interlock"}}), 0) << "whose loops enclose nothing";
+  EXPECT_EQ(read_fab(folder_.path() / "out" / "fab.csv", TesterUnits::si, "test").size(), 1u);
+}
+
 TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   const fs::path file = folder_.path() / "stops.toml";
   std::ofstream(file) << std::ifstream(find_asset("fabrics", "cotton-broad", "test")).rdbuf()

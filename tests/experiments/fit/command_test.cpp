@@ -6,6 +6,7 @@
 
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
@@ -20,14 +21,18 @@ namespace fs = std::filesystem;
 class Fit : public testing::Test {
  protected:
   struct Captured {
-    std::string& text;
-    ~Captured() { text = testing::internal::GetCapturedStdout(); }
+    std::string &out, &err;
+    ~Captured() {
+      out = testing::internal::GetCapturedStdout();
+      err = testing::internal::GetCapturedStderr();
+    }
   };
   int fit(std::vector<Flag> flags) {
     flags.push_back({"out", out().string()});
     flags.push_back({"quiet", "true"});
     testing::internal::CaptureStdout();
-    const Captured captured{said_};
+    testing::internal::CaptureStderr();
+    const Captured captured{said_, warned_};
     return experiment_named("fit").run({"fit", "hysteron fit", flags, {}});
   }
   std::string refusal(const std::vector<Flag>& flags) {
@@ -45,7 +50,7 @@ class Fit : public testing::Test {
   Json metrics() const { return Json::parse(text_of(out() / "manifest.json")).at("metrics"); }
 
   Folder folder_;
-  std::string said_;
+  std::string said_, warned_;
 };
 
 TEST_F(Fit, OfALoopWritesWhatTheInterfaceNames) {
@@ -90,10 +95,12 @@ TEST_F(Fit, MarksWhatItAssumesInTheFabric) {
 TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
   ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}, {"fabric.density", "0.2"}}), 0);
   const std::string file = text_of(out() / "fabric.toml");
-  for (const std::string& text : {said_, file}) {
-    EXPECT_NE(text.find("WARNING: thickness was not given"), std::string::npos) << text;
-    EXPECT_NE(text.find("ANOTHER fabric, cotton-broad"), std::string::npos) << text;
-    EXPECT_EQ(text.find("WARNING: density"), std::string::npos) << text;
+  const std::string kept = Json::parse(text_of(out() / "manifest.json")).at("warnings").dump();
+  for (const std::string& text : {warned_, file, kept}) {
+    EXPECT_NE(text.find("thickness was not given: fabric.toml holds that of another fabric, cotton-broad"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("density was not given"), std::string::npos) << text;
   }
   const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
   EXPECT_EQ(fabric.provenance.at("density").confidence, "given");
@@ -151,7 +158,7 @@ TEST(Fabric, WithANegativeStandardErrorIsRefused) {
   found.b1 = {2e-5, 1e-7, true, "test"};
   found.b2 = {1e-5, -1e-7, true, "test"};
   found.k0 = {50, 1, true, "test"};
-  write_fabric(folder.path() / "f.toml", found, {"f", "a test", {}, {}});
+  write_text(folder.path() / "f.toml", fabric_text(found, {"f", "a test", {}, {}}));
   try {
     read_fabric((folder.path() / "f.toml").string(), "--fabric");
     FAIL() << "accepted";
@@ -160,31 +167,69 @@ TEST(Fabric, WithANegativeStandardErrorIsRefused) {
   }
 }
 
+// Friction of 1 mN beside a spring that it exceeds tenfold.
+TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
+  const fs::path file = folder_.path() / "friction.csv";
+  Table loop{{{"curvature [1/m]", {}}, {"moment [N]", {}}}, {}};
+  for (int i = 0; i <= 120; ++i) {
+    const double sign = i < 40 ? 1 : i < 80 ? -1 : 1, at = i < 40 ? i : i < 80 ? 80 - i : i - 80;
+    loop.columns[0].values.push_back(5 * at);
+    loop.columns[1].values.push_back(1e-3 * sign + 1e-6 * 5 * at);
+  }
+  write_csv(file, loop);
+  ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
+  EXPECT_NE(warned_.find("warning: linear does not describe these data: it misses them by "),
+            std::string::npos)
+      << warned_;
+  EXPECT_NE(Json::parse(text_of(out() / "manifest.json")).at("warnings").dump().find("linear does not"),
+            std::string::npos);
+}
+
 // The loops of a known law, as `fab` writes them, in the columns that are read.
-TEST_F(Fit, OfLoopsOfAFabTesterFindsTheirFrictionAndPredictsWhatWasNotFitted) {
-  const fs::path made = folder_.path() / "made";
-  ASSERT_EQ(experiment_named("fab").run({"fab",
-                                         "hysteron fab",
-                                         {{"fabric", "cotton-broad"},
-                                          {"fab.compressions", "0.004,0.006"},
-                                          {"fab.steps", "12"},
-                                          {"no-images", "true"},
-                                          {"out", made.string()},
-                                          {"json", "true"},
-                                          {"quiet", "true"}},
-                                         {}}),
-            0);
-  const Fabric cotton = read_fabric("cotton-broad", "test").fabric;
-  ASSERT_EQ(fit({{"fab", (made / "fab.csv").string()},
-                 {"fab.thresholds", "5,20,40"},
-                 {"fabric.density", number_text(cotton.density)},
-                 {"fabric.thickness", "5e-4"}}),
-            0);
+class FitOfFab : public Fit {
+ protected:
+  FitOfFab() {
+    testing::internal::CaptureStdout();
+    experiment_named("fab").run({"fab",
+                                 "hysteron fab",
+                                 {{"fabric", "cotton-broad"},
+                                  {"fab.compressions", "0.004,0.006"},
+                                  {"fab.steps", "12"},
+                                  {"no-images", "true"},
+                                  {"out", (folder_.path() / "made").string()},
+                                  {"json", "true"},
+                                  {"quiet", "true"}},
+                                 {}});
+    testing::internal::GetCapturedStdout();
+  }
+  std::vector<Flag> flags(const std::string& file) const {
+    return {{"fab", file},
+            {"fab.thresholds", "5,20,40"},
+            {"fabric.density", number_text(cotton_.density)},
+            {"fabric.thickness", "5e-4"}};
+  }
+  std::string made() const { return (folder_.path() / "made" / "fab.csv").string(); }
+  // The same rows after a change of each: columns direction, test, branch, distance, force, gauge, width.
+  template <class Change>
+  std::string changed(const Change& change) const {
+    TextTable table = read_words(made());
+    const std::string file = (folder_.path() / "changed.csv").string();
+    CsvFile written(file, std::vector<CsvField>(table.head.begin(), table.head.end()));
+    for (auto& row : table.rows) change(row);
+    for (const auto& row : table.rows) written.row({row.begin(), row.end()});
+    written.commit();
+    return file;
+  }
+  const Fabric cotton_ = read_fabric("cotton-broad", "test").fabric;
+};
+
+TEST_F(FitOfFab, FindsTheirFrictionAndPredictsWhatWasNotFitted) {
+  ASSERT_EQ(fit(flags(made())), 0);
   for (const char* name :
        {"fabric.toml", "one_stop.toml", "spectrum.csv", "predictions.csv", "plot_L_D1.png"})
     EXPECT_TRUE(fs::exists(out() / name)) << name;
   const Json m = metrics();
-  const double friction = cotton.virgin_curve().friction_moment();
+  const double friction = cotton_.virgin_curve().friction_moment();
   EXPECT_NEAR(m.at("L.HB_N"), friction, 0.1 * friction);  // thresholds are not the law's
   EXPECT_TRUE(m.at("undetermined").is_array());
   const TextTable predictions = read_words(out() / "predictions.csv");
@@ -192,6 +237,62 @@ TEST_F(Fit, OfLoopsOfAFabTesterFindsTheirFrictionAndPredictsWhatWasNotFitted) {
   EXPECT_EQ(predictions.rows[0][2], "0");
   EXPECT_EQ(predictions.rows[1][2], "1");
   for (const auto& row : predictions.rows) EXPECT_LT(std::abs(std::stod(row[5])), 10) << row[0];
+  EXPECT_EQ(warned_, "");
+}
+
+// A force that no strip has, ten times the noise, up and down from row to row.
+TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
+  double sign = 1;
+  const std::string file = changed([&](std::vector<std::string>& row) {
+    row[4] = number_text(std::stod(row[4]) + 7.5e-3 * (sign = -sign));
+  });
+  const std::string reason = refusal(flags(file));
+  EXPECT_NE(reason.find("along L the fit misses the forces by "), std::string::npos) << reason;
+  EXPECT_NE(reason.find("times their noise of 0.00075 N (rms), at most 3 times"), std::string::npos)
+      << reason;
+  EXPECT_NE(reason.find("are fitted with --fab.noise 0.00"), std::string::npos) << reason;
+  std::vector<Flag> noisy = flags(file);
+  noisy.push_back({"fab.noise", "7.5e-3"});
+  EXPECT_EQ(fit(noisy), 0);
+}
+
+// Grams of force that are called newtons.
+TEST_F(FitOfFab, OfForcesInAnotherUnitIsRefusedAsNoFabric) {
+  const std::string file =
+      changed([](std::vector<std::string>& row) { row[4] = number_text(std::stod(row[4]) / 9.80665e-3); });
+  const std::string reason = refusal(flags(file));
+  EXPECT_NE(reason.find("must be in [1e-08, 0.001] N m, as fabrics are"), std::string::npos) << reason;
+}
+
+TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
+  const auto says = [&](const auto& change, const char* part) {
+    const std::string reason = refusal(flags(changed(change)));
+    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+  };
+  using Row = std::vector<std::string>;
+  says([](Row& row) { row[4] = "0"; }, "must vary");
+  says([](Row& row) { row[4] = number_text(-std::stod(row[4])); }, "turn the sign of the forces");
+  int place = 0;
+  says([&](Row& row) { row[3] = number_text(0.0195 - 0.004 * (place++ * 7 % 13) / 13); }, "come back by");
+}
+
+TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
+  TextTable table = read_words(made());
+  const std::string file = (folder_.path() / "both.csv").string();
+  CsvFile written(file, std::vector<CsvField>(table.head.begin(), table.head.end()));
+  for (const char* direction : {"B", "W", "L"})
+    for (auto& row : table.rows) {
+      row[0] = direction;
+      written.row({row.begin(), row.end()});
+    }
+  written.commit();
+  ASSERT_EQ(fit(flags(file)), 0);
+  EXPECT_NE(text_of(out() / "fabric.toml").find("along L, W in both.csv"), std::string::npos);
+  std::vector<Flag> bias = flags(file);
+  bias.push_back({"fab.directions", "L,B"});
+  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must begin with warp and weft"), std::string::npos);
+  bias.back() = {"fab.cycles", "1.5"};
+  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must be whole numbers"), std::string::npos);
 }
 
 TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
@@ -199,8 +300,9 @@ TEST_F(Fit, OfLoopsOfAFabTesterNeedsDensityAndTheRightUnits) {
   std::ofstream(file) << "direction,test,branch,clamp_distance_m,force_N,gauge_length_m,width_m\n"
                          "L,D1,0,0.018,0,0.021,0.04\n";
   EXPECT_NE(refusal({{"fab", file.string()}}).find("fabric.density"), std::string::npos);
-  EXPECT_NE(refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}).find("_cm"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal({{"fab", file.string()}, {"units", "fab"}, {"fabric.density", "0.3"}}).find("give --units si"),
+      std::string::npos);
   EXPECT_NE(
       refusal({{"fab", file.string()}, {"units", "kes"}, {"fabric.density", "0.3"}}).find("fab (cm, gf)"),
       std::string::npos);

@@ -92,6 +92,16 @@ TEST(FabBending, OfOneStopIsTheBestOfTheGrid) {
   EXPECT_EQ(identify_one_stop({recorded(one, "D1", 5)}, question()).law.thresholds, one.thresholds);
 }
 
+// Its loop encloses nothing but noise, from which its rigidity does not follow.
+TEST(FabBending, OfAStripWithoutFrictionFindsItsRigidity) {
+  const StopsLaw elastic{6e-6, {}, {}};
+  const FabBending found = identify_fab_bending({recorded(elastic, "D1", 2)}, question());
+  EXPECT_NEAR(found.law.spring / elastic.spring, 1, 3 * found.spring_error / found.law.spring);
+  EXPECT_LT(found.spring_error, 0.2 * found.law.spring);
+  EXPECT_LT(found.residual_rms, 1.5);
+  EXPECT_LT(found.law.friction(), kNoise / kWidth * 0.021) << "the noise over the gauge";
+}
+
 TEST(FabBending, RefusesACycleThatIsNotThere) {
   FabBendingQuestion beyond = question();
   beyond.cycles = {4};

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 #include "tests/sim/base/folder.h"
 
@@ -56,6 +59,24 @@ TEST(FabFabric, IsOneOfScenesWithItsStopsOfBendingAndInThePlane) {
   expect_same(tested.strip("W").bending, found.bending[1].law);
   expect_same(tested.strip("L").stretch, found.tension[0].law);
   expect_same(tested.strip("W").stretch, found.tension[1].law);
+}
+
+// What scenes would refuse gets no name, and leaves nothing.
+TEST(FabFabric, ThatNoSceneWouldTakeIsNotWritten) {
+  const test::Folder folder;
+  const FabricNotes notes{"mine", "a test", 0.3, 2e-4};
+  const double no_number = std::nan("");
+  for (const FabBending& bad : {bending("L", 4e-6, {0, 0, 0}), bending("L", no_number, {1e-5, 1e-6, 5e-7}),
+                                bending("L", -1e-6, {1e-5, 1e-6, 5e-7})}) {
+    const Error error = test::error_of([&] {
+      write_fab_fabric(folder.file("fabric.toml"), {{bad}, {}, "a test"}, notes);
+    });
+    EXPECT_EQ(error.exit_code(), 3);
+    const std::string said = error.what();
+    EXPECT_EQ(said.find("the numbers found are no fabric's, and none is written: "), 0u) << said;
+    EXPECT_EQ(said.find(".part-"), std::string::npos) << said;
+    EXPECT_TRUE(folder.names().empty());
+  }
 }
 
 // Friction uniform on [0, k0], of which the virgin curve is M0 (2u - u^2).

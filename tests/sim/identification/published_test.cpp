@@ -81,6 +81,19 @@ TEST(VirginCurve, OfAKnownRatioGivesTheFabricBack) {
   EXPECT_TRUE(says(found.statements.at(0), "b2/b1 = 0.32"));
 }
 
+// k0 in 1/cm: b1 would be that of a board.
+TEST(Kes, RefusesAK0ThatMakesNoFabric) {
+  const std::string reason = refusal([] { identify_kes({{1e-5}, {1e-3}, {0.5}}, {}); });
+  EXPECT_TRUE(says(reason, "k0 = 0.5 1/m makes b1 = B + 2HB/k0 = 0.00201 N m, must be <= 0.001")) << reason;
+}
+
+// c1 in gf cm^3/cm.
+TEST(VirginCurve, WhoseBendSaturatesNowhereIsRefused) {
+  const std::string reason = refusal([] { identify_virgin({{3.6e-5}, {-0.24}}, {}); });
+  EXPECT_TRUE(says(reason, "makes k0 = (b2 - b1)/(2 c1) = 3.75e-05 1/m, must be in [0.1, 1e+05] 1/m"))
+      << reason;
+}
+
 TEST(VirginCurve, ThatStiffensIsRefusedWithTheReason) {
   for (const double c1 : {0.0, 2e-9}) {
     const std::string reason = refusal([&] { identify_virgin({{1e-5}, {c1}}, {}); });
