@@ -56,6 +56,10 @@ TestCase case_of(const std::string& name, const std::vector<std::string>& broken
   return {name, broken.empty() ? Outcome::passed : Outcome::failed, join(broken, "; ")};
 }
 
+TestCase case_not_compared(const std::string& name, const std::string& why) {
+  return {name, TestCase::Outcome::broken, why};
+}
+
 void make_folder_of(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
@@ -72,13 +76,25 @@ void require_other(const fs::path& out, const fs::path& input) {
         .of("out", out.string());
 }
 
+// One that cannot be compared is told to the file of tests, too.
+Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
+  try {
+    return compare_files(a, b, flags);
+  } catch (const Error& error) {
+    if (!flags.junit.empty())
+      write_junit(flags.junit, "diff", suite_of(a, b),
+                  {case_not_compared(a.filename().string(), error.what())});
+    throw;
+  }
+}
+
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
     throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
         .of("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
-  const Comparison comparison = compare_files(a, b, flags);
   const std::string name = a.filename().string();
+  const Comparison comparison = compared_files(a, b, flags);
   const std::vector<std::string> broken = broken_limits(comparison.measures, flags.limits_of(name));
   if (!flags.out.empty()) {
     make_folder_of(flags.out);
@@ -123,21 +139,23 @@ std::vector<std::string> cells(const Measures& measures) {
   return texts;
 }
 
+std::vector<std::string> no_cells() { return std::vector<std::string>(all_measures().size(), "-"); }
+
 FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags,
                            const std::vector<std::string>& names, std::size_t width) {
   FolderDiff diff{a, b, {}, {}};
   for (const std::string& name : names) {
-    const Comparison comparison = compare_files(a / name, b / name, flags);
-    const Measures& found = comparison.measures;
-    diff.rows.push_back({name, found, broken_limits(found, flags.limits_of(name))});
-    diff.worst = diff.rows.size() == 1 ? found : worst_of(diff.worst, found);
-    if (!flags.out.empty()) {
-      const fs::path heat = fs::path(flags.out) / kHeatFolder / name;
-      make_folder_of(heat);
-      render::write_png(heat, comparison.heat);
+    render::Image heat;
+    const FolderDiff::Row& row = diff.rows.emplace_back(compare_in_folders(a, b, name, flags, heat));
+    const bool compared = row.error.empty();
+    if (compared) diff.worst = diff.compared() == 1 ? row.measures : worst_of(diff.worst, row.measures);
+    if (compared && !flags.out.empty()) {
+      const fs::path file = fs::path(flags.out) / kHeatFolder / name;
+      make_folder_of(file);
+      render::write_png(file, heat);
     }
-    if (!flags.json) print_row(name, width, cells(found));
-    complain(a / name, b / name, diff.rows.back().broken);
+    if (!flags.json) print_row(name, width, compared ? cells(row.measures) : no_cells());
+    complain(a / name, b / name, compared ? row.broken : std::vector{row.error});
   }
   return diff;
 }
@@ -146,12 +164,17 @@ Json json_of(const FolderDiff& diff) {
   Json pictures = Json::array();
   for (const FolderDiff::Row& row : diff.rows) {
     Json picture = {{"name", row.name}};
-    picture.update(json_of(row.measures));
-    picture["broken"] = row.broken;
+    if (row.error.empty()) {
+      picture.update(json_of(row.measures));
+      picture["broken"] = row.broken;
+    } else {
+      picture["error"] = row.error;
+    }
     pictures.push_back(picture);
   }
-  return {
-      {"a", diff.a.string()}, {"b", diff.b.string()}, {"pictures", pictures}, {"worst", json_of(diff.worst)}};
+  Json all = {{"a", diff.a.string()}, {"b", diff.b.string()}, {"pictures", pictures}};
+  if (diff.compared() > 0) all["worst"] = json_of(diff.worst);
+  return all;
 }
 
 int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, const std::string& command) {
@@ -160,7 +183,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
     require_outside(flags.out, b);
     for (const fs::path& folder : {a, b}) require_other(fs::path(flags.out) / kHeatFolder, folder);
   }
-  const std::vector<std::string> names = paired_pictures(a, b);
+  const std::vector<std::string> names = pictures_in_either(a, b);
   std::size_t width = std::string("picture").size();
   for (const std::string& name : names) width = std::max(width, name.size());
   if (!flags.json) {
@@ -172,15 +195,21 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
   if (flags.json) {
     std::cout << json_of(diff).dump(2) << std::endl;
   } else {
-    print_row("worst", width, cells(diff.worst));
+    print_row("worst", width, diff.compared() > 0 ? cells(diff.worst) : no_cells());
   }
   if (!flags.out.empty()) write_folder_diff(diff, flags, command);
   std::vector<TestCase> cases;
-  for (const FolderDiff::Row& row : diff.rows) cases.push_back(case_of(row.name, row.broken));
+  int exit_code = 0;  // what could not be compared weighs more than what differs
+  for (const FolderDiff::Row& row : diff.rows) {
+    const bool compared = row.error.empty();
+    cases.push_back(compared ? case_of(row.name, row.broken) : case_not_compared(row.name, row.error));
+    if (!compared)
+      exit_code = row.exit_code;
+    else if (!row.broken.empty() && exit_code == 0)
+      exit_code = kDiffers;
+  }
   if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), cases);
-  const bool within = std::all_of(diff.rows.begin(), diff.rows.end(),
-                                  [](const FolderDiff::Row& row) { return row.broken.empty(); });
-  return within ? 0 : kDiffers;
+  return exit_code;
 }
 
 int run_diff(const CommandLine& line) {
@@ -190,15 +219,15 @@ int run_diff(const CommandLine& line) {
     throw Error::request("needs two pictures or two folders: hysteron diff A.png B.png; " +
                          std::to_string(line.names.size()) + " given");
   const fs::path a = line.names[0], b = line.names[1];
-  for (const fs::path& path : {a, b}) {
+  if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
+  if (!fs::is_directory(a) && !fs::is_directory(b)) return diff_pictures(a, b, flags);
+  for (const fs::path& path : {a, b})
     if (!fs::exists(path)) throw Error::request("there is no file or folder " + path.string());
-  }
   if (fs::is_directory(a) != fs::is_directory(b))
     throw Error::request((fs::is_directory(a) ? a : b).string() + " is a folder and " +
                          (fs::is_directory(a) ? b : a).string() +
                          " is not: give two pictures or two folders");
-  if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
-  return fs::is_directory(a) ? diff_folders(a, b, flags, line.command) : diff_pictures(a, b, flags);
+  return diff_folders(a, b, flags, line.command);
 }
 
 }  // namespace

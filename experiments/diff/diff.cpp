@@ -1,13 +1,12 @@
 #include "experiments/diff/diff.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
+#include <tuple>
 
 #include "render/compare.h"
 #include "render/ssim.h"
 #include "sim/base/error.h"
-#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -28,17 +27,30 @@ std::set<std::string> pictures_under(const fs::path& folder) {
   return names;
 }
 
-// "missing in B: 0003.png, 0004.png"; "" if none is.
-std::string missing_text(const std::set<std::string>& all, const std::set<std::string>& there,
-                         const fs::path& folder) {
-  constexpr std::size_t kMostNames = 20;  // in a message of one line
-  std::vector<std::string> missing;
-  std::set_difference(all.begin(), all.end(), there.begin(), there.end(), std::back_inserter(missing));
-  if (missing.empty()) return "";
-  const std::size_t more = missing.size() - std::min(kMostNames, missing.size());
-  missing.resize(missing.size() - more);
-  return "missing in " + folder.string() + ": " + join(missing, ", ") +
-         (more ? " and " + std::to_string(more) + " more" : "");
+bool is_opaque(const render::Image& image) {
+  if (image.channels() < 4) return true;
+  for (std::size_t alpha = 3; alpha < image.pixels().size(); alpha += 4)
+    if (image.pixels()[alpha] != 255) return false;
+  return true;
+}
+
+render::Image on(const render::Rgb8& background, const render::Image& image) {
+  render::Image result(image.width(), image.height(), background);
+  render::paste(result, image, 0, 0);
+  return result;
+}
+
+Measures measures_of(const render::Image& a, const render::Image& b, const render::Plane& flip) {
+  const render::Difference steps = render::compare(a, b);
+  return {steps.mean_abs,     steps.rmse, steps.psnr_db,
+          render::ssim(a, b), mean(flip), steps.pixels_over_8_percent};
+}
+
+// What it measures, as both look, and where they differ.
+std::pair<Measures, render::Image> compare_looks(const render::Image& a, const render::Image& b,
+                                                 const DiffFlags& flags) {
+  const render::Plane flip = render::flip_map(a, b, flags.pixels_per_degree);
+  return {measures_of(a, b, flip), flags.map == "flip" ? render::heat_map(flip) : render::heat_map(a, b)};
 }
 
 }  // namespace
@@ -80,24 +92,46 @@ Comparison compare_files(const fs::path& a, const fs::path& b, const DiffFlags& 
 }
 
 Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags) {
+  render::require_same_size(a, b);
   Comparison result{std::move(a), std::move(b), {}, {}};
-  const render::Difference steps = render::compare(result.a, result.b);
-  const render::Plane flip = render::flip_map(result.a, result.b, flags.pixels_per_degree);
-  result.measures = {steps.mean_abs, steps.rmse,
-                     steps.psnr_db,  render::ssim(result.a, result.b),
-                     mean(flip),     steps.pixels_over_8_percent};
-  result.heat = flags.map == "flip" ? render::heat_map(flip) : render::heat_map(result.a, result.b);
+  if (is_opaque(result.a) && is_opaque(result.b)) {
+    std::tie(result.measures, result.heat) = compare_looks(result.a, result.b, flags);
+    return result;
+  }
+  constexpr render::Rgb8 kBlack = {0, 0, 0}, kWhite = {255, 255, 255};
+  auto [on_black, dark] = compare_looks(on(kBlack, result.a), on(kBlack, result.b), flags);
+  auto [on_white, bright] = compare_looks(on(kWhite, result.a), on(kWhite, result.b), flags);
+  result.measures = worst_of(on_black, on_white);
+  result.heat = on_white.mean_abs > on_black.mean_abs ? std::move(bright) : std::move(dark);
   return result;
 }
 
-std::vector<std::string> paired_pictures(const fs::path& a, const fs::path& b) {
-  const std::set<std::string> in_a = pictures_under(a), in_b = pictures_under(b);
-  const std::string from_b = missing_text(in_a, in_b, b), from_a = missing_text(in_b, in_a, a);
-  if (!from_a.empty() || !from_b.empty())
-    throw Error::request("every picture must be in both folders; " + from_b +
-                         (from_a.empty() || from_b.empty() ? "" : "; ") + from_a);
-  if (in_a.empty()) throw Error::request("no *.png in " + a.string() + " and " + b.string());
-  return {in_a.begin(), in_a.end()};
+std::ptrdiff_t FolderDiff::compared() const {
+  return std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.error.empty(); });
+}
+
+std::vector<std::string> pictures_in_either(const fs::path& a, const fs::path& b) {
+  std::set<std::string> names = pictures_under(a);
+  names.merge(pictures_under(b));
+  if (names.empty()) throw Error::request("no *.png in " + a.string() + " and " + b.string());
+  return {names.begin(), names.end()};
+}
+
+FolderDiff::Row compare_in_folders(const fs::path& a, const fs::path& b, const std::string& name,
+                                   const DiffFlags& flags, render::Image& heat) {
+  FolderDiff::Row row{name, {}, {}, ""};
+  try {
+    for (const fs::path& folder : {a, b})
+      if (!fs::exists(folder / name)) throw Error::request("missing in " + folder.string());
+    Comparison comparison = compare_files(a / name, b / name, flags);
+    row.measures = comparison.measures;
+    row.broken = broken_limits(row.measures, flags.limits_of(name));
+    heat = std::move(comparison.heat);
+  } catch (const Error& error) {
+    row.error = error.what();
+    row.exit_code = error.exit_code();
+  }
+  return row;
 }
 
 }  // namespace hysteron::experiments

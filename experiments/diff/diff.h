@@ -33,7 +33,8 @@ struct Comparison {
   render::Image a, b, heat;
   Measures measures;
 };
-// Error::request if the sizes differ.
+// Pictures that let something show through are compared as they look on black and on white, the worse of
+// both counting in each measure.  Error::request if the sizes differ.
 Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags);
 // Throws Error::request, naming the file or both, if one cannot be read or the sizes differ.
 Comparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
@@ -46,14 +47,20 @@ struct FolderDiff {
     std::string name;  // "frames/0003.png"
     Measures measures;
     std::vector<std::string> broken;  // limits
+    std::string error;                // why it could not be compared; "": it was
+    int exit_code = 0;                // of that error
   };
   std::vector<Row> rows;
-  Measures worst;  // of each measure by itself
+  Measures worst;  // of each measure by itself, of those that were compared
+
+  std::ptrdiff_t compared() const;
 };
 
-// Names of all PNG files under both folders, sorted.  Throws Error::request if a picture is in one of them
-// only, or if there is none.
-std::vector<std::string> paired_pictures(const std::filesystem::path& a, const std::filesystem::path& b);
+// Names of all PNG files under either folder, sorted.  Throws Error::request if there is none.
+std::vector<std::string> pictures_in_either(const std::filesystem::path& a, const std::filesystem::path& b);
+// One that is missing, broken or of another size has its reason in the row.
+FolderDiff::Row compare_in_folders(const std::filesystem::path& a, const std::filesystem::path& b,
+                                   const std::string& name, const DiffFlags& flags, render::Image& heat);
 
 // Writes FOLDER/diff.csv (a row for each picture) and FOLDER/diff.html (self-contained: the table and the
 // pictures that differ most, with the heat maps of FOLDER/heat).  Throws Error::machine.

@@ -38,11 +38,14 @@ std::string heading(const FolderDiff& diff, const DiffFlags& flags, const std::s
   if (!flags.from_file.pictures.empty())
     limits +=
         std::string(limits.empty() ? "" : ", ") + "of some pictures as " + flags.limits_file + " has it";
+  const std::ptrdiff_t missed = std::ssize(diff.rows) - diff.compared();
+  const std::string not_compared =
+      missed > 0 ? " <span class=\"state bad\">" + std::to_string(missed) + " not compared</span>" : "";
   const std::string state =
       limits.empty() ? ""
       : broken       ? "<span class=\"state bad\">" + std::to_string(broken) + " beyond limits</span>"
                      : "<span class=\"state\">within limits</span>";
-  return "<h1>" + escaped(diff.a.string() + " against " + diff.b.string()) + " " + state +
+  return "<h1>" + escaped(diff.a.string() + " against " + diff.b.string()) + " " + state + not_compared +
          "</h1>\n<p class=\"about\">" +
          escaped(std::to_string(diff.rows.size()) + (diff.rows.size() == 1 ? " picture" : " pictures") +
                  (limits.empty() ? ", no limits" : " · " + limits)) +
@@ -73,8 +76,10 @@ std::string table(const FolderDiff& diff) {
   head.push_back("beyond limits");
   std::vector<std::vector<std::string>> rows;
   for (const FolderDiff::Row& row : diff.rows) {
+    const bool compared = row.error.empty();
     rows.push_back(cells(row.name, row.measures));
-    rows.back().push_back(join(row.broken, "; "));
+    if (!compared) std::fill(rows.back().begin() + 1, rows.back().end(), "");
+    rows.back().push_back(compared ? join(row.broken, "; ") : "not compared: " + row.error);
   }
   return html_table(head, rows, numeric);
 }
@@ -90,7 +95,7 @@ std::string thumbnail(const fs::path& file, const std::string& caption) {
 std::string most_different(const FolderDiff& diff, const DiffFlags& flags) {
   std::vector<const FolderDiff::Row*> rows;
   for (const FolderDiff::Row& row : diff.rows) {
-    if (row.measures.mean_abs > 0) rows.push_back(&row);
+    if (row.error.empty() && row.measures.mean_abs > 0) rows.push_back(&row);
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const auto* x, const auto* y) { return x->measures.flip > y->measures.flip; });
@@ -113,17 +118,21 @@ void write_folder_diff(const FolderDiff& diff, const DiffFlags& flags, const std
   const fs::path out = flags.out;
   std::vector<CsvField> head = {"picture"};
   for (const Measure& m : all_measures()) head.push_back(m.column);
+  head.push_back("error");
   CsvFile file(out / "diff.csv", head);
   for (const FolderDiff::Row& row : diff.rows) {
     std::vector<CsvField> fields = {row.name};
-    for (const Measure& m : all_measures()) fields.push_back(row.measures.*m.value);
+    for (const Measure& m : all_measures())
+      fields.push_back(row.error.empty() ? CsvField(row.measures.*m.value) : CsvField(""));
+    fields.push_back(row.error);
     file.row(fields);
   }
   file.commit();
   const std::string differing = "Most different, by FLIP";
   write_text(out / "diff.html",
              html_page(diff.a.string() + " against " + diff.b.string(),
-                       heading(diff, flags, command) + html_section("Worst of each", cards(diff.worst)) +
+                       heading(diff, flags, command) +
+                           (diff.compared() > 0 ? html_section("Worst of each", cards(diff.worst)) : "") +
                            html_section("Pictures", table(diff) + meanings(flags)) +
                            html_section(differing, most_different(diff, flags))));
 }

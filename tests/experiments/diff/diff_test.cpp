@@ -152,6 +152,34 @@ TEST_F(Diff, RefusesWhatItCannotCompareInOneLine) {
   refused(a_ + " " + b_ + " --out " + in("empty"), {"*.png"});
 }
 
+TEST_F(Diff, OfAPictureThatCannotBeReadIsAnErrorOfItsTestCase) {
+  const std::string xml = folder_.path() / "tests.xml";
+  for (const std::string& other : {folder_.path().string() + "/nowhere.png", xml}) {
+    EXPECT_EQ(program("diff " + a_ + " " + other + " --junit " + xml).exit_code, 2);
+    EXPECT_NE(text_of(xml).find("failures=\"0\" errors=\"1\""), std::string::npos) << text_of(xml);
+  }
+}
+
+// A hole shows what lies behind: white through black, and black through white.
+TEST_F(Diff, ComparesWhatShowsThrough) {
+  constexpr int kSide = 8;
+  for (const int grey : {0, 128, 255}) {
+    render::Image opaque(kSide, kSide, 4), hole(kSide, kSide, 4);
+    for (int i = 0; i < kSide * kSide; ++i)
+      for (int c = 0; c < 4; ++c) {
+        opaque.pixels()[4 * i + c] = static_cast<std::uint8_t>(c < 3 ? grey : 255);
+        hole.pixels()[4 * i + c] = static_cast<std::uint8_t>(c < 3 ? grey : i == 0 ? 0 : 255);
+      }
+    const Measures found = compare_pictures(opaque, hole, {}).measures;
+    const double largest = std::max(grey, 255 - grey), pixels = kSide * kSide;
+    EXPECT_DOUBLE_EQ(found.mean_abs, largest / pixels) << grey;
+    EXPECT_DOUBLE_EQ(found.pixels_over_8_percent, 100 / pixels) << grey;
+    EXPECT_LT(found.ssim, 1) << grey;
+    EXPECT_GT(found.flip, 0) << grey;
+    EXPECT_EQ(compare_pictures(hole, hole, {}).measures.mean_abs, 0) << grey;
+  }
+}
+
 TEST_F(Diff, WritesOntoNeitherPicture) {
   for (const std::string& picture : {a_, b_}) {
     const std::string before = text_of(picture);
@@ -211,15 +239,49 @@ TEST_F(DiffOfFolders, HoldsEachPictureToTheLimits) {
   EXPECT_EQ(diff("--max-mean 1").exit_code, 0);
 }
 
-TEST_F(DiffOfFolders, MustHoldTheSamePictures) {
-  fs::remove(a_ / "sheet.png");
+// One is missing on each side, one is broken, one has another size; the rest goes on.
+TEST_F(DiffOfFolders, HasAnErrorOfItsOwnForEachPictureThatCannotBeCompared) {
   render::write_png(a_ / "frames/0001.png", ramp());
-  const Outcome outcome = diff("--out " + out_.string());
+  render::write_png(b_ / "frames/0002.png", ramp());
+  for (const fs::path& side : {a_, b_}) {
+    std::ofstream(side / "cut.png", std::ios::binary) << text_of(a_ / "sheet.png").substr(0, 300);
+    render::write_png(side / "small.png", side == a_ ? ramp() : ramp(30, 20));
+  }
+  const fs::path xml = folder_.path() / "tests.xml";
+  const Outcome outcome = diff("--max-mean 0.1 --out " + out_.string() + " --junit " + xml.string());
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err, "hysteron diff: every picture must be in both folders; missing in " + b_.string() +
-                             ": frames/0001.png; missing in " + a_.string() + ": sheet.png\n");
-  EXPECT_FALSE(fs::exists(out_));
+  const std::pair<const char*, const char*> kCases[] = {{"frames/0001.png", "missing in"},
+                                                        {"frames/0002.png", "missing in"},
+                                                        {"cut.png", "a broken PNG picture"},
+                                                        {"small.png", "30 x 20"}};
+  const std::string csv = text_of(out_ / "diff.csv"), page = text_of(out_ / "diff.html"),
+                    tests = text_of(xml);
+  for (const auto& [name, reason] : kCases) {
+    const auto line_of = [&](const std::string& text) {
+      const std::size_t at = text.find(name);
+      return at == text.npos ? "" : text.substr(at, text.find('\n', at) - at);
+    };
+    for (const std::string& line : {line_of(csv), line_of(outcome.err), line_of(tests)})
+      EXPECT_NE(line.find(reason), std::string::npos) << name << ": " << line;
+    EXPECT_NE(line_of(tests).find("<error "), std::string::npos) << name;
+    EXPECT_NE(line_of(csv).find(",,,,,,"), std::string::npos) << name << ": no measures";
+    EXPECT_NE(page.find(std::string("not compared: ")), std::string::npos);
+  }
+  EXPECT_NE(tests.find("tests=\"6\" failures=\"1\" errors=\"4\""), std::string::npos) << tests;
+  EXPECT_NE(page.find("4 not compared"), std::string::npos);
+  EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0,\n"), std::string::npos) << csv;
+  EXPECT_TRUE(fs::exists(out_ / "heat/frames/0000.png"));
+  const Json json = Json::parse(diff("--json").out);
+  EXPECT_EQ(json["pictures"].size(), 6u);
+  EXPECT_EQ(json["worst"]["flip"], json["pictures"][1]["flip"]) << "of those that were compared";
+}
+
+TEST_F(DiffOfFolders, WithNothingToCompareHasNoWorst) {
+  const fs::path empty = folder_.path() / "empty";
+  fs::create_directories(empty);
+  const Outcome outcome = program("diff --json " + a_.string() + " " + empty.string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_FALSE(Json::parse(outcome.out).contains("worst"));
 }
 
 TEST_F(DiffOfFolders, WritesHeatMapsATableAndAPageThatNeedsNoOtherFile) {
@@ -227,8 +289,8 @@ TEST_F(DiffOfFolders, WritesHeatMapsATableAndAPageThatNeedsNoOtherFile) {
   EXPECT_EQ(render::read_png(out_ / "heat/frames/0000.png"), render::heat_map(ramp(), marked(8, 20)));
   const std::string csv = text_of(out_ / "diff.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
-            "picture,mean_abs [steps],rmse [steps],psnr [dB],ssim,flip,pixels_over_8 [%]");
-  EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0\n"), std::string::npos) << csv;
+            "picture,mean_abs [steps],rmse [steps],psnr [dB],ssim,flip,pixels_over_8 [%],error");
+  EXPECT_NE(csv.find("\nsheet.png,0,0,,1,0,0,\n"), std::string::npos) << csv;
   const std::string page = text_of(out_ / "diff.html");
   for (const char* part : {"1 beyond limits", "frames/0000.png", "(--max-flip)", "flip ≤ 0.001"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
