@@ -6,15 +6,14 @@
 #include <iostream>
 
 #include "experiments/list/list_json.h"
+#include "experiments/list/tried_devices.h"
 #include "experiments/workbench/app/experiment.h"
-#include "render/offscreen.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/reference/kes.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/keys.h"
-#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -28,21 +27,13 @@ void print_row(const std::vector<std::string>& cells, const std::vector<int>& wi
   }
 }
 
-// "Matsudaira, Masuda, Wada, Yokura 2015, J. Textile Eng. ..." is "Matsudaira et al. 2015".
-std::string short_citation(const std::string& source) {
-  const std::size_t comma = source.find(','), year = source.find_first_of("0123456789");
-  if (comma == source.npos || year == source.npos || year + 4 > source.size()) return source.substr(0, 24);
-  const std::string authors = comma < year ? source.substr(0, comma) + " et al. " : source.substr(0, year);
-  return authors + source.substr(year, 4);
-}
-
 // Who measured the bending: the source of the first published number, else that of b2.
-std::string bending_source(const Fabric& fabric) {
+std::string bending_source(const FabricFile& file) {
   for (const char* key : {"B", "ke-0-small", "b1-warp"}) {
-    const auto found = fabric.published.find(key);
-    if (found != fabric.published.end()) return short_citation(found->second.provenance.source);
+    const auto found = file.fabric.published.find(key);
+    if (found != file.fabric.published.end()) return file.shown(found->second.provenance);
   }
-  return short_citation(fabric.provenance.at("b2").source);
+  return file.shown(file.fabric.provenance.at("b2"));
 }
 
 std::string listed(const std::vector<double>& numbers) {
@@ -52,11 +43,12 @@ std::string listed(const std::vector<double>& numbers) {
 }
 
 // A line for each part that the fabric has beyond three numbers, with where it comes from.
-void print_parts(const Fabric& fabric) {
+void print_parts(const FabricFile& file) {
+  const Fabric& fabric = file.fabric;
   const BendingParts& parts = fabric.bending;
   const auto print = [&](const char* key, const std::string& text) {
     const Provenance& from = fabric.provenance.at(key);
-    std::cout << "  " << text << " (" << from.confidence << ": " << short_citation(from.source) << ")\n";
+    std::cout << "  " << text << " (" << from.confidence << ": " << file.shown(from) << ")\n";
   };
   const auto stops = [&](const char* key, const char* along, const Spectrum& of) {
     if (of.empty()) return;
@@ -93,9 +85,9 @@ void list_fabrics_table() {
     const bool friction = width > 0;
     print_row({f.name, short_number(b), friction ? short_number(width) : "-",
                friction ? short_number(width / 2 / b, 3) : "-", friction ? short_number(f.k0) : "-",
-               short_number(f.density), bending_source(f)},
+               short_number(f.density), bending_source(file)},
               widths);
-    print_parts(f);
+    print_parts(file);
   }
   std::cout << "-: no bending friction published; none assumed (b1 = b2)\n";
 }
@@ -132,14 +124,8 @@ void list_scenes() {
 }
 
 void list_devices() {
-  print_row({"cpu", cpu_description()}, {10});
-  std::string reason;
-  const int gpus = gpu_count(reason);
-  for (int i = 0; i < gpus; ++i) print_row({"cuda", gpu_description(i)}, {10});
-  if (gpus == 0) print_row({"cuda", "none: " + reason}, {10});
-  for (const render::Candidate& candidate : render::Offscreen::candidates(render::Renderer::automatic)) {
-    print_row({"renderer", candidate.name()}, {10});
-  }
+  for (const TriedDevice& device : tried_devices())
+    print_row({device.kind, device.name + (device.failure.empty() ? "" : ": " + device.failure)}, {10});
 }
 
 struct ListFlags {

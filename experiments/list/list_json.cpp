@@ -1,10 +1,9 @@
 #include "experiments/list/list_json.h"
 
-#include "render/offscreen.h"
+#include "experiments/list/tried_devices.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/keys.h"
-#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -20,14 +19,13 @@ Json laws() {
 }
 
 Json devices() {
-  Json list = Json::array({{{"device", "cpu"}, {"name", cpu_description()}}});
-  std::string reason;
-  const int gpus = gpu_count(reason);
-  for (int i = 0; i < gpus; ++i)
-    list.push_back({{"device", "cuda:" + std::to_string(i)}, {"name", gpu_description(i)}});
-  if (gpus == 0) list.push_back({{"device", "cuda"}, {"name", nullptr}, {"reason", reason}});
-  for (const render::Candidate& candidate : render::Offscreen::candidates(render::Renderer::automatic))
-    list.push_back({{"renderer", candidate.name()}});
+  Json list = Json::array();
+  for (const TriedDevice& device : tried_devices()) {
+    Json entry = {{device.kind == "renderer" ? "renderer" : "device", device.id},
+                  {"name", device.failure.empty() ? Json(device.name) : Json(nullptr)}};
+    if (!device.failure.empty()) entry["reason"] = device.failure;
+    list.push_back(entry);
+  }
   return list;
 }
 

@@ -58,6 +58,23 @@ struct Reader {
     return x;
   }
 
+  // The text that a name stands for in [sources]; others stand for themselves.
+  std::string source(const TomlNode* sources, const std::string& name) const {
+    const TomlNode* node = sources ? sources->find(name) : nullptr;
+    if (!node) return name;
+    return node->kind == TomlNode::Kind::table ? text(*node, "text") : text(*sources, name);
+  }
+
+  std::map<std::string, std::string> short_names(const TomlNode& sources) const {
+    std::map<std::string, std::string> names;
+    for (const TomlNode& node : sources.children) {
+      if (node.kind != TomlNode::Kind::table) continue;
+      only_known(node, {"short", "text"});
+      names[text(node, "text")] = text(node, "short");
+    }
+    return names;
+  }
+
   // {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
   PublishedNumber quantity(const TomlNode& node, const TomlNode* sources) const {
     if (node.kind != TomlNode::Kind::table) {
@@ -71,9 +88,7 @@ struct Reader {
       number.provenance.standard_error = this->number(node, "stderr");
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
-    if (sources && sources->find(number.provenance.source)) {
-      number.provenance.source = text(*sources, number.provenance.source);
-    }
+    number.provenance.source = source(sources, number.provenance.source);
     return number;
   }
 
@@ -96,7 +111,7 @@ struct Reader {
   Provenance provenance(const TomlNode& table, const TomlNode* sources) const {
     Provenance from{place(file, table), "given"};
     if (table.find("source")) from.source = text(table, "source");
-    if (sources && sources->find(from.source)) from.source = text(*sources, from.source);
+    from.source = source(sources, from.source);
     if (table.find("confidence")) from.confidence = confidence(table, table);
     return from;
   }
@@ -182,6 +197,11 @@ void note_defaults(Fabric& fabric) {
 
 }  // namespace
 
+const std::string& FabricFile::shown(const Provenance& from) const {
+  const auto found = short_names.find(from.source);
+  return found == short_names.end() ? from.source : found->second;
+}
+
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
   const TomlNode root = read_toml(reader.file);
@@ -191,6 +211,7 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   const TomlNode& parameters = reader.required(root, "parameters");
 
   FabricFile result;
+  if (sources) result.short_names = reader.short_names(*sources);
   result.fabric.name = reader.text(root, "name");
   result.description = reader.text(root, "description");
   for (const TomlNode& node : parameters.children) read_parameter(reader, node, sources, result);

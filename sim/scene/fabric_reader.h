@@ -2,8 +2,9 @@
 //
 //   name = "cotton-broad"
 //   description = "100 % cotton broad cloth, plain weave"
-//   [sources]            short names for long citations
-//   kes = "Author Year, ..."
+//   [sources]            citations by the names that entries use, and how lists show them
+//   kes = {short = "Author Year", text = "Author Year, ..."}
+//   rigidity = "b1 = B + 2HB/k0"       a text alone is its own short name
 //   [parameters]         the keys fabric.* of a scene, in their SI units
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
 //                        optional: stderr = 2e-7, the standard error in the same unit
@@ -30,8 +31,12 @@ namespace hysteron {
 struct FabricFile {
   Fabric fabric;
   std::string description;
-  std::map<std::string, std::string> place;  // of each parameter: "assets/fabrics/cotton-broad.toml:12"
-  std::map<std::string, Range> range;        // of each parameter that states one, in its unit
+  std::map<std::string, std::string> place;        // of each parameter: "assets/fabrics/cotton-broad.toml:12"
+  std::map<std::string, Range> range;              // of each parameter that states one, in its unit
+  std::map<std::string, std::string> short_names;  // of sources, by their texts
+
+  // The source's short name, or its text.
+  const std::string& shown(const Provenance& from) const;
 };
 
 // KES units (Kawabata 1980) in SI; 1 gf = 9.80665e-3 N by definition.

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "experiments/workbench/app/experiment.h"
+#include "sim/scene/assets.h"
+#include "sim/scene/fabric_reader.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
@@ -102,6 +104,46 @@ TEST(Program, ListsTheFabricsWithTheirSource) {
                            "1.157e-05", "0.001216", "52.5", "0.1238", "Matsudaira"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
   }
+}
+
+// What was cut out of long sources: authors who are two, sentences without their ends, "assumed: assumed".
+TEST(Program, ListsSourcesOfFabricsByTheirShortNames) {
+  const std::string table = program("list fabrics").out;
+  for (const std::string& name : list_assets("fabrics")) {
+    const FabricFile file = read_fabric(name, "test");
+    const std::size_t at = table.find("\n" + name + " ");
+    ASSERT_NE(at, std::string::npos) << name;
+    const std::string line = table.substr(at + 1, table.find('\n', at + 1) - at - 1);
+    const bool by_its_short_name =
+        std::any_of(file.short_names.begin(), file.short_names.end(),
+                    [&](const auto& source) { return line.ends_with(" " + source.second); });
+    EXPECT_TRUE(by_its_short_name) << line;
+  }
+  for (const char* part : {"found such that", "assumed: assumed", "Kumari et al.", "2313"})
+    EXPECT_EQ(table.find(part), std::string::npos) << part << "\n" << table;
+  for (const char* part : {"Kumari, Khurana 2016", "(fitted: Fashion and Textiles 2017)", "Wang et al. 2011"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+}
+
+// Where Mesa finds no driver, EGL lists renderers that cannot be opened.
+TEST(Program, ListsDevicesWithWhatFailsWhenTheyAreOpened) {
+  const auto renderers = [](const std::string& environment) {
+    std::vector<nlohmann::json> list;
+    const Folder folder;
+    const fs::path out = folder.path() / "out";
+    std::system((environment + " " HYSTERON_PROGRAM " list devices --json >" + out.string() + " 2>/dev/null")
+                    .c_str());
+    for (const auto& device : nlohmann::json::parse(text_of(out)).at("devices"))
+      if (device.contains("renderer")) list.push_back(device);
+    return list;
+  };
+  for (const auto& renderer : renderers(""))
+    EXPECT_NE(renderer.contains("reason"), renderer.at("name").is_string()) << renderer;
+  const auto without_driver = renderers("LIBGL_DRIVERS_PATH=/nowhere");
+  ASSERT_FALSE(without_driver.empty());
+  EXPECT_TRUE(std::any_of(without_driver.begin(), without_driver.end(), [](const auto& renderer) {
+    return renderer.contains("reason") && !renderer.at("reason").template get<std::string>().empty();
+  })) << nlohmann::json(without_driver);
 }
 
 TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {

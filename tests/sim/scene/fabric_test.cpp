@@ -198,6 +198,15 @@ TEST(FabricFiles, MayStateStopsBranchesAndSet) {
   EXPECT_EQ(read.fabric.b1, 2e-5) << "which the file states";
 }
 
+TEST(FabricFiles, MayGiveASourceAShortName) {
+  const TextFile file(std::string(kMinimal) + kThickness +
+                      "[sources]\ns = {short = \"our lab\", text = \"a KES-FB2, 3 specimens\"}\n");
+  const FabricFile read = read_fabric(file.path(), "test");
+  EXPECT_EQ(read.fabric.provenance.at("b2").source, "a KES-FB2, 3 specimens");
+  EXPECT_EQ(read.shown(read.fabric.provenance.at("b2")), "our lab");
+  EXPECT_EQ(read.shown({"another text", "assumed"}), "another text");
+}
+
 TEST(FabricFiles, MayStateStopsInThePlane) {
   const TextFile file(std::string(kMinimal) + kThickness + R"([membrane.stops.shear]
 thresholds = [0.005, 0.02]
