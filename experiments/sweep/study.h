@@ -36,6 +36,7 @@ struct Study {
   std::vector<Flag> shared;  // keys that all runs have in common
   std::vector<StudyAxis> axes;
   std::vector<std::string> metrics;  // that pages show; empty: the experiment's headlines
+  std::string metrics_place;         // "study.toml:2"
   JobResources resources;            // of a job on a cluster
   int runs_a_job = 1;                // one after the other
   std::vector<StudyRun> runs;

@@ -91,7 +91,10 @@ class StudyFile {
     if (const TomlNode* axes = root.find("axis")) read_axes(*axes);
     if (!recorded_) read_sample(root.find("sample"));
     if (const TomlNode* seeds = root.find("seeds")) add_seeds(*seeds);
-    if (const TomlNode* metrics = root.find("metrics")) study_.metrics = texts(*metrics);
+    if (const TomlNode* metrics = root.find("metrics")) {
+      study_.metrics = texts(*metrics);
+      study_.metrics_place = at(*metrics);
+    }
     if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
     if (study_.axes.empty())
       throw Error::request("a study needs an [[axis]] or seeds (" + file_ + ")").of("axis", "");

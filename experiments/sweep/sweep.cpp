@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <thread>
+#include <utility>
 
 #include "experiments/sweep/outcome.h"
 #include "experiments/sweep/plots.h"
@@ -161,14 +162,33 @@ void forget_the_scene(SweepColumn& column) {
   column.manifest->own.clear();
 }
 
-void run_all(Run& run, std::vector<SweepColumn>& runs, const SweepJobs& jobs) {
+// As soon as a run has found something.  Others may find more: only in the end it is refused.
+void warn_of_unknown_metric(Run& run, const Study& study, const SweepColumn& first) {
+  const std::string unknown = unknown_metric(study, {&first, 1});
+  if (!unknown.empty())
+    run.warn("metrics: the first run has found no " + unknown + " (" + study.metrics_place + ")");
+}
+
+void refuse_unknown_metric(const Study& study, const std::vector<SweepColumn>& runs) {
+  const std::string unknown = unknown_metric(study, runs);
+  if (!unknown.empty())
+    throw Error::request("metrics: no run has found " + unknown +
+                         "; the runs are kept, and --collect tabulates them again")
+        .from(study.metrics_place)
+        .of("metrics", "");
+}
+
+void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const SweepJobs& jobs) {
   const auto stage = run.stage("runs");
   Progress progress(run, runs.size());
+  bool none_complete = true;
   run_columns(
       runs, jobs,
       [&](SweepColumn& column) {
         if (!column.kept) write_outcome(column);
         progress.ended(column);
+        if (column.stopped.empty() && std::exchange(none_complete, false))
+          warn_of_unknown_metric(run, study, column);
         forget_the_scene(column);
       },
       [&](const std::string& line) { progress.running(line); });
@@ -268,9 +288,10 @@ int run_sweep(const CommandLine& line) {
   if (choice.collect)
     collect(run, runs);
   else
-    run_all(run, runs, jobs_of(choice, runs));
+    run_all(run, study, runs, jobs_of(choice, runs));
   write_results(run, study, runs, !options.no_images);
   refuse_failed(run, runs);
+  refuse_unknown_metric(study, runs);
   return 0;
 }
 

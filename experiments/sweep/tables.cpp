@@ -97,6 +97,20 @@ std::vector<std::string> metrics_shown(const Study& study, const std::vector<Swe
   return wanted;
 }
 
+std::string unknown_metric(const Study& study, std::span<const SweepColumn> runs) {
+  std::vector<std::string> known;
+  for (const SweepColumn& run : runs)
+    for (const auto& [name, value] : run.metrics()) known.push_back(name);
+  if (known.empty()) return "";
+  for (const std::string& name : study.metrics) {
+    if (std::count(known.begin(), known.end(), name)) continue;
+    const std::string nearest = nearest_name(name, known);
+    return name + " (" +
+           (nearest.empty() ? "there are: " + join(known, ", ") : "did you mean " + nearest + "?") + ")";
+  }
+  return "";
+}
+
 TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs) {
   const std::vector<std::string> metrics = metrics_of_any(runs);
   TextTable table;

@@ -2,6 +2,8 @@
 // draws.
 #pragma once
 
+#include <span>
+
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/compare/sweep_columns.h"
 #include "sim/base/csv.h"
@@ -16,6 +18,11 @@ TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs
 // The metrics that the study names, or the headlines of its experiment, or those that the runs' scenes ask
 // for, or else the first few that differ between runs; of those that any run has.
 std::vector<std::string> metrics_shown(const Study& study, const std::vector<SweepColumn>& runs);
+
+// Says of the first metric that the study names and none of these runs has what it may have meant:
+// "bending_frictoin_J (did you mean bending_friction_J?)"; "" where there is none, or no run has found
+// anything.
+std::string unknown_metric(const Study& study, std::span<const SweepColumn> runs);
 
 // Of the runs of equal values but for the seed: each axis, `draws`, and METRIC_mean with its standard error,
 // METRIC_stderr, over those that have the metric.

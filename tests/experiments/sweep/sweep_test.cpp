@@ -88,6 +88,22 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   EXPECT_NE(text_of(folder_.path() / "out/report.html").find("Not complete"), std::string::npos);
 }
 
+// Which metrics there are is known once a run has ended.
+TEST_F(Sweep, RefusesMetricsThatNoRunHasFoundAndNamesTheNearest) {
+  write(std::string("metrics = [\"B_N_m\", \"2HB_M\"]\n") + kStudy);
+  const Outcome outcome = run("--quiet");
+  EXPECT_EQ(outcome.exit_code, 2);
+  const std::string unknown = "found no 2HB_M (did you mean 2HB_N?)",
+                    place = " (" + study_.string() + ":1)\n";
+  EXPECT_EQ(outcome.err.find("warning: metrics: the first run has " + unknown + place), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find("metrics: no run has found 2HB_M (did you mean 2HB_N?); the runs are kept"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(table().rows.size(), 4u);
+  write(std::string("metrics = [\"B_N_m\", \"2HB_N\"]\n") + kStudy);
+  EXPECT_EQ(run("--collect").exit_code, 0);
+}
+
 TEST_F(Sweep, InPartsFindsTheTableOfTheWhole) {
   ASSERT_EQ(run("", "whole").exit_code, 0);
   EXPECT_EQ(run("--collect").exit_code, 3) << "nothing has run";
