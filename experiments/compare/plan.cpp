@@ -183,7 +183,7 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
   Plan plan;
   std::set<std::string> laws;
   for (const Variant& variant : variants) {
-    const std::string law = last_text(variant.flags, "law", "");
+    const std::string law = fabric_of(with(inner, variant)).law;
     if (plan.reference != "prandtl") plan.reference = law;
     laws.insert(law);
   }

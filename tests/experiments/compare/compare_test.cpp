@@ -365,6 +365,27 @@ TEST(Compare, StatesTheStiffnessThatItMatched) {
   EXPECT_NEAR(fabric["b2"].get<double>() / other["b1"].get<double>(), 1, 1e-4);
 }
 
+// Fabrics under the one law that the scene names, or the program's own.
+TEST(Compare, SetsFabricsOfASceneSideBySide) {
+  const Folder folder;
+  const fs::path scene = folder.path() / "held.toml", out = folder.path() / "out";
+  for (const char* law : {"", "law = \"dahl\"\n"}) {
+    std::ofstream(scene) << law
+                         << "triangles = 60\nstep = 0.01\nseconds = 0.05\n[cloth]\nlength = 0.2\n"
+                            "[[pin]]\nlow = [-1, -1, -1]\nhigh = [0.01, 1, 1]\n";
+    const Outcome outcome = program("compare " + scene.string() +
+                                    " --fabrics cotton-broad,wool-tropical --no-images --device cpu --quiet "
+                                    "--out " +
+                                    out.string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto column = nlohmann::json::parse(text_of(out / "wool-tropical/manifest.json"));
+    EXPECT_EQ(column["law"], *law ? "dahl" : "prandtl");
+    const auto page = nlohmann::json::parse(text_of(out / "manifest.json"))["scene"]["columns"];
+    ASSERT_EQ(page.size(), 2u);
+    for (const auto& one : page) EXPECT_EQ(one["stiffness_times"], 1) << "of one law nothing is matched";
+  }
+}
+
 // A difference that a page shows between laws is one of kind, not of stiffness, unless the fabric's own
 // numbers are asked for.
 TEST(Compare, MatchesLawsByTheirWorkUnlessToldOtherwise) {
