@@ -121,12 +121,12 @@ std::string vertex_text(int vertex, const Eigen::Vector3d& x) {
 }
 
 std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,
-                           const std::vector<Eigen::Vector3d>& x) {
+                           const Eigen::Vector3d& at) {
   const ObstacleKind kind = obstacles[immersion.obstacle].kind;
   char depth[60];
   std::snprintf(depth, sizeof depth, " lies %.3g mm %s obstacle[%d] (", 1e3 * immersion.depth,
                 kind == ObstacleKind::hollow ? "outside" : "inside", immersion.obstacle);
-  return vertex_text(immersion.vertex, x[immersion.vertex]) + depth + name_of(kind) + ")";
+  return vertex_text(immersion.vertex, at) + depth + name_of(kind) + ")";
 }
 
 template ObstacleSet<double> obstacles_during(const std::vector<Obstacle>&, double, double, double);

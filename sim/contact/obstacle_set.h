@@ -73,8 +73,9 @@ bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& sh
                  const Eigen::Vector3d& pressure);
 
 // "vertex 57 at (0.1, 0.2, 0) m lies 4.2 mm inside obstacle[1] (sphere)"; of `hollow`: "outside".
+// `at`: where its vertex is in the world [m].
 std::string immersion_text(const Immersion& immersion, const std::vector<Obstacle>& obstacles,
-                           const std::vector<Eigen::Vector3d>& x);
+                           const Eigen::Vector3d& at);
 // "vertex 57 at (0.1, 0.2, 0) m"
 std::string vertex_text(int vertex, const Eigen::Vector3d& x);
 

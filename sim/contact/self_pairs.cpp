@@ -1,6 +1,7 @@
 #include "sim/contact/self_pairs.h"
 
 #include "sim/contact/additive_ccd.h"
+#include "sim/scene/local_frame.h"
 
 namespace hysteron {
 
@@ -111,7 +112,8 @@ SelfPairs<Real, Device>::SelfPairs(Device& device, const ClothMesh& mesh, double
       scratch_(device),
       sum_(device, 1) {
   std::vector<Vec3<Real>> rest;
-  for (const auto& x : mesh.rest) rest.push_back(x.cast<Real>());
+  const Eigen::Vector3d origin = local_origin(mesh.rest);
+  for (const auto& x : mesh.rest) rest.push_back((x - origin).cast<Real>());
   rest_ = Buffer<Vec3<Real>, Device>(device, rest);
   std::vector<int> face, edge;
   for (const auto& f : mesh.face) face.insert(face.end(), {f[0], f[1], f[2]});

@@ -98,10 +98,10 @@ void refuse_immersed(const Scene& scene, const Cloth& cloth) {
   const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0));
   if (found.count == 0) return;
   const auto origin = scene.origin.find("obstacle[" + std::to_string(found.obstacle) + "]");
-  throw Error::request("obstacle: at the start " + immersion_text(found, scene.obstacle, cloth.start) +
-                       ", of " + std::to_string(found.count) +
-                       " such vertices the deepest: move the cloth or the obstacle" +
-                       (origin == scene.origin.end() ? "" : " (" + origin->second + ")"));
+  throw Error::request(
+      "obstacle: at the start " + immersion_text(found, scene.obstacle, cloth.start[found.vertex]) + ", of " +
+      std::to_string(found.count) + " such vertices the deepest: move the cloth or the obstacle" +
+      (origin == scene.origin.end() ? "" : " (" + origin->second + ")"));
 }
 
 }  // namespace

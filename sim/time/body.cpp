@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/scene/local_frame.h"
 #include "sim/time/refusals.h"
 
 namespace hysteron {
@@ -22,8 +23,9 @@ template <class Real, class Device>
 Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth& c,
                          const CurvatureOperator& op)
     : device(std::move(on)),
-      scene(s),
-      cloth(c),
+      origin(local_origin(c.start)),
+      scene(seen_from(origin, s)),
+      cloth(seen_from(origin, c)),
       vertices(c.mesh.vertices()),
       clock(*device),
       matrix(*device, c.mesh),
@@ -32,12 +34,12 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
               make_law_loop<Real>(*device, choose_law(s.law, s.fabric.virgin_curve(), s.param), op.dimension,
                                   op.elements()),
               s.force, s.fabric.damping * s.fabric.b1),
-      x(*device, cast_to<Real>(c.start)),
+      x(*device, cast_to<Real>(cloth.start)),
       v(*device, vertices),
       mass(*device, masses<Real>(s, c.mesh)),
       held(*device, c.held(s, 0)),
       ledger(*device, vertices),
-      hands(*device, s, c, s.finds_equilibrium()),
+      hands(*device, scene, cloth, s.finds_equilibrium()),
       size_(*device, 1) {
   if (!scene.command.empty()) command_center_ = cloth.element_centers(op.dimension);
   if (!scene.obstacle.empty()) {

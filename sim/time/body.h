@@ -44,6 +44,7 @@ struct Body {
   Body(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op);
 
   std::unique_ptr<Device> device;
+  Eigen::Vector3d origin;  // of positions here and in the next two, in the world [m]: local_frame.h
   Scene scene;
   Cloth cloth;
   int vertices;

@@ -85,7 +85,7 @@ void refuse_arrival(Body<Real, Device>& body, double met, double time) {
   const Immersion found = deepest(set, x, held);
   if (found.count > 0)
     throw Error::run(at_time(time) + "an obstacle appears where the cloth is: " +
-                     immersion_text(found, scene.obstacle, x) + others(found));
+                     immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) + others(found));
   std::vector<char> spared = body.contact->spared(), deep = immersed(set, x);
   for (int i = 0; i < body.vertices; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
   body.contact->spare(spared);
@@ -102,7 +102,7 @@ void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, dou
   const Immersion found = deepest(set, x, unconcerned);
   if (found.count == 0) return;
   throw Error::run(at_time(time) + "a pin releases the cloth inside an obstacle: " +
-                   immersion_text(found, scene.obstacle, x) + others(found));
+                   immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) + others(found));
 }
 
 // A blow may drive the cloth deep into an obstacle for a moment.  It is crushed where that lasts because
@@ -125,10 +125,11 @@ void refuse_crushed(Body<Real, Device>& body, double time) {
   const Immersion found = deepest(set, x, well);
   if (found.count == 0) return;
   const std::vector<std::string> by = pressing(body, found.vertex, x[found.vertex], time);
-  throw Error::run(at_time(time) + "the cloth is crushed: " + immersion_text(found, scene.obstacle, x) +
-                   (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
-                   ": leave it more room, or raise contact-stiffness = " + number(shell.stiffest()) +
-                   " N/m^3");
+  throw Error::run(
+      at_time(time) +
+      "the cloth is crushed: " + immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
+      (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
+      ": leave it more room, or raise contact-stiffness = " + number(shell.stiffest()) + " N/m^3");
 }
 
 template <class Real, class Device>
@@ -152,7 +153,7 @@ void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& ste
   if (worst.vertex < 0) throw Error::run(message);
   const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
   throw Error::run(message + ", most of it, " + number(worst.force) + " N, at " +
-                   vertex_text(worst.vertex, worst.position) +
+                   vertex_text(worst.vertex, worst.position + body.origin) +
                    (by.empty() ? "" : ", pressed by " + together(by)));
 }
 

@@ -75,8 +75,9 @@ class Simulation {
   virtual Keyframe hand(int pin) const = 0;
 
   // Where the state lies in the host's memory, for who looks at it between steps without a copy: three
-  // numbers a vertex, of one of the two types; both null on a GPU.  A step may lay it elsewhere, but frees
-  // nothing.
+  // numbers a vertex, of one of the two types; both null on a GPU, and for positions of cloth that starts far
+  // from the origin, which are kept relative to its start (local_frame.h).  A step may lay it elsewhere, but
+  // frees nothing.
   struct InPlace {
     const double* fp64 = nullptr;
     const float* fp32 = nullptr;

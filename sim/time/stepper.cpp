@@ -134,7 +134,10 @@ Simulation::InPlace Stepper<Real, Device>::in_place(const Buffer<Vec3<Real>, Dev
 
 template <class Real, class Device>
 std::vector<Eigen::Vector3d> Stepper<Real, Device>::positions() {
-  return in_doubles(body_.x.download());
+  std::vector<Eigen::Vector3d> x = in_doubles(body_.x.download());
+  if (is_shifted())
+    for (Eigen::Vector3d& p : x) p += body_.origin;
+  return x;
 }
 
 template <class Real, class Device>
@@ -150,7 +153,9 @@ std::vector<Eigen::Vector3d> Stepper<Real, Device>::handle_forces() {
 template <class Real, class Device>
 std::unique_ptr<GlPositions> Stepper<Real, Device>::share_positions(unsigned gl_buffer, int gl_device,
                                                                     std::string& reason) {
-  return hysteron::share_positions(*body_.device, body_.x, gl_buffer, gl_device, reason);
+  if (!is_shifted()) return hysteron::share_positions(*body_.device, body_.x, gl_buffer, gl_device, reason);
+  reason = "positions are relative to where the cloth starts, far from the origin";
+  return nullptr;
 }
 
 template <class Real, class Device>

@@ -22,7 +22,7 @@ class Stepper : public Simulation {
 
   void drive(int pin, const Eigen::Vector3d& velocity, double spin) override;
   Keyframe hand(int pin) const override;
-  InPlace positions_in_place() const override { return in_place(body_.x); }
+  InPlace positions_in_place() const override { return is_shifted() ? InPlace{} : in_place(body_.x); }
   InPlace velocities_in_place() const override { return in_place(body_.v); }
   std::vector<Eigen::Vector3d> positions() override;
   std::vector<Eigen::Vector3d> velocities() override;
@@ -67,6 +67,7 @@ class Stepper : public Simulation {
 
  private:
   void visit(Archive& archive);
+  bool is_shifted() const { return !body_.origin.isZero(0); }  // positions are not the world's
   const Pin& pin(int number) const;
   static InPlace in_place(const Buffer<Vec3<Real>, Device>& buffer);
   double per_step(long count) const {
