@@ -111,7 +111,7 @@ PcgOutcome CholeskySolver<Real>::solve(const System& system, const char* held, c
   System preconditioned = system;
   preconditioned.preconditioner = this;
   const auto attempt = [&](int most) {
-    return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, most);
+    return pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, most});
   };
   int before = 0;
   if (!held_.empty() && std::equal(held_.begin(), held_.end(), held) && spent_ < worth()) {

@@ -26,7 +26,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     LinearSystem<Real, Device> preconditioned = system;
     preconditioned.preconditioner = &multigrid_;
     const PcgOutcome outcome =
-        pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, tolerance, kMostIterations);
+        pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, kMostIterations});
     if (renews) iterations_when_new_ = outcome.iterations / decades(tolerance);
     is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + multigrid_.worth();
     return outcome;

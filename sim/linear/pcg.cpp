@@ -78,13 +78,16 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
   if (system.preconditioner) return start_preconditioned(system, held, rhs, known, guess, x, end);
   const BlockRowsView<Real> matrix = system.matrix;
   const Mat3<Real>* rest = system.rest_diagonal;
+  const Real* mass = system.mass;
+  const std::size_t mass_bytes = mass ? rows_ * sizeof(Real) : 0;
   const Vec3<Real>* q = q_.data();
   Mat3<Real>* inverse = inverse_.data();
   Vec3<Real>*r = r_.data(), *z = z_.data(), *p = p_.data();
   PcgScalars* s = scalars_.data();
-  for_each_sum<2>(
-      device_, {"solve: start", (rest ? 3 : 2) * inverse_.bytes() + vectors(guess ? 7 : 5)}, rows_,
-      HYST_KERNEL(int i, Sums<2>& sums) {
+  for_each_sum<3>(
+      device_, {"solve: start", (rest ? 3 : 2) * inverse_.bytes() + vectors(guess ? 7 : 5) + mass_bytes},
+      rows_,
+      HYST_KERNEL(int i, Sums<3>& sums) {
         if (held[i]) {
           x[i] = r[i] = z[i] = p[i] = Vec3<Real>::Zero();
           return;
@@ -99,9 +102,16 @@ void Pcg<Real, Device>::start(const System& system, const char* held, const Vec3
         sums.term[0] += static_cast<double>(r[i].dot(z[i]));
         const Vec3<Real> scale = known ? Vec3<Real>(rhs[i] - known[i]) : rhs[i];
         sums.term[1] += static_cast<double>(scale.dot(inverse[i] * scale));
+        if (!mass) return;
+        for (int k = 0; k < 3; ++k) {
+          const Real stiffness = block(k, k) - mass[i];
+          sums.term[2] += static_cast<double>(stiffness * stiffness / block(k, k));
+        }
       },
-      HYST_KERNEL(const Sums<2>& total) {
-        s->target = end.tolerance * end.tolerance * total.term[1];
+      HYST_KERNEL(const Sums<3>& total) {
+        const double wanted = end.tolerance * end.tolerance * total.term[1],
+                     least = end.rounding * end.rounding * total.term[2];
+        s->target = least > wanted ? least : wanted;
         s->begin(total.term[0], end.most_iterations);
       });
 }
@@ -244,12 +254,11 @@ PcgScalars Pcg<Real, Device>::scalars() const {
 template <class Real, class Device>
 PcgOutcome Pcg<Real, Device>::solve(const System& system, const char* held, const Vec3<Real>* rhs,
                                     const Vec3<Real>* known, const Vec3<Real>* guess, Vec3<Real>* x,
-                                    double tolerance, int most_iterations) {
-  const PcgEnd end{tolerance, most_iterations};
+                                    PcgEnd end) {
   start(system, held, rhs, known, guess, x, end);
   const PcgScalars outcome =
       iterate_on_device(system, held, x) ? scalars() : iterate_in_batches(system, held, x, end);
-  iterations_per_decade_ = outcome.iterations / decades(tolerance);
+  iterations_per_decade_ = outcome.iterations / decades(end.tolerance);
   return {outcome.iterations, outcome.done == PcgScalars::kConverged};
 }
 

@@ -45,11 +45,15 @@ struct LinearSystem {
   // The matrix, softening and bending in one, which products then take; no rows: they are not assembled.
   BlockRowsView<Real> whole = {};
   std::size_t whole_blocks = 0;  // its off-diagonal ones
+  const Real* mass = nullptr;    // in the diagonal blocks, where a PcgEnd's rounding counts
 };
 
 struct PcgEnd {
   double tolerance;
   int most_iterations;
+  // What x is uncertain by anyway: the residual need not be less than what the system's stiffness makes of
+  // it.  Counts in systems with their mass and without the caller's preconditioner.
+  double rounding = 0;
 };
 
 template <class Real, class Device>
@@ -67,7 +71,7 @@ class Pcg {
   // known may be null.  Ends, too, after a step along a direction p with p' matrix p <= 0, taken
   // downwards and as long as if that were its magnitude; then it has not converged.
   PcgOutcome solve(const System& system, const char* held, const Vec3<Real>* rhs, const Vec3<Real>* known,
-                   const Vec3<Real>* guess, Vec3<Real>* x, double tolerance, int most_iterations);
+                   const Vec3<Real>* guess, Vec3<Real>* x, PcgEnd end);
   // How fast the last solve converged, on which the batches depend that a GPU is sent.
   void visit(Archive& archive) { archive(iterations_per_decade_); }
   std::size_t bytes() const;

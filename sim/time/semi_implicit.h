@@ -27,6 +27,7 @@ class LinearisedSolve {
 
  private:
   Body<Real, Device>& body_;
+  double blur_;  // of positions: what need not be solved for [m]
   Pcg<Real, Device> pcg_;
   Buffer<Vec3<Real>, Device> change_, correction_;  // dv of the stage, and of its last Newton step [m/s]
   Buffer<Vec3<Real>, Device> rhs_;                  // [N s]

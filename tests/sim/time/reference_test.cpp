@@ -46,8 +46,8 @@ struct ImplicitSystem {
     Pcg<double, Cpu> pcg(cpu, static_cast<int>(held.size()));
     std::vector<Vector3d> known;
     for (const Vector3d& f : load) known.push_back(-scale * f);
-    return pcg.solve({rows.view()}, held.data(), rhs.data(), known.data(), guess, solution.data(), tolerance,
-                     iterations);
+    return pcg.solve({rows.view()}, held.data(), rhs.data(), known.data(), guess, solution.data(),
+                     {tolerance, iterations});
   }
 
   // The free part as a sparse matrix.
