@@ -1,0 +1,21 @@
+// Membrane locking: triangles of constant strain are flat, and mesh edges that do not lie along a fold must
+// be stretched for the cloth to bend across them.  Where the membrane is stiff beside bending, coarse cloth
+// bends less than its rigidity says.
+#pragma once
+
+#include <string>
+
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron {
+
+// E h^2/b2, dimensionless: the square of an edge over the thickness of the plate that has this membrane and
+// this rigidity, but for a factor of 12.  E: the lesser of warp and weft [N/m], since a membrane that gives
+// in one direction lets folds through; h: the side of an equilateral triangle of mean area [m].
+double locking_number(const Scene& scene, const ClothMesh& mesh);
+
+// A warning where the number is above what was measured to matter (locking.cpp); "" below.
+std::string locking_words(const Scene& scene, const ClothMesh& mesh);
+
+}  // namespace hysteron
