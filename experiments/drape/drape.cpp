@@ -6,6 +6,7 @@
 
 #include "experiments/drape/apparatus.h"
 #include "experiments/drape/outline.h"
+#include "experiments/workbench/pages/closing_words.h"
 #include "experiments/workbench/session/session.h"
 #include "render/caption.h"
 #include "sim/base/error.h"
@@ -70,8 +71,10 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice) {
   const double radius = session.scene().cloth.radius;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
-  const std::string text = fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %",
-                                       session.scene().fabric.name, session.scene().law, found);
+  const std::string unrest = unrest_words(session.run().metrics());
+  const std::string text =
+      fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %{}", session.scene().fabric.name,
+                  session.scene().law, found, unrest.empty() ? "" : "\n" + unrest);
   render::draw_caption(shadow, text, render::Corner::top_left);
   render::draw_scale_bar(shadow, metres, render::Corner::bottom_left);
   render::write_png(session.run().path("shadow.png"), shadow, render::PngEffort::best);

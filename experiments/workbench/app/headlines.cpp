@@ -77,6 +77,13 @@ const Headlines& headlines_of(const std::string& experiment) {
   return kNone;
 }
 
+bool is_asked_for(const std::string& metric) {
+  for (const Headlines& headlines : kAll)
+    for (const Headline& headline : headlines.all)
+      if (metric == headline.metric) return true;
+  return false;
+}
+
 void check_errors(const std::string& experiment) {
   const auto can_have = [](const Headlines& h) { return h.asked || !h.with_errors().empty(); };
   if (can_have(headlines_of(experiment))) return;

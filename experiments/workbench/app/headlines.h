@@ -31,6 +31,9 @@ struct Headlines {
 // None of an experiment without.
 const Headlines& headlines_of(const std::string& experiment);
 
+// Whether the metric is a headline of any experiment.
+bool is_asked_for(const std::string& metric);
+
 // Error::request unless errors of the experiment's headlines can be measured.
 void check_errors(const std::string& experiment);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
@@ -90,12 +91,18 @@ std::string headline_of(const Metrics& metrics, const std::string& name) {
   return "";
 }
 
+HeadlineWords with_unrest(HeadlineWords words, const Metrics& metrics, const std::string& name) {
+  const bool is_ours = !name.starts_with("published_");
+  if (is_ours && metrics["settled"].is(false)) words.errors = joined({words.errors, "(not at rest)"}, " ");
+  return words;
+}
+
 std::string HeadlineWords::text() const { return joined({value, unit, errors}, " "); }
 
 HeadlineWords headline_words(const Metrics& metrics, const std::string& name) {
   HeadlineWords words = scaled_words(metrics, name, 1);
   words.unit = split_unit(name).unit;
-  return words;
+  return with_unrest(std::move(words), metrics, name);
 }
 
 HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
@@ -110,7 +117,7 @@ HeadlineWords headline_words(const Metrics& metrics, const Headline& headline) {
     words.value = fmt::format(fmt::runtime(headline.format), headline.scale * metrics[name].number());
   }
   words.unit = headline.unit;
-  return words;
+  return with_unrest(std::move(words), metrics, name);
 }
 
 std::string with_errors(const Metrics& metrics, const std::string& name) {

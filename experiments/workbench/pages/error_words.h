@@ -35,6 +35,10 @@ HeadlineWords headline_words(const Metrics& metrics, const std::string& name);
 // fit, or alone.
 HeadlineWords headline_words(const Metrics& metrics, const Headline& headline);
 
+// Words on a result of cloth that should have come to rest and did not are marked as such: its shape is none
+// that could be measured.
+HeadlineWords with_unrest(HeadlineWords words, const Metrics& metrics, const std::string& name);
+
 // Name, value, unit and errors in one line; without errors for a number that is no headline.
 std::string with_errors(const Metrics& metrics, const std::string& name);
 

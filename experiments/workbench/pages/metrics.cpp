@@ -12,7 +12,8 @@ namespace hysteron::experiments {
 
 HeadlineWords metric_words(const Metrics& metrics, const std::string& key) {
   if (is_headline(metrics, key)) return headline_words(metrics, key);
-  return {shown(metrics[key]), split_unit(key).unit, ""};
+  const HeadlineWords words{shown(metrics[key]), split_unit(key).unit, ""};
+  return is_asked_for(key) ? with_unrest(words, metrics, key) : words;
 }
 
 std::string metric_cards(const Metrics& metrics) {

@@ -91,6 +91,7 @@ void Session::visit(Archive& archive, const Question& question, Record& series) 
   run_->visit(archive);  // files first: kept_files()
   archive(resumed_at_);
   archive(folded_);
+  archive(stretched_);
   if (crossings_) crossings_->visit(archive);
   meshes_.visit(archive);
   recoveries_.visit(archive);

@@ -15,6 +15,8 @@
 #include "experiments/workbench/pages/closing_words.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/resting.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/laws/recovery.h"
 
@@ -28,9 +30,7 @@ int steps_per_frame(const Setup& setup) {
 
 double fastest(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before,
                double dt) {
-  double largest = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
-  return largest / dt;
+  return farthest_moved(now, before) / dt;
 }
 
 std::vector<std::string> ledger_columns() {
@@ -131,6 +131,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     manifest.linear_solver = name_of(method.linear_solver);
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
+  for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
   watch_crossings();
 }
 
@@ -221,20 +222,14 @@ void Session::note_convergence() {
     run_->metric("unbalanced_steps_count", counts.unbalanced);
 }
 
-// The step that would do is an estimate: the share is taken to fall as the step does.  Of statics the share
-// is what jumps from one equilibrium to the next set free, whatever the step, and what the mean of the forces
-// misses, of second order in it; of cloth that dissipates nothing itself it is all.
+// Of statics the share is what jumps from one equilibrium to the next set free, whatever the step, and what
+// the mean of the forces misses, of second order in it.
 void Session::note_integrator(const Ledger& ledger) {
-  constexpr double kMost = 0.25;
   const double share = ledger.integrator_share();
   run_->metric("integrator_share_percent", 100 * share);
-  if (share <= kMost || share == 1 || setup_.scene.integrator == Integrator::quasi_static) return;
-  const double step = setup_.scene.step * kMost / (1 - kMost) * (1 - share) / share;
-  run_->warn(
-      fmt::format("the integrator took {:.0f} % of all energy that was dissipated: steps of about "
-                  "{:.2g} s would "
-                  "take {:.0f} %",
-                  100 * share, step, 100 * kMost));
+  if (setup_.scene.integrator == Integrator::quasi_static) return;
+  const std::string doubt = integrator_words(share, setup_.scene.step);
+  if (!doubt.empty()) run_->warn(doubt);
 }
 
 Snapshot Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
@@ -248,29 +243,13 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   const bool pictured = !question.pictured || question.pictured(instant);
   if (pictures_ && pictured) pictures_->frame(*run_);
   watch_folds(x);
+  stretched_ = std::max(stretched_, simulation_->largest_stretch());
   recoveries_.see(*simulation_);
   see_crossings(x);
   if (pictured) meshes_.write(*run_, setup_.options.export_format, cloth_, *simulation_, x);
   run_->progress(question.progress(instant) + left);
   if (question.settled) run_->metric("fastest_m_per_s", instant.fastest);
   return instant;
-}
-
-// Steps without inertia until one of them moves no vertex farther than kStill thicknesses.
-bool Session::find_rest(const Question& question, Record& series) {
-  constexpr int kMostSteps = 20;
-  constexpr double kStill = 0.01;
-  simulation_->become_static();
-  std::vector<Eigen::Vector3d> before = simulation_->positions();
-  double way = INFINITY;
-  for (int step = 0; step < kMostSteps && way > kStill * setup_.scene.fabric.thickness; ++step) {
-    simulation_->advance(1);
-    const std::vector<Eigen::Vector3d> x = simulation_->positions();
-    way = fastest(x, before, 1);
-    before = x;
-  }
-  record(question, series, before, way / setup_.scene.step, "");
-  return way <= kStill * setup_.scene.fabric.thickness;
 }
 
 // "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu"
@@ -379,6 +358,8 @@ void Session::finish(const std::string& title) {
   run_->metric("max_stretch_percent", 100 * simulation_->largest_stretch());
   run_->metric("energy_remainder_relative", ledger.remainder_relative);
   note_integrator(ledger);
+  for (const std::string& doubt : doubts_at_end(setup_.scene, cloth_, simulation_->positions(), stretched_))
+    run_->warn(doubt);
   run_->metric("solver_iterations_per_step", simulation_->solver_iterations());
   if (setup_.scene.finds_equilibrium()) note_convergence();
   if (setup_.scene.finds_equilibrium() || setup_.scene.tolerance > 0) {

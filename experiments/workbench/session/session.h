@@ -78,7 +78,7 @@ class Session {
   long steps_of(const Question& question) const;
   double go_to_next_instant(const Question& question);
   bool go_through(const Question& question, Record& series);
-  bool find_rest(const Question& question, Record& series);
+  bool find_rest(const Question& question, Record& series);  // resting.cpp
   // resuming.cpp
   void look_back();
   std::vector<std::string> kept_files() const;
@@ -113,6 +113,7 @@ class Session {
   Recoveries recoveries_;
   std::unique_ptr<Crossings> crossings_;  // null where they are not counted
   double folded_ = 0;                     // largest share of sharply folded edges
+  double stretched_ = 0;                  // largest principal stretch minus 1, of the instants recorded
   bool is_complete_ = false;
   std::string state_;               // of the checkpoint to go on from; empty: none, or gone on
   std::vector<double> resumed_at_;  // [s]

@@ -1,0 +1,79 @@
+#include "experiments/workbench/session/doubts.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "sim/membrane/locking.h"
+#include "sim/scene/local_frame.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Woven cloth tears at strains of some 10 to 40 %, and the membrane's stiffness is that of small ones.
+constexpr double kExtremeStretch = 0.5;
+// Positions that are rounded to more of the thickness make strains, and forces, of their own.
+constexpr double kCoarsest = 0.01;
+// Speed that the energy stored by contact at the start would give all of the cloth [m/s].
+constexpr double kNoticed = 0.1;
+
+// Pressed layers push each other off as soon as they may.
+std::string pressed_words(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
+  const double stored = simulation.ledger().contact;
+  const auto& areas = cloth.mesh.vertex_area;
+  const double mass = scene.fabric.density * std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double speed = std::sqrt(2 * stored / mass);
+  if (!(speed > kNoticed)) return "";
+  return fmt::format(
+      "contact stores {:.2g} J at the start, which would throw the whole cloth at {:.2g} m/s: parts that are "
+      "nearer than fabric.thickness = {:.4g} mm press each other off; start farther apart, or with a thinner "
+      "fabric",
+      stored, speed, 1e3 * scene.fabric.thickness);
+}
+
+std::string stretch_words(double stretched) {
+  if (!(stretched > kExtremeStretch)) return "";
+  return fmt::format(
+      "the cloth was stretched by up to {:.0f} %, where woven cloth tears at some 10 to 40 %, and "
+      "fabric.warp, fabric.weft and fabric.shear are stiffnesses of small strains",
+      100 * stretched);
+}
+
+std::string resolution_words(const Scene& scene, const Cloth& cloth, const std::vector<Eigen::Vector3d>& x) {
+  const double step = resolution(scene, cloth, x);
+  if (!(step > kCoarsest * scene.fabric.thickness)) return "";
+  return fmt::format(
+      "positions are rounded to {:.2g} m so far from where the cloth starts, more than {:.0f} % of "
+      "fabric.thickness = {:.4g} m: {}",
+      step, 100 * kCoarsest, scene.fabric.thickness,
+      scene.precision == Precision::fp32 ? "take precision = double" : "let it start nearer");
+}
+
+std::vector<std::string> said(std::vector<std::string> texts) {
+  std::erase(texts, "");
+  return texts;
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
+  return said({locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation)});
+}
+
+std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
+                                       const std::vector<Eigen::Vector3d>& x, double stretched) {
+  return said({stretch_words(stretched), resolution_words(scene, cloth, x)});
+}
+
+std::string integrator_words(double share, double step) {
+  constexpr double kMost = 0.25, kLeast = 0.01;
+  if (!(share > kMost) || share == 1) return "";
+  const double factor = kMost / (1 - kMost) * (1 - share) / share;
+  const std::string text =
+      fmt::format("the integrator took {:.0f} % of all energy that was dissipated", 100 * share);
+  if (factor < kLeast) return text + ": nearly all, so that no step can be named that would do";
+  return text + fmt::format(": steps of about {:.2g} s would take {:.0f} %", factor * step, 100 * kMost);
+}
+
+}  // namespace hysteron::experiments

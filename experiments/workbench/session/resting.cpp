@@ -1,0 +1,72 @@
+#include "experiments/workbench/session/resting.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/workbench/session/session.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kMostSteps = 20;
+constexpr double kStill = 0.01;  // of the thickness
+constexpr int kCannotGoOn = 3;   // exit code of Error::run
+
+Rest step_to_rest(Simulation& simulation, double still) {
+  simulation.become_static();
+  std::vector<Eigen::Vector3d> before = simulation.positions();
+  Rest rest{INFINITY, ""};
+  bool balanced = false;
+  for (int step = 0; step < kMostSteps && !(balanced && rest.moved <= still); ++step) {
+    const long unbalanced = simulation.unbalanced_steps();
+    simulation.advance(1);
+    balanced = simulation.unbalanced_steps() == unbalanced;
+    std::vector<Eigen::Vector3d> x = simulation.positions();
+    rest.moved = farthest_moved(x, before);
+    before = std::move(x);
+  }
+  if (!balanced)
+    rest.failure = fmt::format("{} steps without inertia found no equilibrium", kMostSteps);
+  else if (!(rest.moved <= still))
+    rest.failure = fmt::format("the last of {} steps without inertia moved a vertex by {:.3g} m", kMostSteps,
+                               rest.moved);
+  return rest;
+}
+
+}  // namespace
+
+double farthest_moved(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before) {
+  double largest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, (now[i] - before[i]).norm());
+  return largest;
+}
+
+Rest seek_rest(Simulation& simulation, double thickness) {
+  const std::string in_motion = simulation.save();
+  Rest rest;
+  try {
+    rest = step_to_rest(simulation, kStill * thickness);
+  } catch (const Error& error) {
+    if (error.exit_code() != kCannotGoOn) throw;
+    rest.failure = error.what();
+  }
+  if (!rest.failure.empty()) simulation.load(in_motion);
+  return rest;
+}
+
+// What a search leads to that does not end is no state of the cloth: the last one in motion stays the run's.
+bool Session::find_rest(const Question& question, Record& series) {
+  const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
+  if (rest.failure.empty()) {
+    record(question, series, simulation_->positions(), rest.moved / setup_.scene.step, "");
+    return true;
+  }
+  run_->warn(fmt::format("no state of rest was found: {}; results are of the cloth in motion at t = {:.4g} s",
+                         rest.failure, simulation_->time()));
+  return false;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,98 @@
+// What a run warns of although it goes on.
+#include "experiments/workbench/session/doubts.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "tests/experiments/program.h"
+#include "tests/sim/contact/two_sheets.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron::experiments {
+namespace {
+
+using test::Trial;
+
+void expect_one(const std::vector<std::string>& texts, const std::string& part) {
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_NE(texts[0].find(part), std::string::npos) << texts[0];
+}
+
+TEST(Integrator, ThatTakesMoreThanAQuarterIsSaidWithTheStepThatWouldDo) {
+  EXPECT_EQ(integrator_words(0.25, 1e-3), "");
+  // The step over the rest's share is to the one taken as 1/3 is to s/(1 - s).
+  for (const double share : {0.5, 0.75, 0.9}) {
+    const std::string text = integrator_words(share, 1e-3);
+    EXPECT_NE(text.find(fmt::format("{:.2g} s would take 25 %", 1e-3 / 3 * (1 - share) / share)), text.npos)
+        << text;
+  }
+}
+
+TEST(Integrator, ThatTakesNearlyAllGetsNoAdvice) {
+  for (const double share : {0.98, 0.9999999, 1 - 1e-12}) {
+    const std::string text = integrator_words(share, 1.0 / 120);
+    EXPECT_NE(text.find(fmt::format("took {:.0f} %", 100 * share)), text.npos) << text;
+    EXPECT_EQ(text.find("steps of"), text.npos) << text;
+  }
+  EXPECT_EQ(integrator_words(1, 1e-3), "") << "of cloth that dissipates nothing itself";
+}
+
+TEST(Start, WithLayersThatPressIsSaidWithTheirEnergy) {
+  const Trial pressed = test::two_sheets(0.11 * Fabric{}.thickness, 60);
+  const auto simulation = pressed.simulation();
+  const double stored = simulation->ledger().contact;
+  EXPECT_GT(stored, 0);
+  expect_one(doubts_at_start(pressed.scene, pressed.cloth, *simulation),
+             fmt::format("contact stores {:.2g} J at the start", stored));
+  const Trial kissing = test::two_sheets(Fabric{}.thickness, 60);
+  EXPECT_TRUE(doubts_at_start(kissing.scene, kissing.cloth, *kissing.simulation()).empty());
+}
+
+TEST(End, WithClothStretchedAsNoneIsSaysByHowMuch) {
+  const Trial trial(test::hanging_square(60));
+  const auto& x = trial.cloth.start;
+  expect_one(doubts_at_end(trial.scene, trial.cloth, x, 65.57), "stretched by up to 6557 %");
+  EXPECT_TRUE(doubts_at_end(trial.scene, trial.cloth, x, 0.3).empty());
+}
+
+// A hand that tears at one side of a sheet of 10 cm.
+constexpr const char* kTorn = R"(
+seconds = 0.3
+triangles = 100
+[cloth]
+length = 0.1
+[[pin]]
+low = [0, 0, -1]
+high = [0.011, 0.1, 1]
+[[pin]]
+low = [0.089, 0, -1]
+high = [0.1, 0.1, 1]
+keys = [{time = 0}, {time = 0.2, position = [5, 0, 0]}]
+)";
+
+TEST(End, WithClothTornApartIsSaidWithQuietToo) {
+  const Folder folder;
+  const TextFile scene(kTorn);
+  const Outcome outcome =
+      program("run " + scene.path() + " --no-images --quiet --out " + folder.path().string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: the cloth was stretched by up to "), std::string::npos) << outcome.err;
+  EXPECT_NE(text_of(folder.path() / "manifest.json").find("\"the cloth was stretched by up to "),
+            std::string::npos);
+}
+
+// A float has 24 bits: its distance from the next is up to 2^-23 of it.
+TEST(End, FarFromTheStartSaysWhatSinglePrecisionIsRoundedTo) {
+  Scene scene = test::free_square(60);
+  scene.precision = Precision::fp32;
+  const Trial trial(scene);
+  test::Positions far = trial.cloth.start;
+  for (Eigen::Vector3d& x : far) x.z() -= 1000;
+  expect_one(doubts_at_end(trial.scene, trial.cloth, far, 0),
+             fmt::format("rounded to {:.2g} m", 1000 * std::pow(2.0, -23)));
+  scene.precision = Precision::fp64;
+  EXPECT_TRUE(doubts_at_end(scene, trial.cloth, far, 0).empty());
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
