@@ -122,7 +122,8 @@ void bind_state(py::class_<S>& simulation) {
           R"(Positions of the vertices [m], shape (n, 3).
 
 On the CPU a view of the simulation's memory, not writeable and not copied, in its precision: it shows the
-state until the next step; take it anew then, or copy it.  The memory lives as long as the array.)")
+state until the next step; take it anew then, or copy it.  The memory lives as long as the array.
+Of cloth that starts far from the origin, which is simulated relative to its start, a copy in doubles.)")
       .def_property_readonly(
           "velocities",
           [](py::object self) {

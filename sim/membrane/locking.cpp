@@ -9,6 +9,11 @@ namespace hysteron {
 
 namespace {
 
+// Drape coefficients of cotton broad (`drape --quick`) and the number:
+//   warp, weft [kN/m]    1, 1          3, 3         10, 10        100, 100      100, 1
+//   600 triangles        76.0 % 2e4    79.6 % 7e4   84.5 % 2e5    90.9 % 2e6    87.1 % 2e6
+//   1,200                79.0 % 1e4                 86.4 % 1e5
+// Of each decade some 2 points are the sheet's own, as elements show that do not lock.
 constexpr double kLocks = 1e5;
 
 double mean_edge(const ClothMesh& mesh) {
@@ -19,7 +24,7 @@ double mean_edge(const ClothMesh& mesh) {
 }  // namespace
 
 double locking_number(const Scene& scene, const ClothMesh& mesh) {
-  const double edge = mean_edge(mesh), stiffness = std::min(scene.fabric.warp, scene.fabric.weft);
+  const double edge = mean_edge(mesh), stiffness = std::max(scene.fabric.warp, scene.fabric.weft);
   return stiffness * edge * edge / scene.fabric.b2;
 }
 

@@ -11,8 +11,8 @@
 namespace hysteron {
 
 // E h^2/b2, dimensionless: the square of an edge over the thickness of the plate that has this membrane and
-// this rigidity, but for a factor of 12.  E: the lesser of warp and weft [N/m], since a membrane that gives
-// in one direction lets folds through; h: the side of an equilateral triangle of mean area [m].
+// this rigidity, but for a factor of 12.  E: the larger of warp and weft [N/m], since threads that are stiff
+// one way lock the mesh nearly as much as both; h: the side of an equilateral triangle of mean area [m].
 double locking_number(const Scene& scene, const ClothMesh& mesh);
 
 // A warning where the number is above what was measured to matter (locking.cpp); "" below.

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "sim/membrane/locking.h"
@@ -64,6 +66,18 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched) {
   return said({stretch_words(stretched), resolution_words(scene, cloth, x)});
+}
+
+std::string drawing_words(const Scene& scene, const Cloth& cloth) {
+  constexpr double kSeen = 0.1;  // of the thickness
+  double farthest = 0;           // [m]
+  for (const Eigen::Vector3d& x : cloth.start) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  const double step = farthest * std::numeric_limits<float>::epsilon();
+  if (!(step > kSeen * scene.fabric.thickness)) return "";
+  return fmt::format(
+      "pictures and glTF files round positions to {:.2g} m so far from the origin: move the scene nearer to "
+      "it; other numbers and files are not concerned",
+      step);
 }
 
 std::string integrator_words(double share, double step) {

@@ -17,6 +17,10 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched);
 
+// Of what holds floats in the world's coordinates, pictures and glTF: where these round the start so far from
+// the origin that it shows; "" where they do not.
+std::string drawing_words(const Scene& scene, const Cloth& cloth);
+
 // Where the integrator took more than a quarter of all energy that was dissipated; "" where it did not.  The
 // step [s] that would do is an estimate, the share being taken to fall as the step does: it is not named
 // where it would be less than a hundredth of the one taken, nor of cloth that dissipates nothing itself.

@@ -319,6 +319,9 @@ bool Session::simulate(const Question& question) {
     pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, question.bounds, question.floor);
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
   }
+  const bool draws = pictures_ || setup_.options.export_format == "gltf";
+  if (const std::string doubt = drawing_words(setup_.scene, cloth_); draws && !doubt.empty())
+    run_->warn(doubt);
   std::vector<std::string> columns = {"time [s]", "fastest [m/s]"};
   columns.insert(columns.end(), question.columns.begin(), question.columns.end());
   const std::vector<std::string> energy = ledger_columns();

@@ -81,6 +81,15 @@ TEST(End, WithClothTornApartIsSaidWithQuietToo) {
             std::string::npos);
 }
 
+TEST(Drawing, FarFromTheOriginIsSaidToBeRounded) {
+  Scene scene = test::free_square(60);
+  EXPECT_EQ(drawing_words(scene, Trial(scene).cloth), "");
+  scene.cloth.position.x() = 1e4;
+  const std::string text = drawing_words(scene, Trial(scene).cloth);
+  EXPECT_NE(text.find(fmt::format("round positions to {:.2g} m", 1e4 * std::pow(2.0, -23))), text.npos)
+      << text;
+}
+
 // A float has 24 bits: its distance from the next is up to 2^-23 of it.
 TEST(End, FarFromTheStartSaysWhatSinglePrecisionIsRoundedTo) {
   Scene scene = test::free_square(60);
