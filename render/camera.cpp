@@ -127,6 +127,15 @@ Eigen::Matrix4f Camera::centered_projection(float aspect) const {
   return projection;
 }
 
+bool Camera::frames(std::span<const float> positions, float aspect) const {
+  const Eigen::Matrix4f clip = projection(aspect) * view();
+  for (size_t i = 0; i + 2 < positions.size(); i += 3) {
+    const Eigen::Vector4f at = clip * Eigen::Vector4f(positions[i], positions[i + 1], positions[i + 2], 1);
+    if (!(at.head<3>().cwiseAbs().maxCoeff() <= at.w())) return false;
+  }
+  return true;
+}
+
 float Camera::metres_per_pixel(const Eigen::Vector3f& point, int height) const {
   if (is_orthographic()) return 2 * half_height_ / static_cast<float>(height);
   const float distance = (point - eye_).dot((target_ - eye_).normalized());

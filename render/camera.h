@@ -38,6 +38,8 @@ class Camera {
   // Clip depth from -1 to 1.  `aspect`: of the whole picture; `window`: the part of it that fills clip space,
   // off centre unless it is the whole.
   Eigen::Matrix4f projection(float aspect, const Window& window = {}) const;
+  // Whether all points, given as x, y, z each, lie within a picture of this aspect.
+  bool frames(std::span<const float> positions, float aspect) const;
   const Eigen::Vector3f& eye() const { return eye_; }
   Eigen::Vector3f forward() const { return (target_ - eye_).normalized(); }
   bool is_orthographic() const { return half_height_ > 0; }

@@ -111,7 +111,8 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       body_sky_program_(gl_,
                         {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       color_map_(gl_),
-      no_arrays_(gl_) {
+      no_arrays_(gl_),
+      seen_(gl_) {
   set_look(look_);
 }
 
@@ -204,6 +205,7 @@ Box ClothView::bounds() const {
 
 Image ClothView::draw(const Camera& camera) {
   prepare();
+  shows_cloth_ = false;
   Image image(size_.width, size_.height, is_transparent() ? 4 : 3);
   for (int top = 0; top < size_.height; top += part_height_)
     for (int left = 0; left < size_.width; left += part_width_)
@@ -238,12 +240,14 @@ void ClothView::update_body_sky() const {
 }
 
 // The part of the picture whose upper left pixel is at (left, top).
-Image ClothView::draw_part(const Camera& camera, int left, int top) const {
+Image ClothView::draw_part(const Camera& camera, int left, int top) {
   Exposure exposure(part_width_, part_height_, size_.supersample);
   const int passes = (size_.samples + target_.samples() - 1) / target_.samples();
   for (int pass = 0; pass < passes; ++pass) {
     target_.begin();
-    draw_scene(view_of(camera, left, top, pass_shift(pass, passes, target_.samples())));
+    const View view = view_of(camera, left, top, pass_shift(pass, passes, target_.samples()));
+    draw_scene(view);
+    shows_cloth_ = shows_cloth_ || is_cloth_seen(view);
     exposure.add(target_.finish());
   }
   return exposure.image(is_transparent());
@@ -307,6 +311,19 @@ void ClothView::draw_scene(const View& view) const {
     if (ground_height_) draw_ground(view);
   }
   if (!is_transparent()) draw_backdrop(view);
+}
+
+// Drawn once more, without colours, the cloth passes the test of depth where nothing stands before it.
+bool ClothView::is_cloth_seen(const View& view) const {
+  if (!cloth_) return false;
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl_.BeginQuery(GL_ANY_SAMPLES_PASSED, seen_.name());
+  draw_cloth(view);
+  gl_.EndQuery(GL_ANY_SAMPLES_PASSED);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  GLuint seen = 0;
+  gl_.GetQueryObjectuiv(seen_.name(), GL_QUERY_RESULT, &seen);
+  return seen != 0;
 }
 
 bool ClothView::is_transparent() const {

@@ -75,6 +75,8 @@ class ClothView {
 
   // RGB; RGBA, colours not multiplied by alpha, if the look's background is transparent.
   Image draw(const Camera& camera);
+  // Whether the last picture shows some of the cloth: neither beside the picture nor behind obstacles.
+  bool shows_cloth() const { return shows_cloth_; }
 
  private:
   struct Obstacle {
@@ -101,10 +103,11 @@ class ClothView {
   Box bounds() const;
   void prepare();
   void update_body_sky() const;  // light of the room on the obstacles
-  Image draw_part(const Camera& camera, int left, int top) const;
+  Image draw_part(const Camera& camera, int left, int top);
   View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
   void draw_casters(const Program& program) const;
   void draw_scene(const View& view) const;
+  bool is_cloth_seen(const View& view) const;
   bool is_transparent() const;
   void draw_backdrop(const View& view) const;
   void draw_ground(const View& view) const;
@@ -123,6 +126,8 @@ class ClothView {
   std::optional<Program> cloth_program_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
+  GlQuery seen_;
+  bool shows_cloth_ = false;
   std::optional<Ground> ground_;
   std::optional<ClothSurface> cloth_;
   std::unique_ptr<GlPositions> shared_positions_;  // of cloth_: below it, so that it is closed first

@@ -98,6 +98,7 @@ int run_accuracy(const CommandLine& line) {
   set_keys(line, keys_of(flags));
   const std::vector<Problem> problems = problems_of(flags);
   Run run(line, flags.options, to_json(bind(kRows, flags)));
+  run.reserve({"table.csv", "orders.csv", "cheapest.csv"});
   std::vector<Solution> solutions;
   for (const Problem& problem : problems) {
     solutions.push_back(solved(problem, flags, run));

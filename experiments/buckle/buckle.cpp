@@ -151,6 +151,7 @@ int run_buckle(const CommandLine& line) {
   setup.scene = pictured.scene;
   Session session(line, setup, pictured.cloth);
   if (session.is_over()) return 0;
+  session.reserve({"southwell.csv"}, {"plot_southwell", "plot_deflection"});
 
   const Southwell found = measure(measured, kind, length, session);
   const Table table = table_of(found, power_of_load(kind));

@@ -83,6 +83,7 @@ int run_cantilever(const CommandLine& line) {
   scene = strip.scene;
   Session session(line, setup, strip.cloth);
   if (session.is_over()) return 0;
+  session.reserve({}, {"plot_drop"});
 
   std::vector<double> times, loads;
   for (int k = 1; k <= std::lround(scene.seconds * setup.options.fps); ++k) {

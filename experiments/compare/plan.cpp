@@ -8,9 +8,9 @@
 #include <optional>
 #include <set>
 
-#include "experiments/run/framing.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
+#include "experiments/workbench/compare/shared_framing.h"
 #include "sim/base/error.h"
 #include "sim/scene/toml_file.h"
 
@@ -73,11 +73,6 @@ ColumnFabric fabric_of(const CommandLine& line) {
   return {setup.scene.fabric, last_text(line.flags, "law", setup.scene.law)};
 }
 
-CommandLine with(CommandLine line, const Variant& variant) {
-  line.flags = with_later(line.flags, variant.flags);
-  return line;
-}
-
 // Flags that make the column as stiff as `to` on the same fabric.  Its viscosity, fabric.damping times b1,
 // goes with it.
 std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, const std::string& to,
@@ -85,7 +80,7 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
   scale = 1;
   const Match match = match_named(choice.match);
   if (match == Match::fabric) return {};
-  const CommandLine line = with(inner, variant);
+  const CommandLine line = with_variant(inner, variant);
   const auto [fabric, law] = fabric_of(line);
   scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
   std::vector<Flag> flags = {{"fabric.b1", exactly(scale * fabric.b1)},
@@ -97,23 +92,9 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
 // Colours mean the same in all columns, though fabrics have different transition curvatures.
 Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants) {
   double k0 = 0;
-  for (const Variant& variant : variants) k0 = std::max(k0, fabric_of(with(inner, variant)).fabric.k0);
+  for (const Variant& variant : variants)
+    k0 = std::max(k0, fabric_of(with_variant(inner, variant)).fabric.k0);
   return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
-}
-
-// Columns of a scene of one's own frame what any of them passes through.
-std::vector<Flag> shared_framing(const CommandLine& inner, const std::vector<Variant>& variants) {
-  std::optional<render::Box> box;
-  for (const Variant& variant : variants) {
-    if (inner.experiment != "run") return {};
-    const std::optional<Framing> framing = framing_of_run(with(inner, variant));
-    if (!framing) return {};
-    box = box ? box->merged(framing->box) : framing->box;
-  }
-  std::string corners;
-  for (const Eigen::Vector3f& corner : {box->low, box->high})
-    for (int k = 0; k < 3; ++k) corners += exactly(corner[k]) + " ";
-  return {{"camera.box", corners}};
 }
 
 // What the experiment is asked for beside what it would be asked for alone.

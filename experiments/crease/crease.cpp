@@ -212,6 +212,8 @@ void crease_once(const CommandLine& line) {
   setup.scene = crease.scene;
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;
+  session.reserve({}, {"plot_opening"});
+  if (choice.grow_after > 0) session.reserve({"recovery.csv"}, {"plot_recovery"});
   Recovered recovered;
   std::vector<double> largest, left;
   session.simulate(question_of(session, crease, largest, recovered));

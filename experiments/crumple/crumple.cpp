@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/compare/variant_page.h"
+#include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
@@ -86,14 +87,14 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
       for (int i : cloth.pin_vertices[p]) include(cloth.start[i] + key.position);
   }
   if (scene.pin.size() == 1 && scene.pin[0].from == 0) include(lowest_hanging(scene, cloth));
+  box.high.z() += kHeadroom * (box.high.z() - box.low.z());
   return box;
 }
 
 Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
   Question question;
   question.bounds = box_of_motion(session.scene(), session.cloth());
-  const Eigen::Vector3f size = question.bounds.high - question.bounds.low;
-  question.bounds.high.z() += kHeadroom * size.z();
+  question.wanders = true;
   question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};
   question.measure = [&](const Snapshot&) -> std::vector<double> {
     last = wrinkles_of(session, choice);
@@ -166,6 +167,8 @@ void crumple_once(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Session session(line, setup);
   if (session.is_over()) return;
+  session.reserve({"residual.csv"},
+                  {"curvature.png", "residual.png", "raking.png", "plot_residual", "plot_curvature"});
   RidgeMetrics wrinkles;
   session.simulate(question_of(session, choice, wrinkles));
   session.run().metric("ridge_length_m", wrinkles.ridges);
@@ -189,6 +192,11 @@ VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
           "raking.png"};
 }
 
+std::optional<render::Box> framing(const CommandLine& line) {
+  C choice;
+  return planned_framing(set_up(line, defaults(), bind(kRows, choice), limit_to_quick), box_of_motion);
+}
+
 int run_crumple(const CommandLine& line) { return run_variants(line, crumple_once, page_of); }
 
 }  // namespace
@@ -199,7 +207,8 @@ Experiment crumple() {
           .run = run_crumple,
           .simulates = true,
           .own_keys = own_keys_of<kRows, page_keys>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .framing = framing};
 }
 
 }  // namespace hysteron::experiments

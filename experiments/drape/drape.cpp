@@ -149,6 +149,8 @@ int run_drape(const CommandLine& line) {
   add_apparatus(setup.scene, choice);
   Session session(line, setup);
   if (session.is_over()) return 0;
+  session.reserve(
+      {}, {"shadow.png", "curvature.png", "friction.png", "plot_outline", "plot_drape", "plot_energy"});
   session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
 
   const float r = static_cast<float>(setup.scene.cloth.radius);

@@ -172,6 +172,8 @@ int run_test(const CommandLine& line) {
   std::optional<FabSheet> sheet;
   if (flags.on == "sheet") sheet = fab_sheet(loops, fabric, flags.sheet);
   Run run(line, flags.options, to_json(keys));
+  run.reserve({"fab.csv"});
+  if (sheet && !flags.options.no_images) run.reserve({"sheet.png", "frames/0000.png"});
   ComparedLoops compared(loops, run_fab(loops, strip), measured);
   const std::string title = fabric.name + ", " + loops.name();
   std::optional<SheetRepeats> repeats;

@@ -167,6 +167,7 @@ void fold_cloth(const CommandLine& line, Request& request) {
   if (session.is_over()) return;
   Run& run = session.run();
   run.note("fold", request.keys["fold"]);
+  session.reserve({}, {"plot_recovery", "plot_2HB", "plot_loop"});
   if (!request.setup.options.no_images) run.path("README.md");
   FlexingMachine folding(fold, session);
   session.simulate(question_of(fold, folding));

@@ -7,6 +7,7 @@
 #include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/pages/check.h"
 #include "experiments/workbench/pages/gallery.h"
 #include "experiments/workbench/pages/report.h"
@@ -91,6 +92,7 @@ void write(const fs::path& folder, PageForm form) {
   const std::vector<KeyPage> documentation = key_pages(folder);
   if (!documentation.empty()) return write_keys(documentation);
   if (has_manifest(folder)) {
+    const FolderLock still(folder);  // a run that is not over writes this page itself
     std::cout << write_report(folder, form).string() << std::endl;
     return;
   }

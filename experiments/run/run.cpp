@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/run/framing.h"
 #include "experiments/run/metrics.h"
 #include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/error.h"
 
@@ -44,23 +44,15 @@ std::string stem_of(const std::string& scene) {
   return path.filename() == "manifest.json" ? path.parent_path().filename().string() : path.stem().string();
 }
 
-// The box that the options name, or that the cloth is found to pass through.
-render::Box bounds_of(const Session& session, const Setup& setup, Run& run) {
-  if (setup.options.no_images) return {};
-  if (const Numbers& box = setup.options.camera_box; !box.empty())
-    return render::box_of(std::vector<float>(box.begin(), box.end()));
-  const auto stage = run.stage("framing");
-  const Framing framing = framing_of(setup);
-  run.progress(fmt::format("pictures frame what a run of {} triangles passes through{}", framing.triangles,
-                           framing.stopped.empty() ? "" : ", which stopped: " + framing.stopped));
-  const render::Box start = render::box_of(flat_points(session.cloth().start));
-  return framing.box.merged(start);
+render::Box box_at_start(const Scene&, const Cloth& cloth) {
+  return render::box_of(flat_points(cloth.start));
 }
 
-Question question_of(Session& session, const Setup& setup, const std::vector<RequestedMetric>& metrics,
+Question question_of(Session& session, const std::vector<RequestedMetric>& metrics,
                      std::vector<double>& last) {
   Question question;
-  question.bounds = bounds_of(session, setup, session.run());
+  question.bounds = box_at_start(session.scene(), session.cloth());
+  question.wanders = true;
   for (const RequestedMetric& metric : metrics) question.columns.push_back(metric.request().column());
   question.measure = [&](const Snapshot& m) {
     last.clear();
@@ -102,11 +94,12 @@ int run_scene(const CommandLine& given) {
 
   Session session(line, setup);
   if (session.is_over()) return 0;
+  for (const MetricRequest& request : requests) session.reserve({}, {"plot_" + request.name});
   std::vector<RequestedMetric> metrics;
   for (const MetricRequest& request : requests)
     metrics.emplace_back(request, session.scene(), session.cloth(), session.simulation().dimension());
   std::vector<double> last;
-  session.simulate(question_of(session, setup, metrics, last));
+  session.simulate(question_of(session, metrics, last));
   for (std::size_t i = 0; i < metrics.size(); ++i)
     session.run().metric(metrics[i].request().metric(), last[i]);
   if (session.pictures())
@@ -115,13 +108,11 @@ int run_scene(const CommandLine& given) {
   return 0;
 }
 
-}  // namespace
-
-std::optional<Framing> framing_of_run(const CommandLine& line) {
-  const Setup setup = set_up_run(line);
-  if (setup.options.no_images || setup.options.explain || !setup.options.camera_box.empty()) return {};
-  return framing_of(setup);
+std::optional<render::Box> framing(const CommandLine& line) {
+  return planned_framing(set_up_run(line), box_at_start);
 }
+
+}  // namespace
 
 Experiment run_scenes() {
   return {.name = "run",
@@ -129,6 +120,7 @@ Experiment run_scenes() {
           .run = run_scene,
           .simulates = true,
           .defaults = defaults,
+          .framing = framing,
           .names = "SCENE"};
 }
 

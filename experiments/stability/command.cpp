@@ -79,6 +79,8 @@ int run_stability(const CommandLine& line) {
   const std::vector<Sweep> sweeps = make_sweeps(names, choice_of(flags));
 
   Run run(line, flags.options, to_json(bind(kRows, flags)));
+  if (!sweeps.empty()) run.reserve({"cells.csv"});
+  if (with_limit) run.reserve({"limit.csv"});
   if (!sweeps.empty()) {
     const std::vector<Cell> cells = tried(flags, sweeps, run);
     write_cells(run, sweeps, cells);

@@ -285,6 +285,7 @@ int run_sweep(const CommandLine& line) {
     return run_some(chosen(runs, choice), choice, options.quiet);
   Run run(line, options, keys_of(study));
   run.path("table.csv");
+  run.reserve({"means.csv"});
   if (choice.collect)
     collect(run, runs);
   else

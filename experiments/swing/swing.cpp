@@ -135,6 +135,7 @@ int run_swing(const CommandLine& line) {
   std::optional<Cloth> clamped = clamp(setup.scene);
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
+  session.reserve({"turns.csv"}, {"plot_decay", "plot_tip", "plot_energy"});
   if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;

@@ -75,6 +75,7 @@ int run_validate(const CommandLine& line) {
   const std::vector<std::string> parts = split(flags.parts);
   const auto asked = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
   Run run(line, flags.options, to_json(bind(kRows, flags)));
+  run.reserve({"predictions.csv", "cantilever.csv", "drape.csv", "spread.csv", "draws.csv"});
   std::vector<Prediction> predictions;
   const auto add = [&](std::vector<Prediction> more) {
     predictions.insert(predictions.end(), more.begin(), more.end());

@@ -13,6 +13,7 @@ namespace hysteron::render {
 #define HYSTERON_GL_FUNCTIONS(X)                                             \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                   \
   X(PFNGLATTACHSHADERPROC, AttachShader)                                     \
+  X(PFNGLBEGINQUERYPROC, BeginQuery)                                         \
   X(PFNGLBEGINTRANSFORMFEEDBACKPROC, BeginTransformFeedback)                 \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                                         \
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                 \
@@ -34,6 +35,7 @@ namespace hysteron::render {
   X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                   \
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                         \
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                   \
+  X(PFNGLDELETEQUERIESPROC, DeleteQueries)                                   \
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                       \
   X(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                 \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                     \
@@ -48,12 +50,14 @@ namespace hysteron::render {
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                                     \
   X(PFNGLENABLEPROC, Enable)                                                 \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
+  X(PFNGLENDQUERYPROC, EndQuery)                                             \
   X(PFNGLENDTRANSFORMFEEDBACKPROC, EndTransformFeedback)                     \
   X(PFNGLFINISHPROC, Finish)                                                 \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
   X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                                         \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                               \
+  X(PFNGLGENQUERIESPROC, GenQueries)                                         \
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                             \
   X(PFNGLGENSAMPLERSPROC, GenSamplers)                                       \
   X(PFNGLGENTEXTURESPROC, GenTextures)                                       \
@@ -62,6 +66,7 @@ namespace hysteron::render {
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                       \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                           \
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                     \
+  X(PFNGLGETQUERYOBJECTUIVPROC, GetQueryObjectuiv)                           \
   X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                             \
   X(PFNGLGETSHADERIVPROC, GetShaderiv)                                       \
   X(PFNGLGETSTRINGPROC, GetString)                                           \

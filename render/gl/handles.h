@@ -47,6 +47,7 @@ HYSTERON_GL_HANDLE(GlVertexArray, GenVertexArrays, DeleteVertexArrays)
 HYSTERON_GL_HANDLE(GlTexture, GenTextures, DeleteTextures)
 HYSTERON_GL_HANDLE(GlFramebuffer, GenFramebuffers, DeleteFramebuffers)
 HYSTERON_GL_HANDLE(GlSampler, GenSamplers, DeleteSamplers)
+HYSTERON_GL_HANDLE(GlQuery, GenQueries, DeleteQueries)
 HYSTERON_GL_HANDLE(GlRenderbuffer, GenRenderbuffers, DeleteRenderbuffers)
 #undef HYSTERON_GL_HANDLE
 

@@ -52,6 +52,19 @@ TEST(Camera, FramingKeepsTheWholeBoxAndWastesLittle) {
     }
 }
 
+TEST(Camera, FramesPointsWithinItsBorder) {
+  const Camera camera = Camera::perspective({0, -2, 0}, {0, 0, 0}, 40);
+  const float edge = 2 * std::tan(20 * std::numbers::pi_v<float> / 180);
+  const auto frames = [&](const Eigen::Vector3f& point) {
+    const std::vector<float> points = {0, 0, 0, point.x(), point.y(), point.z()};
+    return camera.frames(points, 2);
+  };
+  EXPECT_TRUE(frames({1.99f * edge, 0, 0.99f * edge}));
+  EXPECT_FALSE(frames({2.01f * edge, 0, 0}));
+  EXPECT_FALSE(frames({0, 0, -1.01f * edge}));
+  EXPECT_FALSE(frames({0, -3, 0})) << "behind the eye";
+}
+
 // A strip, a disc without thickness and a tall box, from all sides, in wide and narrow pictures.
 TEST(Camera, FramingHoldsExtremeShapes) {
   const Box boxes[] = {{{-0.5f, -0.005f, 0}, {0.5f, 0.005f, 0.0001f}},

@@ -61,6 +61,22 @@ TEST_F(ClothViewTest, AnOccluderShadesTheClothBelowIt) {
   EXPECT_LT(brightness(shaded, 100, 108), 0.8 * brightness(open, 100, 108));
 }
 
+TEST_F(ClothViewTest, ClothIsShownUnlessItIsBesideThePictureOrBehindAnObstacle) {
+  auto view = view_of(test::flat_square(8, 0.02f, 0.0f), Look{});
+  const Camera camera = Camera::perspective({0, -0.6f, 0.25f}, {0, 0, 0}, 30);
+  EXPECT_FALSE(view->shows_cloth()) << "nothing is drawn yet";
+  view->draw(camera);
+  EXPECT_TRUE(view->shows_cloth());
+  view->draw(Camera::perspective({0, -0.6f, 0.25f}, {0.5f, 0, 0}, 30));
+  EXPECT_FALSE(view->shows_cloth());
+  const int ball = view->add_obstacle(sphere_mesh(0.05f), placed({0, -0.2f, 0.083f}, {0, 0, 1}));
+  view->draw(camera);
+  EXPECT_FALSE(view->shows_cloth());
+  view->show_obstacle(ball, false);
+  view->draw(camera);
+  EXPECT_TRUE(view->shows_cloth());
+}
+
 // Closed convex cloth lit from above must not speckle itself: neighbouring pixels of a flat sheet are equal.
 TEST_F(ClothViewTest, AFlatSheetDoesNotShadeItself) {
   Look look;

@@ -2,11 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/options.h"
 #include "sim/scene/scene_reader.h"
+
+namespace hysteron::render {
+struct Box;
+}
 
 namespace hysteron::experiments {
 
@@ -30,7 +35,10 @@ struct Experiment {
   bool simulates = false;                    // takes the keys of scenes and Options
   std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
   Setup (*defaults)() =
-      nullptr;               // of an experiment that simulates, for --help; null: they depend on the flags
+      nullptr;  // of an experiment that simulates, for --help; null: they depend on the flags
+  // What the pictures of that line frame where its scene decides, for runs beside each other; nothing where
+  // it draws none or says so itself.  Null: it is the same for all.
+  std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
   const char* names = "";    // what CommandLine::names are ("DIR"); "": not allowed
   const char* differs = "";  // what exit code 4 says; "": it does not occur
   bool hidden = false;       // called by scripts of the project: not in --help

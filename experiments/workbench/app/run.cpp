@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 const char* const kStages[] = {"membrane", "bending", "solve",  "contact",
                                "history",  "render",  "encode", "io"};
 
+constexpr const char* kPlotEndings[] = {".png", ".svg"};
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -103,6 +105,7 @@ Run::Run(const CommandLine& line, const Options& options, const Json& keys,
       manifest_(first_entries(line, keys)) {
   remember_first(folder(), json_);
   manifest_.files = kept;
+  reserve({"report.html"});  // every run ends with it, or `hysteron report` writes it later
   for (const std::string& name : kept) is_new(name);
   write_manifest(false);
 }
@@ -125,6 +128,17 @@ fs::path Run::path(const std::string& name) {
   manifest_.files.push_back(name);
   if (is_new(name) && !finished_) write_manifest(false);
   return file;
+}
+
+void Run::reserve(const std::vector<std::string>& names) const {
+  const std::set<std::string> own(manifest_.files.begin(), manifest_.files.end());
+  for (const std::string& name : names) {
+    if (!name.starts_with("plot_") || fs::path(name).has_extension()) {
+      folder_.check_free(name, own);
+      continue;
+    }
+    for (const char* ending : kPlotEndings) folder_.check_free(name + ending, own);
+  }
 }
 
 bool Run::is_new(const fs::path& name) {
@@ -165,13 +179,13 @@ void Run::add_seconds(const std::string& stage, double seconds) { seconds_[stage
 
 void Run::plot(const std::string& name, const std::function<void(const fs::path&)>& draw) {
   const Stage stage(*this, "render");
-  for (const char* ending : {".png", ".svg"}) path(name + ending);
+  for (const char* ending : kPlotEndings) path(name + ending);
   try {
     draw(folder() / name);
   } catch (const Error& error) {
-    for (const char* ending : {".png", ".svg"}) forget(name + ending);
+    for (const char* ending : kPlotEndings) forget(name + ending);
     manifest_.plots_missing.push_back(name + ": " + error.what());
-    progress(name + ": " + error.what());
+    warn("a plot is missing: " + std::string(error.what()));
   }
 }
 

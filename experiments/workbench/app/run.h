@@ -49,6 +49,10 @@ class Run {
   // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
   // sequence the first file stands for all.  Throws Error::request where it would replace another's file.
   std::filesystem::path path(const std::string& name);
+  // Throws Error::request, before there is work to be lost, where one of these files that will be written
+  // later would replace another's.  Of a sequence the first stands for all, "plot_NAME" for its .png and
+  // .svg.
+  void reserve(const std::vector<std::string>& names) const;
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
 

@@ -145,32 +145,51 @@ void refuse_inputs(const CommandLine& line, const fs::path& folder, const std::v
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder)
+FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
     : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (handle_ < 0)
     throw Error::machine("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(handle_);
-  throw Error::request(folder.string() +
-                       " is in use by another run: wait for its end, or give another folder" + " (--out)")
+  throw Error::request(folder.string() + " is in use by another run: wait for its end" + otherwise)
       .of("out", folder.string());
 }
 
 FolderLock::~FolderLock() { ::close(handle_); }
 
 RunFolder::RunFolder(const fs::path& path, const CommandLine& line, const std::vector<std::string>& kept)
-    : path_(made(path)), lock_(path) {
+    : path_(made(path)), lock_(path, ", or give another folder (--out)") {
   const std::optional<Manifest> before = run_before(path_);
   refuse_inputs(line, path_, files_of(before, path_));
   remove_run(before, path_, {kept.begin(), kept.end()});
 }
 
-fs::path RunFolder::place_for(const std::string& name) const {
+void RunFolder::check_place(const fs::path& name) const {
   const fs::path file = path_ / name;
   if (!stays_inside(name) || is_behind_a_link(path_, name))
     throw Error::request(file.string() + " would be written outside " + path_.string() + kElsewhere);
   if (stands(file))
     throw Error::request(file.string() + " is not of an earlier run and is not replaced" + kElsewhere);
+}
+
+void RunFolder::check_free(const std::string& name, const std::set<std::string>& own) const {
+  if (!own.contains(name)) check_place(name);
+  const fs::path inner = fs::path(name).parent_path();
+  if (inner.empty()) return;
+  if (stands(path_ / inner) && !fs::is_directory(path_ / inner))
+    throw Error::request((path_ / inner).string() + " must be a folder" + kElsewhere);
+  if (!is_numbered(name)) return;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(path_ / inner, none)) {
+    const fs::path other = inner / entry.path().filename();
+    const bool same = is_numbered(other) && other.extension() == fs::path(name).extension();
+    if (same && !own.contains(other.generic_string())) check_place(other);
+  }
+}
+
+fs::path RunFolder::place_for(const std::string& name) const {
+  check_place(name);
+  const fs::path file = path_ / name;
   made(file.parent_path());
   return file;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace hysteron::experiments {
 // held.
 class FolderLock {
  public:
-  // Throws Error::request, naming the folder, where another one holds it.
-  explicit FolderLock(const std::filesystem::path& folder);
+  // Throws Error::request, naming the folder, where another one holds it; `otherwise`: what else can be done.
+  explicit FolderLock(const std::filesystem::path& folder, const std::string& otherwise = "");
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -35,11 +36,16 @@ class RunFolder {
             const std::vector<std::string>& kept = {});
 
   const std::filesystem::path& path() const { return path_; }
+  // Throws Error::request where place_for(name) would; of a sequence ("frames/0000.png") where any of its
+  // files stands. `own`: those of this run.
+  void check_free(const std::string& name, const std::set<std::string>& own) const;
   // Where to write the file of that name; its own folder is made.  Throws Error::request where something
   // stands there, which this run has not written, or where a link leads out of the folder.
   std::filesystem::path place_for(const std::string& name) const;
 
  private:
+  void check_place(const std::filesystem::path& name) const;
+
   std::filesystem::path path_;
   FolderLock lock_;
 };

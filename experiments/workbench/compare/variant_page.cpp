@@ -1,6 +1,7 @@
 #include "experiments/workbench/compare/variant_page.h"
 
 #include "experiments/workbench/compare/comparison.h"
+#include "experiments/workbench/compare/shared_framing.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
 #include "render/contact_sheet.h"
@@ -40,6 +41,8 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>
   std::vector<render::SheetEntry> entries;
   for (const SweepColumn& column : columns) {
     const fs::path picture = column.stopped.empty() ? picture_of(page, column) : fs::path();
+    if (!column.stopped.empty())
+      run.warn(column.name + " is missing on the page's sheet and plots: " + column.stopped);
     if (!picture.empty())
       entries.push_back({render::read_png(picture), column.name + ": " + page.caption(column.metrics())});
   }
@@ -50,6 +53,19 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>
     plot.plot.title = page.title;
     draw(run, plot, columns);
   }
+}
+
+void reserve_page(const Run& run, const VariantPage& page) {
+  run.reserve({"table.csv"});
+  if (page.setup.options.no_images) return;
+  run.reserve({"sheet.png"});
+  for (const TablePlot& plot : page.plots) run.reserve({plot.name});
+}
+
+std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> variants) {
+  const std::vector<Flag> framing = shared_framing(line, variants);
+  for (Variant& variant : variants) variant.flags.insert(variant.flags.end(), framing.begin(), framing.end());
+  return variants;
 }
 
 }  // namespace
@@ -68,13 +84,14 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
     throw Error::request("--checkpoint is of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
   std::vector<SweepColumn> columns;
-  for (const Variant& variant : variants)
+  for (const Variant& variant : in_one_frame(line, variants))
     columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
   check_batch(columns, choice.batch);
   page.keys["fabric"] = to_json(scene)["fabric"];  // of variants that name none
   for (const Variant& variant : variants) page.keys["variants"].push_back(variant.name);
   Run run(line, page.setup.options, page.keys);
+  reserve_page(run, page);
   const SweepJobs jobs{.threads = scene.threads,
                        .resume = page.setup.options.resume,
                        .gpu = scene.device != DeviceChoice::cpu,

@@ -131,6 +131,11 @@ std::string varied_of(const std::vector<Variant>& variants) {
   return texts.size() == 1 ? texts.begin()->first : "column";
 }
 
+CommandLine with_variant(CommandLine line, const Variant& variant) {
+  line.flags = with_later(line.flags, variant.flags);
+  return line;
+}
+
 CommandLine without_lists(const CommandLine& line) {
   CommandLine one = line;
   std::erase_if(one.flags, is_list);

@@ -26,6 +26,8 @@ std::string column_name(const std::string& text);
 std::string varied_of(const std::vector<Variant>& variants);
 // The flags and behind them the later ones, which take the place of those that set the same.
 std::vector<Flag> with_later(std::vector<Flag> flags, const std::vector<Flag>& later);
+// The line of that variant.
+CommandLine with_variant(CommandLine line, const Variant& variant);
 // The line without lists: what the page itself is set up with.
 CommandLine without_lists(const CommandLine& line);
 bool lists_fabrics(const CommandLine& line);

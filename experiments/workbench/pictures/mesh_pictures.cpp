@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/mesh_sequence.h"
@@ -77,6 +78,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& cap
   }
   const render::Camera camera = camera_of(options_, choice_.bounds);
   render::Image image = view_.draw(camera);
+  if (!view_.shows_cloth()) throw Error::run(what + " is not in its picture: frame where it is");
   letter(image, camera, choice_.bounds.center(), caption, bar);
   return image;
 }

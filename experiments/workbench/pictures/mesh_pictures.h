@@ -31,7 +31,8 @@ class MeshPictures {
   void begin_sequence() { face_.clear(); }
   // `frame` [m] with its letters; `what` names it in messages.  Threads follow the first frame that has these
   // triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::request where
-  // curvature is to be computed and the triangles allow none (surface_curvature).
+  // curvature is to be computed and the triangles allow none (surface_curvature), Error::run where the
+  // picture shows nothing of it.
   render::Image picture(const Surface& frame, const std::string& caption, const std::string& what);
   // Root of the mean square over the vertices last pictured [1/m]; nothing in other looks than "curvature".
   std::optional<double> curvature_rms() const;

@@ -8,6 +8,7 @@
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "sim/base/archive.h"
+#include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
 
@@ -17,6 +18,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kSheetCells = 12;  // pictures on the contact sheet
+
+// "frames/0012.png"; of further looks "frames-LOOK/0012.png".
+std::string frame_file(const std::string& look, bool first, int number) {
+  return fmt::format("{}/{:04}.png", first ? "frames" : "frames-" + look, number);
+}
+
+void check_cloth_in(const render::ClothView& view, const std::string& picture, double time) {
+  if (view.shows_cloth()) return;
+  throw Error::run(
+      fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
+}
 
 // Adds the time from now until its end.
 class Stopwatch {
@@ -32,6 +44,12 @@ class Stopwatch {
 };
 
 }  // namespace
+
+std::vector<std::string> picture_files(const Options& options) {
+  std::vector<std::string> names = {"sheet.png"};
+  for (const std::string& look : options.looks()) names.push_back(frame_file(look, names.size() == 1, 0));
+  return names;
+}
 
 Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
                    std::optional<float> floor)
@@ -101,6 +119,7 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
+    check_cloth_in(studio.view(), "the picture of look " + look, shown.time);
     letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
     return image;
   });
@@ -122,15 +141,26 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
   frames->instants.push_back(std::move(instant));
 }
 
-void Pictures::frame(Run& run) {
+void Pictures::watch_border(Run& run, const std::filesystem::path& file,
+                            const std::vector<Eigen::Vector3d>& x) {
+  const float aspect = static_cast<float>(options_.width()) / static_cast<float>(options_.height());
+  if (is_cut_off_ || camera().frames(flat_points(x), aspect)) return;
+  is_cut_off_ = true;
+  run.warn(
+      fmt::format("from t = {:.3f} s on ({}) the cloth is cut off at the border of pictures: --camera.box "
+                  "frames more",
+                  simulation_.time(), file.lexically_relative(run.folder()).string()));
+}
+
+void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x) {
   const Stopwatch waited(waited_seconds_);
   take_positions();
   const double time = simulation_.time();
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
-    const std::string folder = orders.empty() ? "frames" : "frames-" + look;
-    orders.push_back({look, run.path(fmt::format("{}/{:04}.png", folder, frames_)), {time, values(look)}});
+    orders.push_back({look, run.path(frame_file(look, orders.empty(), frames_)), {time, values(look)}});
   }
+  watch_border(run, orders.front().file, x);
   ++frames_;
   note_frame(run, orders);
   scene_renderer_.post([this, orders = std::move(orders)](SceneRenderer& studio) {
@@ -147,6 +177,7 @@ void Pictures::fill(SceneRenderer& studio, const Order& order, bool on_sheet) {
            color_bar_of(scene_, options_, order.look));
   if (on_sheet) thumbnails_.push_back({thumbnail(image), when(order.shown.time)});
   writer_.write(order.file, std::move(image));
+  check_cloth_in(studio.view(), order.file.string(), order.shown.time);
 }
 
 render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {
@@ -163,6 +194,7 @@ void Pictures::visit(Archive& archive, Run& run) {
   scene_renderer_.wait();
   if (!archive.loads()) writer_.finish();
   archive(frames_);
+  archive(is_cut_off_);
   archive(waited_seconds_);
   archive(render_seconds_);
   double encode = encode_seconds_ + writer_.encode_seconds();
@@ -188,7 +220,9 @@ void Pictures::finish(Run& run, const std::string& title) {
   std::vector<render::SheetEntry> cells;
   for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))
     cells.push_back(std::move(thumbnails_[i]));
-  if (!cells.empty())
+  if (cells.empty())
+    run.warn("there is no contact sheet: no instant was pictured");
+  else
     render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
                       render::PngEffort::best);
   run.manifest().renderer = renderer();

@@ -20,6 +20,9 @@
 
 namespace hysteron::experiments {
 
+// What finish() and frame() write under these options, for Run::reserve().
+std::vector<std::string> picture_files(const Options& options);
+
 class Pictures {
  public:
   // `simulation`: what is drawn; it must outlive the pictures.  `bounds`: what every picture of the sequence
@@ -33,9 +36,11 @@ class Pictures {
 
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
-  // wrong with an earlier one.
-  void frame(Run& run);
-  // Draws the present state in a look of its own, with caption and colour bar.
+  // wrong with an earlier one, Error::run where it shows no cloth.  `x`: the positions, of which the first
+  // beyond the picture's border is a warning.
+  void frame(Run& run, const std::vector<Eigen::Vector3d>& x);
+  // Draws the present state in a look of its own, with caption and colour bar.  Error::run where it shows no
+  // cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
   // "studio" or "raking", for the pictures to come.
   void set_light(const std::string& light);
@@ -59,6 +64,7 @@ class Pictures {
   void take_positions();
   std::vector<float> values(const std::string& look) const;  // at present, one a vertex
   void note_frame(Run& run, const std::vector<Order>& orders);
+  void watch_border(Run& run, const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& x);
   void fill(SceneRenderer& studio, const Order& order, bool on_sheet);
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
@@ -73,6 +79,7 @@ class Pictures {
   std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
   int frames_ = 0;
+  bool is_cut_off_ = false;    // of one of them the border cuts off cloth
   double encode_seconds_ = 0;  // before the run was interrupted
   double waited_seconds_ = 0;  // of the simulation, for its pictures
   // The studio's thread writes these while a picture is drawn.

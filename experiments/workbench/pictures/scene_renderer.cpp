@@ -3,6 +3,7 @@
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "render/shapes.h"
+#include "sim/base/error.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
@@ -137,7 +138,9 @@ render::Image SceneRenderer::silhouette(const Cloth& cloth, const std::vector<fl
   view.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, {}});
   view.set_look(render::look_named("silhouette"));
   view.set_positions(xyz);
-  return view.draw(camera);
+  render::Image image = view.draw(camera);
+  if (!view.shows_cloth()) throw Error::run("the silhouette from above shows no cloth");
+  return image;
 }
 
 }  // namespace hysteron::experiments

@@ -9,6 +9,17 @@
 namespace hysteron::experiments {
 namespace {
 
+constexpr const char* kInstants = "mesh/cloth.pvd";
+constexpr const char* kAnimation = "mesh/cloth.glb";
+
+std::string mesh_name(std::size_t number, const std::string& format) {
+  return fmt::format("{:04}.{}", number, format == "vtk" ? "vtp" : format);
+}
+
+std::string mesh_file(std::size_t number, const std::string& format) {
+  return "mesh/" + mesh_name(number, format);
+}
+
 VtkField velocities(Simulation& simulation) {
   VtkField field{"velocity", 3, {}};
   for (const Eigen::Vector3d& v : simulation.velocities())
@@ -47,15 +58,19 @@ void write_fields(const std::string& file, const ClothMesh& mesh, Simulation& si
 
 }  // namespace
 
+std::vector<std::string> MeshExport::files(const std::string& format) {
+  if (format == "none") return {};
+  if (format == "gltf") return {kAnimation};
+  if (format == "vtk") return {mesh_file(0, format), kInstants};
+  return {mesh_file(0, format)};
+}
+
 void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
                        const std::vector<Eigen::Vector3d>& x) {
   if (format == "none") return;
   const auto stage = run.stage("io");
   if (format == "gltf") return animation_.add(simulation.time(), x);
-  const auto name = [&](std::size_t k) {
-    return fmt::format("{:04}.{}", k, format == "vtk" ? "vtp" : format);
-  };
-  const std::string file = run.path("mesh/" + name(times_.size())).string();
+  const std::string file = run.path(mesh_file(times_.size(), format)).string();
   times_.push_back(simulation.time());
   if (format == "obj") return write_obj(file, cloth.mesh, x);
   if (format == "ply") {
@@ -64,15 +79,15 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
   }
   write_fields(file, cloth.mesh, simulation, x);
   std::vector<std::pair<double, std::string>> instants;
-  for (std::size_t k = 0; k < times_.size(); ++k) instants.emplace_back(times_[k], name(k));
-  write_pvd(run.path("mesh/cloth.pvd").string(), instants);
+  for (std::size_t k = 0; k < times_.size(); ++k) instants.emplace_back(times_[k], mesh_name(k, format));
+  write_pvd(run.path(kInstants).string(), instants);
 }
 
 void MeshExport::finish(Run& run, const Cloth& cloth) const {
   const std::vector<ClothFrame>& frames = animation_.frames();
   if (frames.empty()) return;
   const auto stage = run.stage("io");
-  write_glb(run.path("mesh/cloth.glb").string(), cloth.mesh, frames);
+  write_glb(run.path(kAnimation).string(), cloth.mesh, frames);
   if (frames.size() < animation_.instants())
     run.progress(fmt::format("mesh/cloth.glb has {} of {} instants: viewers bear {} morph targets",
                              frames.size(), animation_.instants(),

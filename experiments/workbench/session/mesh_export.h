@@ -10,6 +10,8 @@ namespace hysteron::experiments {
 
 class MeshExport {
  public:
+  // What it writes, for Run::reserve().
+  static std::vector<std::string> files(const std::string& format);
   // One instant in the format of `--export`: none; obj; ply with the curvature at each vertex; vtk with the
   // fields of vertices and, where elements are faces, those of faces, and cloth.pvd with the times; gltf,
   // whose file finish() writes.

@@ -15,6 +15,8 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kSeriesFile = "probes.csv";
+constexpr const char *kHeight = "plot_probe_height", *kCurvature = "plot_probe_curvature",
+                     *kMoment = "plot_probe_moment";
 
 Error refusal(const std::string& text, const std::string& what) {
   return Error::request("probe = " + text + " " + what + " (--probe)").of("probe", text);
@@ -98,6 +100,14 @@ std::vector<std::string> Probes::directions() const {
   return dimension_ == 1 ? std::vector<std::string>{""} : std::vector<std::string>{"_warp", "_weft"};
 }
 
+std::vector<std::string> Probes::files() const {
+  return empty() ? std::vector<std::string>{} : std::vector<std::string>{kSeriesFile};
+}
+
+std::vector<std::string> Probes::plots() const {
+  return empty() ? std::vector<std::string>{} : std::vector<std::string>{kHeight, kCurvature, kMoment};
+}
+
 void Probes::begin(Run& run) {
   if (!empty()) series_.emplace(run.path(kSeriesFile), columns());
 }
@@ -159,9 +169,9 @@ void Probes::plot(Run& run, const std::string& what) const {
       moment.series.push_back(render::series_from_csv(csv, k, m, label));
     }
   }
-  run.plot("plot_probe_height", height);
-  run.plot("plot_probe_curvature", curvature);
-  run.plot("plot_probe_moment", moment);
+  run.plot(kHeight, height);
+  run.plot(kCurvature, curvature);
+  run.plot(kMoment, moment);
 }
 
 }  // namespace hysteron::experiments

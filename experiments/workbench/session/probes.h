@@ -25,6 +25,9 @@ class Probes {
   // "probe1 at (0.1, 0.2) m: triangle 345", a line each.
   std::string text() const;
 
+  // What begin() and plot() write, for Run::reserve().
+  std::vector<std::string> files() const;
+  std::vector<std::string> plots() const;
   // Opens probes.csv.  Throws Error::machine where it cannot be written, as the others do.
   void begin(Run& run);
   void record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);

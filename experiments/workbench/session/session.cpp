@@ -15,6 +15,7 @@
 #include "experiments/workbench/pages/closing_words.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/resting.h"
 #include "sim/bending/curvature_operator.h"
@@ -132,7 +133,16 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   if (!method.reason.empty()) run_->progress(method.reason);
   for (const std::string& warning : cloth_.warnings) run_->warn(warning);
   for (const std::string& doubt : doubts_at_start(setup_.scene, cloth_, *simulation_)) run_->warn(doubt);
+  reserve({"metrics.csv"}, picture_files(setup_.options));
+  reserve(probes_.files(), probes_.plots());
+  reserve(MeshExport::files(setup_.options.export_format));
+  if (setup_.options.errors) reserve({"errors.csv"});
   watch_crossings();
+}
+
+void Session::reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn) {
+  run_->reserve(files);
+  if (!setup_.options.no_images) run_->reserve(drawn);
 }
 
 // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
@@ -241,7 +251,7 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   series.row(row);
   probes_.record(*simulation_, x);
   const bool pictured = !question.pictured || question.pictured(instant);
-  if (pictures_ && pictured) pictures_->frame(*run_);
+  if (pictures_ && pictured) pictures_->frame(*run_, x);
   watch_folds(x);
   stretched_ = std::max(stretched_, simulation_->largest_stretch());
   recoveries_.see(*simulation_);
@@ -313,10 +323,21 @@ bool Session::go_through(const Question& question, Record& series) {
   return settled;
 }
 
+render::Box Session::framed(const Question& question) {
+  if (!question.wanders) return question.bounds;
+  if (const Numbers& box = setup_.options.camera_box; !box.empty())
+    return render::box_of(std::vector<float>(box.begin(), box.end()));
+  const auto stage = run_->stage("framing");
+  const Framing framing = framing_of(setup_, question.bounds);
+  run_->progress(fmt::format("pictures frame what a run of {} triangles passes through{}", framing.triangles,
+                             framing.stopped.empty() ? "" : ", which stopped: " + framing.stopped));
+  return framing.box;
+}
+
 bool Session::simulate(const Question& question) {
   run_->progress(opening_words(question));
   if (!setup_.options.no_images) {
-    pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, question.bounds, question.floor);
+    pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, framed(question), question.floor);
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
   }
   const bool draws = pictures_ || setup_.options.export_format == "gltf";

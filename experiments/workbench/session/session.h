@@ -32,6 +32,7 @@ struct Snapshot {
 // The experiment's own part of a run.
 struct Question {
   render::Box bounds;                // framed by the pictures [m]
+  bool wanders = false;              // the scene may lead the cloth beyond: a trial widens them
   std::optional<float> floor;        // height of the visible ground [m]
   std::vector<std::string> columns;  // own columns of metrics.csv, with units
   std::function<std::vector<double>(const Snapshot&)> measure;
@@ -64,6 +65,8 @@ class Session {
   Simulation& simulation() { return *simulation_; }
   Pictures* pictures() { return pictures_.get(); }  // null with --no-images
 
+  // Refuses what Run::reserve() does: the experiment's own files, and what it draws, if it draws.
+  void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
   // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
   bool simulate(const Question& question);
@@ -75,6 +78,7 @@ class Session {
   // An instant of the series: its row, pictures and checks.
   Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                   double fastest, const std::string& left);
+  render::Box framed(const Question& question);
   long steps_of(const Question& question) const;
   double go_to_next_instant(const Question& question);
   bool go_through(const Question& question, Record& series);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "render/image.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -67,6 +68,58 @@ TEST(Crumple, ComesToItsEndWhereRigidPinsPullClothThroughClothAndTellsHowFarThey
   EXPECT_EQ(metrics["intersections"], 0);
   EXPECT_EQ(metrics.value("unbalanced_steps_count", 0), 0);
   EXPECT_NE(outcome.err.find("cloth barred the way of rigid pins"), std::string::npos) << outcome.err;
+}
+
+// Nothing holds this square, which falls by 1/2 g t^2 = 0.8 m.
+constexpr const char* kFalling = R"(
+integrator = "implicit"
+step = 0.02
+seconds = 0.4
+mesh = "unionjack"
+triangles = 64
+[cloth]
+shape = "square"
+length = 0.1
+rotation = [90, 0, 0]
+)";
+
+std::size_t dark_pixels(const std::filesystem::path& silhouette) {
+  const render::Image image = render::read_png(silhouette);
+  std::size_t count = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) count += image.at(x, y)[1] < 128;
+  return count;
+}
+
+TEST(Crumple, PicturesClothThatFallsToTheEnd) {
+  const Folder folder;
+  std::ofstream(folder.path() / "falling.toml") << kFalling;
+  const auto out = folder.path() / "run";
+  const Outcome outcome =
+      program("crumple --scene " + (folder.path() / "falling.toml").string() +
+              " --size 160x120 --fps 5 --look silhouette --plain --threads 1 --quiet --out " + out.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* frame : {"0000.png", "0001.png", "0002.png"})
+    EXPECT_GT(dark_pixels(out / "frames" / frame), 20u) << frame;
+  EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << outcome.err;
+}
+
+TEST(Crumple, PicturesLawsThatAreComparedInOneFrame) {
+  const Folder folder;
+  std::ofstream(folder.path() / "falling.toml") << kFalling;
+  const auto out = folder.path() / "run";
+  for (const std::string command : {"crumple --scene ", "compare crumple --scene "}) {
+    const Outcome outcome =
+        program(command + (folder.path() / "falling.toml").string() +
+                " --law linear,prandtl --size 160x120 --fps 5 --threads 1 --quiet --out " + out.string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto camera_of = [&](const char* law) {
+      return nlohmann::json::parse(text_of(out / law / "manifest.json"))["options"]["camera"];
+    };
+    EXPECT_EQ(camera_of("linear")["box"].size(), 6u) << command;
+    EXPECT_LT(camera_of("linear")["box"][2].get<double>(), -0.8 * 0.9) << "the low end's height";
+    EXPECT_EQ(camera_of("linear"), camera_of("prandtl")) << command;
+  }
 }
 
 // The beginning of each shipped scene, on a small mesh.

@@ -194,6 +194,18 @@ TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   EXPECT_LT(rms, 0.05 * std::pow(2 * std::numbers::pi / 0.5, 2) / std::sqrt(2));
 }
 
+TEST(RenderedFiles, ThatAreBesideTheirPictureFail) {
+  const Folder folder;
+  const std::string mesh = write(folder.path() / "flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  try {
+    rendered(folder.path() / "out", {mesh}, {{"render.low", "5 5 5"}, {"render.high", "6 6 6"}});
+    FAIL() << "must not succeed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code(), 3);
+    EXPECT_STREQ(error.what(), ("mesh " + mesh + " is not in its picture: frame where it is").c_str());
+  }
+}
+
 TEST(RenderedFiles, WhatIsNoSequenceIsRefusedInOneLine) {
   const Folder folder;
   const std::string here = folder.path().string();

@@ -123,6 +123,28 @@ seconds = 0.05
   EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
 }
 
+TEST_F(Scenes, FailWhereAPictureShowsNoCloth) {
+  const Outcome outcome =
+      run(kSquare, "--fps 10 --size 160x120 --camera.box '0 0 5 0.2 0.2 5.2' --camera.direction '0 -1 0'");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("frames/0000.png shows no cloth at t = 0.000 s"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(Json::parse(text_of(out() / "manifest.json"))["complete"], false);
+}
+
+// A quarter of the square is framed from above.
+TEST_F(Scenes, WarnWhereTheBorderOfThePicturesCutsOffCloth) {
+  const Outcome outcome = run(
+      kSquare, "--fps 20 --size 160x120 --camera.box '0 0 -0.01 0.1 0.1 0.01' --camera.direction '0 0 1'");
+  EXPECT_EQ(outcome.exit_code, 0);
+  const std::string warning = "from t = 0.000 s on (frames/0000.png) the cloth is cut off at the border";
+  EXPECT_NE(outcome.err.find("warning: " + warning), std::string::npos) << outcome.err;
+  const Json warnings = Json::parse(text_of(out() / "manifest.json"))["warnings"];
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [&](const Json& text) { return text.get<std::string>().starts_with(warning); }),
+            1);
+}
+
 TEST_F(Scenes, AreComparedInOneFrame) {
   std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
   const Outcome outcome =

@@ -99,6 +99,39 @@ TEST(RunFolder, KeepsAFileThatNoRunHasWritten) {
   EXPECT_EQ(text_of(file), "mine");
 }
 
+TEST(RunFolder, IsRefusedAtTheStartWhereAPageThatNoRunHasWrittenStands) {
+  const Folder folder;
+  const fs::path page = folder.path() / "report.html";
+  write(page);
+  EXPECT_EQ(refused_run(folder.path()),
+            page.string() + " is not of an earlier run and is not replaced: give another folder (--out)");
+  EXPECT_EQ(text_of(page), "mine");
+  EXPECT_FALSE(fs::exists(folder.path() / "manifest.json"));
+}
+
+TEST(RunFolder, IsReservedBeforeFilesAreWritten) {
+  for (const char* name : {"table.csv", "plot_drape.svg", "frames/0007.png", "mesh"}) {
+    const Folder folder;
+    fs::create_directories((folder.path() / name).parent_path());
+    write(folder.path() / name);
+    const ExperimentRun run(drape_line(), setup_in(folder.path()));
+    const std::string message = refusal([&] {
+      run.reserve({"table.csv", "plot_drape", "frames/0000.png", "mesh/0000.ply"});
+    });
+    EXPECT_NE(message.find(folder.path() / name), std::string::npos) << message;
+    EXPECT_EQ(refusal([&] { run.reserve({"sheet.png", "plot_tip", "frames/0000.ply"}); }), "(accepted)");
+    EXPECT_EQ(text_of(folder.path() / name), "mine");
+  }
+}
+
+TEST(RunFolder, IsReservedForTheRunsOwnFiles) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  write(run.path("frames/0000.png"));
+  write(run.path("frames/0001.png"));
+  EXPECT_EQ(refusal([&] { run.reserve({"frames/0000.png"}); }), "(accepted)");
+}
+
 TEST(RunFolder, KeepsAManifestThatIsNoRuns) {
   for (const char* text : {R"({"name": "a web page"})", "[]", "no JSON"}) {
     const Folder folder;

@@ -83,6 +83,7 @@ TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
   run.finish();
   const Json manifest = manifest_of(folder.path());
   EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
+  EXPECT_EQ(manifest["warnings"], Json::array({"a plot is missing: no gnuplot"}));
   EXPECT_EQ(manifest["files"], Json::array({"plot_b.png", "plot_b.svg"}));
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/run/framing.h"
+#include "experiments/workbench/pictures/framing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +27,14 @@ render::Box with_room(render::Box box) {
   return box;
 }
 
+// But for what the border of a picture allows.
+bool holds(const render::Box& known, const render::Box& box) {
+  constexpr float kSlack = 1e-3f;  // of the diagonal
+  const float slack = kSlack * (known.high - known.low).norm();
+  return (known.low.array() - slack <= box.low.array()).all() &&
+         (box.high.array() <= known.high.array() + slack).all();
+}
+
 struct Trial {
   explicit Trial(const Scene& scene) : cloth(make_cloth(scene)), simulation(make_simulation(scene, cloth)) {}
   Cloth cloth;
@@ -48,7 +56,7 @@ std::unique_ptr<Trial> trial_of(const Scene& scene) {
 
 }  // namespace
 
-Framing framing_of(const Setup& setup) {
+Framing framing_of(const Setup& setup, const render::Box& known) {
   const Scene& scene = setup.scene;
   const auto trial = trial_of(scene);
   Simulation& simulation = *trial->simulation;
@@ -63,8 +71,15 @@ Framing framing_of(const Setup& setup) {
   } catch (const Error& error) {
     framing.stopped = error.what();
   }
-  framing.box = with_room(framing.box);
+  framing.box = holds(known, framing.box) ? known : with_room(framing.box).merged(known);
   return framing;
+}
+
+std::optional<render::Box> planned_framing(const Setup& setup,
+                                           render::Box (*known)(const Scene&, const Cloth&)) {
+  const Options& options = setup.options;
+  if (options.no_images || options.explain || !options.camera_box.empty()) return {};
+  return framing_of(setup, known(setup.scene, make_cloth(setup.scene))).box;
 }
 
 }  // namespace hysteron::experiments

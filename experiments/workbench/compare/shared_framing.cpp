@@ -1,0 +1,24 @@
+#include "experiments/workbench/compare/shared_framing.h"
+
+#include <fmt/core.h>
+
+#include "render/camera.h"
+
+namespace hysteron::experiments {
+
+std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants) {
+  const auto framing = experiment_named(line.experiment).framing;
+  if (!framing) return {};
+  std::optional<render::Box> box;
+  for (const Variant& variant : variants) {
+    const std::optional<render::Box> one = framing(with_variant(line, variant));
+    if (!one) return {};
+    box = box ? box->merged(*one) : *one;
+  }
+  std::string corners;
+  for (const Eigen::Vector3f& corner : {box->low, box->high})
+    for (int k = 0; k < 3; ++k) corners += fmt::format("{:.17g} ", corner[k]);
+  return {{"camera.box", corners}};
+}
+
+}  // namespace hysteron::experiments

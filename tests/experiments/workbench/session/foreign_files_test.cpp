@@ -1,0 +1,55 @@
+// What a simulation will write is refused before it begins where another's file of that name stands.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// Few triangles, for a short time.
+class ForeignFiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(ForeignFiles, AreRefusedBeforeTheSimulation) {
+  const std::string command =
+      std::string(GetParam()) + " --size 64x48 --threads 1 --device cpu --quiet --out ";
+  const Folder first;
+  ASSERT_EQ(program(command + (first.path() / "out").string()).exit_code, 0);
+  const auto manifest = nlohmann::json::parse(text_of(first.path() / "out" / "manifest.json"));
+  ASSERT_GT(manifest["files"].size(), 3u);
+  for (const std::string name : manifest["files"]) {
+    const Folder folder;
+    const fs::path foreign = folder.path() / name;
+    fs::create_directories(foreign.parent_path());
+    std::ofstream(foreign) << "mine";
+    const Outcome outcome = program(command + folder.path().string());
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.err.find(foreign.string() + " is not of an earlier run"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(text_of(foreign), "mine");
+    EXPECT_EQ(fs::exists(folder.path() / "metrics.csv"), name == "metrics.csv") << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ForeignFiles,
+    testing::Values("drape --triangles 100 --seconds 0.02 --fps 100",
+                    "swing --triangles 50 --seconds 0.05 --fps 20 --look cloth,curvature --probe 0.05,0.01",
+                    "cantilever --triangles 32 --fps 2 --export ply",
+                    "crease --crease.fold pleat --crease.recovery 0.05 --triangles 60 --fps 5"));
+
+TEST(Report, IsNotWrittenIntoARunThatIsNotOver) {
+  const Folder folder;
+  ExperimentRun run(drape_line(), setup_in(folder.path()));
+  const Outcome outcome = program("report " + folder.path().string());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "hysteron report: " + folder.path().string() + " is in use by another run: wait for its end\n");
+  EXPECT_FALSE(fs::exists(folder.path() / "report.html"));
+  run.finish();
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
