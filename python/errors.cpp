@@ -16,7 +16,7 @@ const char* type_of(const Error& error) {
 }
 
 void raise(const Error& error) {
-  const py::object type = py::module_::import("hysteron.errors").attr(type_of(error));
+  const py::object type = py::module_::import("hysteron_cloth.errors").attr(type_of(error));
   PyErr_SetObject(type.ptr(), type(error.what(), error.key(), error.value()).ptr());
 }
 

@@ -6,10 +6,11 @@
 namespace hysteron::python {
 
 PYBIND11_MODULE(_hysteron, module) {
-  module.doc() = "The compiled part of hysteron; use the package `hysteron`.";
+  module.doc() = "The compiled part of hysteron; use the package `hysteron_cloth`.";
   const std::string version = experiments::program_version();
   module.attr("__version__") = version.substr(0, version.find(' '));
   module.attr("build") = version;
+  module.attr("has_cuda") = HYSTERON_HAS_CUDA != 0;
   module.def("_set_assets_place", [](const std::string& folder) { set_assets_place(folder); });
   bind_errors();
   bind_fabric(module);

@@ -1,6 +1,7 @@
 #include "python/studio.h"
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "sim/base/error.h"
 #include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::python {
@@ -44,6 +45,8 @@ render::Image Studio::picture(const Scene& scene, const Cloth& cloth, Simulation
         studio.view().set_bounds(bounds);
         studio.view().set_positions(xyz);
         render::Image image = studio.draw(pictures::look_of(scene, choice.options, name), camera, shown);
+        if (!studio.view().shows_cloth())
+          throw Error::run("the picture shows no cloth: bounds must frame where it is");
         if (!choice.caption.empty())
           pictures::letter(image, camera, bounds.center(), choice.caption,
                            pictures::color_bar_of(scene, choice.options, name));

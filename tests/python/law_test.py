@@ -4,7 +4,7 @@ import os
 import tempfile
 import unittest
 
-from support import hysteron, np, program
+from support import hysteron_cloth, np, program
 
 B1, B2, K0 = 3e-5, 1e-5, 50.0  # [N m], [N m], [1/m]
 G, M0 = B1 - B2, (B1 - B2) * K0 / 2
@@ -12,12 +12,12 @@ ROUNDING = 1e-12
 
 
 def fabric():
-    return hysteron.Fabric("cotton-broad", b1=B1, b2=B2, k0=K0)
+    return hysteron_cloth.Fabric("cotton-broad", b1=B1, b2=B2, k0=K0)
 
 
 def exact(**parameters):
     """prandtl with a memory of every reversal of these tests."""
-    return hysteron.Law("prandtl", fabric(), memory="stack", stack=16, **parameters)
+    return hysteron_cloth.Law("prandtl", fabric(), memory="stack", stack=16, **parameters)
 
 
 def walk(law, curvatures, n=1):
@@ -29,7 +29,7 @@ def walk(law, curvatures, n=1):
 class OfTheProgram(unittest.TestCase):
     def test_every_law_gives_its_moments_and_losses(self):
         rows = np.concatenate([np.linspace(0, 120, 13), np.linspace(110, -90, 21), np.linspace(-80, 40, 13)])
-        for name in hysteron.laws():
+        for name in hysteron_cloth.laws():
             options = {"prandtl": {"memory": "stack", "stack": 16}, "chapman": {"stops": 32}}.get(name, {})
             with self.subTest(law=name), tempfile.TemporaryDirectory() as folder:
                 data, result = os.path.join(folder, "k.csv"), os.path.join(folder, "m.csv")
@@ -38,7 +38,7 @@ class OfTheProgram(unittest.TestCase):
                 program("law", "--law", name, "--b1", B1, "--b2", B2, "--k0", K0, "--in", data, "--out", result,
                         *flags)
                 table = np.genfromtxt(result, delimiter=",", names=True, deletechars="")
-                law = hysteron.Law(name, fabric(), **options)
+                law = hysteron_cloth.Law(name, fabric(), **options)
                 moments, state = walk(law, rows)
                 scale = np.abs(table["moment_[N]"]).max()
                 np.testing.assert_allclose(moments[:, 0], table["moment_[N]"], atol=ROUNDING * scale)
@@ -82,8 +82,8 @@ class ClosedForms(unittest.TestCase):
         self.assertLess(max(error), 1e-9 * B1)  # the branch is a parabola: central differences are exact
 
     def test_a_cylinder_bends_by_the_scalar_law(self):
-        scalar = hysteron.Law("prandtl", fabric(), stops=8)
-        tensor = hysteron.Law("prandtl", fabric(), dimension=3, stops=8)
+        scalar = hysteron_cloth.Law("prandtl", fabric(), stops=8)
+        tensor = hysteron_cloth.Law("prandtl", fabric(), dimension=3, stops=8)
         one, three = scalar.rest(1), tensor.rest(1)
         for k in (70.0, -20.0, 35.0):
             along = tensor.step(three, np.array([[k, 0, 0]]))
@@ -117,16 +117,16 @@ class Histories(unittest.TestCase):
 
 class Refusals(unittest.TestCase):
     def test_carry_key_and_value(self):
-        with self.assertRaises(hysteron.RequestError) as raised:
-            hysteron.Law("prandtl", fabric(), stops=5)
+        with self.assertRaises(hysteron_cloth.RequestError) as raised:
+            hysteron_cloth.Law("prandtl", fabric(), stops=5)
         self.assertEqual((raised.exception.key, raised.exception.value), ("stops", "5"))
         with self.assertRaises(ValueError) as raised:
-            hysteron.Fabric("cotton-broad", density=-1)
+            hysteron_cloth.Fabric("cotton-broad", density=-1)
         self.assertEqual((raised.exception.key, raised.exception.value), ("fabric.density", "-1"))
 
     def test_name_what_is_near(self):
-        with self.assertRaisesRegex(hysteron.Error, "prandtl"):
-            hysteron.Law("prandl", fabric())
+        with self.assertRaisesRegex(hysteron_cloth.Error, "prandtl"):
+            hysteron_cloth.Law("prandl", fabric())
         with self.assertRaises(AttributeError):
             fabric().colour
 
@@ -136,7 +136,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual((renamed.name, renamed.b1), ("mine", B1))
 
     def test_curvatures_of_another_shape(self):
-        with self.assertRaisesRegex(hysteron.Error, r"must be \(3,\)"):
+        with self.assertRaisesRegex(hysteron_cloth.Error, r"must be \(3,\)"):
             exact().step(exact().rest(3), np.zeros(2))
 
 

@@ -8,7 +8,7 @@ import tempfile
 import threading
 import unittest
 
-from support import hysteron, np, program
+from support import hysteron_cloth, np, program
 
 SCENE = """
 seconds = 0.05
@@ -34,8 +34,8 @@ high = [0.01, 1, 1]
 def strip(**keys):
     """A strip that is held at one end, of a hundred triangles."""
     held = {"low": (-1, -1, -1), "high": (0.01, 1, 1)}
-    return hysteron.Scene(**{"cloth_shape": "strip", "cloth_length": 0.09, "cloth_width": 0.03, "triangles": 100,
-                             "step": 0.005, "threads": 1, "pin": [held], **keys})
+    return hysteron_cloth.Scene(**{"cloth_shape": "strip", "cloth_length": 0.09, "cloth_width": 0.03, "triangles": 100,
+                                   "step": 0.005, "threads": 1, "pin": [held], **keys})
 
 
 class Bits(unittest.TestCase):
@@ -48,7 +48,7 @@ class Bits(unittest.TestCase):
                 program("swing", "--scene", file, "--out", out, "--no-images", "--quiet", "--fps", 60)
                 with open(os.path.join(out, "manifest.json")) as manifest:
                     run = json.load(manifest)
-                sim = hysteron.Simulation(hysteron.Scene(file))
+                sim = hysteron_cloth.Simulation(hysteron_cloth.Scene(file))
                 while sim.steps < run["steps"]:
                     sim.advance()
                 self.assertGreater(sim.steps, 5)
@@ -60,19 +60,19 @@ class Bits(unittest.TestCase):
             file = os.path.join(folder, "strip.toml")
             with open(file, "w") as text:
                 text.write(SCENE.format(integrator="bdf2", precision="double"))
-            of_file = hysteron.Simulation(hysteron.Scene(file))
-        fabric = hysteron.Fabric("wool-tropical", damping=1e-5)
-        of_dict = hysteron.Simulation(strip(fabric=fabric, seconds=0.05, integrator="bdf2", triangles=120))
+            of_file = hysteron_cloth.Simulation(hysteron_cloth.Scene(file))
+        fabric = hysteron_cloth.Fabric("wool-tropical", damping=1e-5)
+        of_dict = hysteron_cloth.Simulation(strip(fabric=fabric, seconds=0.05, integrator="bdf2", triangles=120))
         for sim in (of_file, of_dict):
             sim.advance(4)
         self.assertEqual(of_dict.state_hash, of_file.state_hash)
 
     def test_go_on_from_what_was_saved_with_a_hand_that_is_driven(self):
-        sim = hysteron.Simulation(strip())
+        sim = hysteron_cloth.Simulation(strip())
         sim.advance()
         sim.drive(0, (0, 0, 0.1), spin=20)
         sim.advance(2)
-        other = hysteron.Simulation(strip())
+        other = hysteron_cloth.Simulation(strip())
         other.load(sim.save())
         for each in (sim, other):
             each.advance(3)
@@ -81,15 +81,15 @@ class Bits(unittest.TestCase):
 
 class Arrays(unittest.TestCase):
     def test_of_positions_are_the_simulations_memory(self):
-        sim = hysteron.Simulation(strip())
+        sim = hysteron_cloth.Simulation(strip())
         self.assertEqual(sim.positions.shape, (len(sim.rest_positions), 3))
         self.assertEqual(sim.positions.ctypes.data, sim.positions.ctypes.data)
         self.assertFalse(sim.positions.flags.writeable)
         self.assertFalse(sim.positions.flags.owndata)
-        self.assertEqual(hysteron.Simulation(strip(precision="float")).positions.dtype, np.float32)
+        self.assertEqual(hysteron_cloth.Simulation(strip(precision="float")).positions.dtype, np.float32)
 
     def test_outlive_the_name_of_their_simulation(self):
-        sim = hysteron.Simulation(strip())
+        sim = hysteron_cloth.Simulation(strip())
         sim.advance(2)
         view, copy = sim.positions, sim.positions.copy()
         del sim
@@ -100,7 +100,7 @@ class Arrays(unittest.TestCase):
 
     def test_of_elements_have_a_row_each(self):
         for element, columns in (("hinge", ()), ("shape", (3,))):
-            sim = hysteron.Simulation(strip(element=element, law="prandtl"))
+            sim = hysteron_cloth.Simulation(strip(element=element, law="prandtl"))
             sim.advance(3)
             count = len(sim.triangles) if element == "shape" else len(sim.friction_share)
             self.assertEqual(sim.curvature.shape, (count, *columns))
@@ -109,7 +109,7 @@ class Arrays(unittest.TestCase):
             self.assertGreater(np.abs(sim.curvature).max(), 0)
 
     def test_balance(self):
-        sim = hysteron.Simulation(strip())
+        sim = hysteron_cloth.Simulation(strip())
         sim.advance(5)
         ledger = sim.ledger
         self.assertLess(ledger["gravitational"], 0)
@@ -120,7 +120,7 @@ class Hands(unittest.TestCase):
     def test_that_are_driven_move_at_the_velocity_they_are_given(self):
         for integrator in ("implicit", "semi-implicit", "tr-bdf2"):
             with self.subTest(integrator=integrator):
-                sim = hysteron.Simulation(strip(integrator=integrator))
+                sim = hysteron_cloth.Simulation(strip(integrator=integrator))
                 sim.advance()
                 held = sim.pin_vertices(0)
                 before = sim.positions[held].copy()
@@ -135,7 +135,7 @@ class Hands(unittest.TestCase):
 
     def test_turn_about_the_axis_of_their_pin(self):
         pin = {"low": (-1, -1, -1), "high": (0.01, 1, 1), "axis": (0, 1, 0), "center": (0, 0, 0)}
-        sim = hysteron.Simulation(strip(pin=[pin]))
+        sim = hysteron_cloth.Simulation(strip(pin=[pin]))
         held = sim.pin_vertices(0)
         start = sim.positions[held].copy()
         sim.drive(0, (0, 0, 0), spin=90)
@@ -145,28 +145,28 @@ class Hands(unittest.TestCase):
         self.assertAlmostEqual(sim.hand(0)[1], 90 * sim.time)
 
     def test_that_there_are_not_are_refused(self):
-        with self.assertRaises(hysteron.RequestError) as raised:
-            hysteron.Simulation(strip()).drive(1, (0, 0, 0))
+        with self.assertRaises(hysteron_cloth.RequestError) as raised:
+            hysteron_cloth.Simulation(strip()).drive(1, (0, 0, 0))
         self.assertEqual((raised.exception.key, raised.exception.value), ("pin", "1"))
 
 
 class Loops(unittest.TestCase):
     def test_let_other_threads_run_and_one_at_a_time_step(self):
-        sim = hysteron.Simulation(strip(triangles=400))
+        sim = hysteron_cloth.Simulation(strip(triangles=400))
         seen = []
         stepping = threading.Thread(target=lambda: sim.advance(40))
         stepping.start()
         while stepping.is_alive():
             try:
                 seen.append(sim.steps)
-            except hysteron.RequestError as refusal:
+            except hysteron_cloth.RequestError as refusal:
                 seen.append(str(refusal))
         stepping.join()
         self.assertIn("the simulation is stepping on another thread", seen)
         self.assertEqual(sim.steps, 40)
 
     def test_end_between_two_steps_on_an_interrupt(self):
-        sim = hysteron.Simulation(strip(triangles=400))
+        sim = hysteron_cloth.Simulation(strip(triangles=400))
         signal.signal(signal.SIGALRM, signal.default_int_handler)  # as Ctrl-C, in time
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with self.assertRaises(KeyboardInterrupt):
@@ -188,7 +188,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(scene.to_dict()["pin"][0]["high"], [0.01, 1, 1])
 
     def test_names_of_all_keys_are_apart_in_python(self):
-        plain = [row["key"].replace("-", "_").replace(".", "_") for row in hysteron.scene_keys()]
+        plain = [row["key"].replace("-", "_").replace(".", "_") for row in hysteron_cloth.scene_keys()]
         self.assertGreater(len(plain), 50)
         self.assertEqual(len(set(plain)), len(plain))
 
@@ -197,7 +197,7 @@ class Scenes(unittest.TestCase):
                  ({"cloth": {"length": "long"}}, "cloth.length", None), ({"fabric_b1": 1e-9}, "fabric.b1", "1e-09"),
                  ({"pin": [{"hihg": (0, 0, 0)}]}, "pin[0].hihg", None))
         for keys, key, value in cases:
-            with self.subTest(keys=keys), self.assertRaises(hysteron.RequestError) as raised:
+            with self.subTest(keys=keys), self.assertRaises(hysteron_cloth.RequestError) as raised:
                 strip(**keys)
             self.assertEqual(raised.exception.key, key)
             if value is not None:

@@ -4,9 +4,14 @@ import ast
 import pathlib
 import unittest
 
-from support import hysteron
+try:
+    import tomllib
+except ImportError:
+    tomllib = None
 
-MODULE = hysteron._hysteron
+from support import hysteron_cloth, program
+
+MODULE = hysteron_cloth._hysteron
 STUB = ast.parse(pathlib.Path(MODULE.__file__).with_name("_hysteron.pyi").read_text())
 
 
@@ -31,7 +36,7 @@ class Stubs(unittest.TestCase):
         self.assertGreater(len(names(STUB.body)), 10)
 
     def test_name_every_member(self):
-        keys = {row["key"][len("fabric."):].replace("-", "_") for row in hysteron.scene_keys()
+        keys = {row["key"][len("fabric."):].replace("-", "_") for row in hysteron_cloth.scene_keys()
                 if row["key"].startswith("fabric.")}
         for node in STUB.body:
             if isinstance(node, ast.ClassDef):
@@ -43,6 +48,18 @@ class Stubs(unittest.TestCase):
         for owner in (MODULE, *(vars(MODULE)[name] for name in public(MODULE) if isinstance(vars(MODULE)[name], type))):
             for name in public(owner):
                 self.assertTrue(getattr(owner, name).__doc__, f"{owner.__name__}.{name}")
+
+
+class Build(unittest.TestCase):
+    def test_says_whether_it_has_cuda(self):
+        lacks = "this build has no CUDA back end" in program("list", "devices")
+        self.assertEqual(hysteron_cloth.has_cuda, not lacks)
+
+    @unittest.skipIf(tomllib is None, "needs Python 3.11")
+    def test_by_pip_is_named_for_cloth_and_without_cuda_unless_asked(self):
+        pyproject = tomllib.loads((pathlib.Path(__file__).parents[2] / "pyproject.toml").read_text())
+        self.assertEqual(pyproject["project"]["name"], "hysteron-cloth")
+        self.assertEqual(pyproject["tool"]["scikit-build"]["cmake"]["define"]["HYSTERON_CUDA"], "OFF")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ except ImportError:
     print("numpy is not installed for " + sys.executable)
     raise SystemExit(77)
 
-import hysteron
+import hysteron_cloth
 
 PROGRAM = os.environ["HYSTERON_PROGRAM"]
 

@@ -1,9 +1,9 @@
 import numpy as np
 
-import hysteron
+import hysteron_cloth
 
-fabric = hysteron.Fabric("cotton-broad", k0=60)
-law = hysteron.Law("prandtl", fabric, stops=16)
+fabric = hysteron_cloth.Fabric("cotton-broad", k0=60)
+law = hysteron_cloth.Law("prandtl", fabric, stops=16)
 
 curvature = np.concatenate([np.linspace(0, 150, 60), np.linspace(150, -150, 120)])  # [1/m]
 state = law.rest(1000)  # a thousand elements, flat and without history

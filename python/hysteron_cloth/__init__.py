@@ -1,7 +1,7 @@
 """Bending hysteresis of cloth: laws, fabrics, scenes and simulations of the hysteron workbench.
 
 Everything is in SI units.  Arrays are numpy's; where they are views of a simulation's memory, their
-documentation says so.  Failures are raised as hysteron.Error, with key and value.
+documentation says so.  Failures are raised as hysteron_cloth.Error, with key and value.
 """
 
 from pathlib import Path as _Path

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __version__: str
 build: str
+has_cuda: bool
 
 Doubles = NDArray[np.float64]
 Picture = NDArray[np.uint8]
