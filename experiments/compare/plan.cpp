@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <set>
 
@@ -35,23 +34,17 @@ LawRequest law_of(const Fabric& fabric, const CommandLine& line, const std::stri
   return request;
 }
 
-std::string exactly(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 // Flags for the stiffnesses of the parts that a fabric has.
 void add_parts(const BendingParts& parts, std::vector<Flag>& flags) {
   const auto add = [&](const char* table, const std::vector<double>& stiffnesses) {
     std::string list;
-    for (double p : stiffnesses) list += (list.empty() ? "" : " ") + exactly(p);
+    for (double p : stiffnesses) list += (list.empty() ? "" : " ") + number_text(p);
     if (!list.empty()) flags.push_back({std::string("fabric.bending.") + table + ".stiffnesses", list});
   };
   add("stops", parts.stops.stiffnesses);
   add("stops.weft", parts.weft_stops.stiffnesses);
   add("branches", parts.branches.stiffnesses);
-  if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", exactly(parts.set.hardening)});
+  if (parts.set.on()) flags.push_back({"fabric.bending.set.hardening", number_text(parts.set.hardening)});
 }
 
 // The fabric of a column before any matching, and its law.
@@ -83,8 +76,8 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
   const CommandLine line = with_variant(inner, variant);
   const auto [fabric, law] = fabric_of(line);
   scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
-  std::vector<Flag> flags = {{"fabric.b1", exactly(scale * fabric.b1)},
-                             {"fabric.b2", exactly(scale * fabric.b2)}};
+  std::vector<Flag> flags = {{"fabric.b1", number_text(scale * fabric.b1)},
+                             {"fabric.b2", number_text(scale * fabric.b2)}};
   add_parts(stiffened(fabric.bending, scale), flags);
   return flags;
 }
@@ -94,7 +87,7 @@ Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants
   double k0 = 0;
   for (const Variant& variant : variants)
     k0 = std::max(k0, fabric_of(with_variant(inner, variant)).fabric.k0);
-  return {"curvature-range", last_text(inner.flags, "curvature-range", exactly(2 * k0))};
+  return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * k0))};
 }
 
 // What the experiment is asked for beside what it would be asked for alone.

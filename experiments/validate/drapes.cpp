@@ -11,9 +11,8 @@
 
 namespace hysteron::experiments {
 
-// Runs another subcommand into a folder of this one; its manifest.
 Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
-                   const Run& run, const std::string& folder) {
+                   Run& run, const std::string& folder) {
   CommandLine line{name, "hysteron " + name, own, {}};
   const std::filesystem::path out = run.folder() / folder;
   line.flags.push_back({"out", out.string()});
@@ -21,7 +20,9 @@ Manifest result_of(const std::string& name, const std::vector<Flag>& own, const 
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   for (const Flag& flag : own) line.command += " --" + flag.path + " " + flag.text;
   experiment_named(name).run(line);
-  return read_manifest(out / "manifest.json");
+  Manifest manifest = read_manifest(out / "manifest.json");
+  for (const std::string& text : manifest.warnings) run.manifest().warnings.push_back(folder + ": " + text);
+  return manifest;
 }
 
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
@@ -30,17 +31,21 @@ Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
       flags.tolerance};
 }
 
-void run_drape(Drape& drape, const ValidateFlags& flags, Run& run) {
+std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
   std::vector<Flag> own = {{"fabric", drape.fabric},
                            {"law", drape.law},
                            {"drape.release", drape.release},
                            {"triangles", std::to_string(drape.triangles)},
-                           {"step", number_field(drape.step)},
-                           {"tolerance", number_field(drape.tolerance)},
-                           {"seconds", number_field(flags.seconds)},
+                           {"step", number_text(drape.step)},
+                           {"tolerance", number_text(drape.tolerance)},
+                           {"seconds", number_text(flags.seconds)},
                            {"device", flags.device}};
   own.insert(own.end(), drape.further.begin(), drape.further.end());
-  const Manifest manifest = result_of("drape", own, flags, run, drape.name());
+  return own;
+}
+
+void run_drape(Drape& drape, const ValidateFlags& flags, Run& run) {
+  const Manifest manifest = result_of("drape", flags_of(drape, flags), flags, run, drape.name());
   drape.metrics = manifest.metrics;
   drape.seconds = manifest.total_seconds();
   run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",

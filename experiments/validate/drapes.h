@@ -28,12 +28,15 @@ struct Drape {
   double published() const { return number("published_drape_coefficient_percent"); }
 };
 
-// Runs another subcommand into a folder of this one; its manifest.
+// Runs another subcommand into a folder of this one; its manifest.  What it warns of it has said: the
+// manifest of this one keeps it, too.
 Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
-                   const Run& run, const std::string& folder);
+                   Run& run, const std::string& folder);
 
 // As the flags say: with the first of their laws, lowered.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
+// What the subcommand `drape` is told; numbers lose no bit on the way.
+std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags);
 void run_drape(Drape& drape, const ValidateFlags& flags, Run& run);
 
 // Every fabric under every law along both paths, and the first law with four times the triangles and with

@@ -1,7 +1,5 @@
 #include "experiments/validate/spread.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -37,12 +35,6 @@ double spread_of(const std::vector<double>& values) {
   double squares = 0;
   for (const double x : values) squares += (x - mean) * (x - mean);
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
-
-std::vector<Flag> flags_of(const Sample& sample) {
-  std::vector<Flag> flags;
-  for (const auto& [key, value] : sample) flags.push_back({"fabric." + key, fmt::format("{:.17g}", value)});
-  return flags;
 }
 
 // Drapes of one fabric and what they say together.
@@ -106,6 +98,12 @@ void draw_spread(Run& run, const DrapesOf& all) {
 }
 
 }  // namespace
+
+std::vector<Flag> flags_of(const Sample& sample) {
+  std::vector<Flag> flags;
+  for (const auto& [key, value] : sample) flags.push_back({"fabric." + key, number_text(value)});
+  return flags;
+}
 
 std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed) {
   std::vector<Sample> samples(count);

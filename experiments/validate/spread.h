@@ -19,6 +19,9 @@ using Sample = std::map<std::string, double>;
 // such that the friction moment (b1 - b2) k0/2 stays.
 std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed);
 
+// As a drape is told of it, with all bits.
+std::vector<Flag> flags_of(const Sample& sample);
+
 // The first law, lowered, for each fabric with `samples` draws of its uncertain numbers, each on another
 // mesh: spread.csv, plot_spread.
 std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/validate/drapes.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/app/experiment.h"
 #include "tests/experiments/folder.h"
@@ -42,6 +43,25 @@ TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
   EXPECT_LT(metrics["kes_pairs_largest_error_percent"], 1);
   const std::string table = text_of(out / "predictions.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 10);
+}
+
+// As if every number were set in the scene itself: 1/120 s is no 0.00833333 s.
+TEST(Validate, HandsItsDrapesTheirNumbersBitForBit) {
+  ValidateFlags flags;
+  flags.tolerance = 1e-5 / 3;
+  flags.seconds = 10.0 / 3;
+  Drape drape = nominal_drape("cotton-broad", flags);
+  const Sample sample = samples_of(read_fabric("cotton-broad", "test"), 3, 1).front();
+  drape.further = flags_of(sample);
+  std::vector<Flag> told = flags_of(drape, flags);
+  std::erase_if(told, [](const Flag& flag) { return flag.path == "drape.release"; });
+  const Scene scene =
+      set_up({"drape", "hysteron drape", told, {}}, experiment_named("drape").defaults()).scene;
+  EXPECT_EQ(scene.step, 1.0 / 120);
+  EXPECT_EQ(scene.tolerance, flags.tolerance);
+  EXPECT_EQ(scene.seconds, flags.seconds);
+  for (const auto& [key, value] : sample)
+    EXPECT_EQ(to_json(scene)["fabric"][key].get<double>(), value) << key;
 }
 
 // Each number once in each part of its range, in the logarithm; friction as published.

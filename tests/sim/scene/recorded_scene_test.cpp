@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "sim/scene/assets.h"
@@ -108,6 +110,70 @@ TEST(SceneText, CommentsOutWhatTheExperimentAdds) {
   EXPECT_TRUE(back.obstacle.empty());
   EXPECT_EQ(back.seconds, 3);
   EXPECT_NE(text.find("seconds = 3.0  # [s] the experiment's own\n"), text.npos) << text;
+}
+
+// A number in the key's range whose last bits six digits would lose.
+double with_all_bits(const Range& range) {
+  const double low = std::isfinite(range.low) ? range.low : 0;
+  return low + (std::isfinite(range.high) ? range.high - low : 1) / 3;
+}
+
+// All numbers of a scene.
+std::vector<double> numbers_of(Scene scene) {
+  std::vector<double> all;
+  for (const BoundKey& key : bind_scene(scene)) {
+    if (const auto* x = std::get_if<double*>(&key.field)) all.push_back(**x);
+    if (const auto* x = std::get_if<Eigen::Vector3d*>(&key.field))
+      all.insert(all.end(), (*x)->begin(), (*x)->end());
+    if (const auto* x = std::get_if<Numbers*>(&key.field)) all.insert(all.end(), (*x)->begin(), (*x)->end());
+  }
+  return all;
+}
+
+Scene with_all_bits() {
+  Scene scene = default_scene();
+  for (const BoundKey& key : bind_scene(scene)) {
+    const double x = with_all_bits(key.description.range);
+    if (const auto* number = std::get_if<double*>(&key.field)) **number = x;
+    if (const auto* vector = std::get_if<Eigen::Vector3d*>(&key.field)) **vector = {x, -x, x / 7};
+    if (const auto* numbers = std::get_if<Numbers*>(&key.field)) **numbers = {x / 7, x};
+  }
+  return scene;
+}
+
+// The same scene by flags, as studies, comparisons and estimates of errors tell it to runs.
+std::vector<Flag> flags_of(Scene scene) {
+  const auto joined = [](const auto& numbers) {
+    std::string text;
+    for (const double x : numbers) text += (text.empty() ? "" : " ") + number_text(x);
+    return text;
+  };
+  std::vector<Flag> flags;
+  for (const BoundKey& key : bind_scene(scene)) {
+    const std::string& path = key.description.path;
+    if (const auto* x = std::get_if<double*>(&key.field)) flags.push_back({path, number_text(**x)});
+    if (const auto* x = std::get_if<Eigen::Vector3d*>(&key.field)) flags.push_back({path, joined(**x)});
+    if (const auto* x = std::get_if<Numbers*>(&key.field)) flags.push_back({path, joined(**x)});
+  }
+  return flags;
+}
+
+TEST(ResolvedScene, ReachesAnotherRunWithEveryBitWhateverItIsTold) {
+  const Scene scene = with_all_bits();
+  const std::vector<double> wanted = numbers_of(scene);
+  const auto same_bits = [&](const Scene& other) {
+    const std::vector<double> found = numbers_of(other);
+    return found.size() == wanted.size() &&
+           std::memcmp(found.data(), wanted.data(), wanted.size() * sizeof(double)) == 0;
+  };
+  Scene by_manifest = default_scene(), by_file = default_scene(), by_flags = default_scene();
+  apply_recorded_scene(by_manifest, Json::parse(to_json(scene).dump()), "manifest.json");
+  EXPECT_TRUE(same_bits(by_manifest));
+  const TextFile file(toml_of(scene));
+  apply_scene_file(by_file, file.path());
+  EXPECT_TRUE(same_bits(by_file));
+  apply_flags(by_flags, flags_of(scene));
+  EXPECT_TRUE(same_bits(by_flags));
 }
 
 }  // namespace
