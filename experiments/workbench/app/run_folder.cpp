@@ -80,19 +80,33 @@ std::string half_written(const std::string& name) {
   return end.find_first_not_of("-0123456789") == end.npos ? name.substr(0, part) : "";
 }
 
-// An interrupted run lists the first file of a sequence only.
+// "frames/0013.png" of "frames/0012.png".
+fs::path next_of(const fs::path& name) {
+  std::string digits = name.stem().string();
+  const std::size_t grows = digits.find_last_not_of('9');
+  if (grows == digits.npos) digits.insert(0, 1, '0');
+  const std::size_t at = grows == digits.npos ? 0 : grows;
+  ++digits[at];
+  std::fill(digits.begin() + static_cast<std::ptrdiff_t>(at) + 1, digits.end(), '0');
+  return name.parent_path() / (digits + name.extension().string());
+}
+
+// An interrupted run lists the first file of a sequence only: the others follow it without a gap, up to the
+// one that was about to be written.  Files behind a gap are another's.
+std::set<fs::path> with_their_sequences(const fs::path& folder, const std::vector<fs::path>& listed) {
+  std::set<fs::path> names(listed.begin(), listed.end());
+  for (const fs::path& first : listed)
+    if (is_numbered(first))
+      for (fs::path name = next_of(first); names.insert(name).second && stands(folder / name);)
+        name = next_of(name);
+  return names;
+}
+
 void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& listed,
                         const std::set<fs::path>& kept) {
-  std::set<fs::path> names(listed.begin(), listed.end()), folders = {""}, sequences;
+  std::set<fs::path> names = with_their_sequences(folder, listed), folders = {""};
+  for (const fs::path& name : listed) folders.insert(name.parent_path());
   names.insert(kManifest);
-  for (const fs::path& name : listed) {
-    folders.insert(name.parent_path());
-    if (is_numbered(name)) sequences.insert(name.parent_path() / name.extension());
-  }
-  const auto of_the_run = [&](const fs::path& name) {
-    return names.contains(name) ||
-           (is_numbered(name) && sequences.contains(name.parent_path() / name.extension()));
-  };
   std::error_code ignored;
   for (const fs::path& inner : folders) {
     std::vector<fs::path> found;
@@ -100,7 +114,8 @@ void remove_interrupted(const fs::path& folder, const std::vector<fs::path>& lis
       found.push_back(inner / entry.path().filename());
     for (const fs::path& name : found) {
       const std::string target = half_written(name.filename().string());
-      const bool left = target.empty() ? is_numbered(name) && of_the_run(name) : of_the_run(inner / target);
+      const bool left =
+          target.empty() ? is_numbered(name) && names.contains(name) : names.contains(inner / target);
       if (left && !kept.contains(name) && is_plain(folder / name)) fs::remove(folder / name, ignored);
     }
   }

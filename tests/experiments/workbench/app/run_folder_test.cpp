@@ -54,9 +54,11 @@ TEST(RunFolder, LosesWhatAKilledRunHasLeftAndNothingElse) {
   const Folder folder;
   const fs::path out = folder.path();
   const std::vector<std::string> left = {
-      "frames/0000.png",  "frames/0001.png",          "mesh/0000.obj", "mesh/0012.obj", "table.csv",
+      "frames/0000.png",  "frames/0001.png",          "mesh/0000.obj", "mesh/0001.obj", "table.csv",
       "metrics.csv.part", "frames/0002.png.part-71-3"};
-  const std::vector<std::string> others = {"notes.csv.part", "frames/0000.txt", "0001.png", "mesh/cloth.obj"};
+  const std::vector<std::string> others = {"notes.csv.part",  "frames/0000.txt", "0001.png",
+                                           "frames/0004.png", "mesh/12345.obj",  "frames/9999.png.part",
+                                           "mesh/cloth.obj"};
   killed([&] {
     auto* run = new ExperimentRun(drape_line(), setup_in(out));
     for (const char* name :
