@@ -127,10 +127,12 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
       throw Error::request(where + " names no direction or no test").in(reader);
     FabLoops& loops = loops_of(all, words[c.direction], words[c.test]);
     const double branch = number(c.branch);
-    if (branch == static_cast<double>(loops.branches.size())) loops.branches.emplace_back();
+    const std::size_t next = loops.branches.size();
+    if (branch == static_cast<double>(next)) loops.branches.emplace_back();
     if (loops.branches.empty() || branch + 1 != static_cast<double>(loops.branches.size()))
-      throw Error::request(where + ": branch " + words[c.branch] + " does not follow branch " +
-                           std::to_string(loops.branches.size()) + " - 1")
+      throw Error::request(where + ": branch " + words[c.branch] + " must be " +
+                           (next > 0 ? std::to_string(next - 1) + " or " : "") + std::to_string(next) +
+                           ": the rows of a test stand in the order of its branches, 0, 1, 2 ...")
           .in(reader);
     const auto same = [&](double& of_test, std::size_t column) {
       const double here = unit.metre * number(column);

@@ -88,10 +88,15 @@ double as_number(const KeyDescription& key, const Value& value, const std::strin
   throw wrong_type(key, value, origin);
 }
 
+// Also of a number with an exponent or a point, "1e3", if there is nothing behind the point.
 std::int64_t as_integer(const KeyDescription& key, const Value& value, const std::string& origin) {
-  const auto* integer = std::get_if<std::int64_t>(&value);
-  if (!integer) throw wrong_type(key, value, origin);
-  return *integer;
+  constexpr double kExact = 9e15;  // below 2^53 every integer has a double of its own
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
+  const auto* number = std::get_if<double>(&value);
+  if (!number || *number != std::floor(*number)) throw wrong_type(key, value, origin);
+  if (std::abs(*number) > kExact) check_number(key, *number, value_text(value), origin);
+  if (std::abs(*number) > kExact) throw wrong_type(key, value, origin);
+  return static_cast<std::int64_t>(*number);
 }
 
 void assign_parameter(const KeyDescription& key, Parameters& parameters, const Value& value,

@@ -18,11 +18,13 @@ struct Setting {
   const TomlNode* node;
 };
 
-void flatten(const std::string& prefix, const TomlNode& table, std::vector<Setting>& settings) {
+// `lists`: what is to be an array of tables, so that a plain table of that name is not taken apart.
+void flatten(const std::string& prefix, const TomlNode& table, const std::vector<std::string>& lists,
+             std::vector<Setting>& settings) {
   for (const TomlNode& child : table.children) {
     const std::string path = prefix.empty() ? child.key : prefix + "." + child.key;
-    if (child.kind == TomlNode::Kind::table) {
-      flatten(path, child, settings);
+    if (child.kind == TomlNode::Kind::table && !std::count(lists.begin(), lists.end(), path)) {
+      flatten(path, child, lists, settings);
     } else {
       settings.push_back({path == "fabric" ? "fabric.name" : path, &child});
     }
@@ -37,8 +39,10 @@ class SceneFile {
   }
 
   void apply(const TomlNode& root) {
+    std::vector<std::string> lists = {"pin", "obstacle", "command", "phase"};
+    lists.insert(lists.end(), left_.begin(), left_.end());
     std::vector<Setting> settings;
-    flatten("", root, settings);
+    flatten("", root, lists, settings);
     const auto come_first = [](const Setting& s) { return s.path == "fabric.name" || s.path == "phase"; };
     std::stable_partition(settings.begin(), settings.end(), come_first);
     for (const Setting& setting : settings) apply(setting);
@@ -53,7 +57,9 @@ class SceneFile {
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
-    if (std::count(left_.begin(), left_.end(), setting.path)) return;
+    if (std::count(left_.begin(), left_.end(), setting.path)) return refuse_unless_array(node);
+    if (node.kind == TomlNode::Kind::array && is_table(setting.path))
+      throw Error::request(setting.path + " must be one table, [" + setting.path + "] (" + origin + ")");
     const BoundKey& key = find_key(known_, setting.path, origin);
     if (node.kind == TomlNode::Kind::array && node.children.empty() && key.description.type == "numbers")
       return is_extra(setting.path) ? assign(key, Numbers(), origin)
@@ -105,12 +111,21 @@ class SceneFile {
     scene_.origin["param." + name] = origin;
   }
 
+  // The name of a table of keys: "cloth".
+  bool is_table(const std::string& path) const {
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const BoundKey& key) { return key.description.path.starts_with(path + "."); });
+  }
+
+  void refuse_unless_array(const TomlNode& node) const {
+    if (node.kind == TomlNode::Kind::array) return;
+    throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]] (" +
+                         place(file_, node) + ")");
+  }
+
   template <class Item>
   void read_tables(const TomlNode& node, std::vector<Item>& items, Keys (*bind_one)(Item&)) {
-    if (node.kind != TomlNode::Kind::array) {
-      throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]] (" +
-                           place(file_, node) + ")");
-    }
+    refuse_unless_array(node);
     items.assign(node.children.size(), Item{});
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::string path = node.key + "[" + std::to_string(i) + "]";

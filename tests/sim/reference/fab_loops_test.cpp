@@ -88,6 +88,23 @@ TEST(FabLoops, AreRefusedWithARowThatIsNoNumber) {
             std::string::npos);
 }
 
+TEST(FabLoops, AreRefusedInAnotherOrderThanThatOfTheirBranches) {
+  const Folder folder;
+  const std::string begins = std::string(kHeadSi) + "L,D1,1,0.02,-0.01,0.021,0.04\n",
+                    skips =
+                        std::string(kHeadSi) + "L,D1,0,0.02,-0.01,0.021,0.04\nL,D1,2,0.02,-0.01,0.021,0.04\n";
+  const auto refused = [&](const std::string& text) {
+    return refusal([&] { read_fab(folder.write("a.csv", text), TesterUnits::si, "t"); });
+  };
+  EXPECT_EQ(
+      refused(begins),
+      "t: a.csv:2: branch 1 must be 0: the rows of a test stand in the order of its branches, 0, 1, 2 ...");
+  EXPECT_EQ(
+      refused(skips),
+      "t: a.csv:3: branch 2 must be 0 or 1: the rows of a test stand in the order of its branches, 0, 1, "
+      "2 ...");
+}
+
 TEST(FabLoops, ThatAreNotThereAreNamed) {
   const Folder folder;
   const auto all = read_fab(folder.write("a.csv", si_rows()), TesterUnits::si, "t");

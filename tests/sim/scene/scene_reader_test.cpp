@@ -110,6 +110,25 @@ TEST(SceneFile, FindsAClothBesideItself) {
   EXPECT_EQ(std::filesystem::path(scene.mesh), std::filesystem::path(cloth.path()));
 }
 
+// However they are written.
+TEST(SceneFile, TakesIntegersWithAnExponent) {
+  const TextFile file("triangles = 1e3\nseed = 7.0\n");
+  Scene scene;
+  apply_scene_file(scene, file.path());
+  EXPECT_EQ(scene.triangles, 1000);
+  EXPECT_EQ(scene.seed, 7u);
+  apply_flags(scene, {{"triangles", "2.5e3"}, {"seed", "1e1"}});
+  EXPECT_EQ(scene.triangles, 2500);
+  EXPECT_EQ(scene.seed, 10u);
+}
+
+TEST(SceneFile, LeavesNoTableToOthersThatIsNoArray) {
+  const TextFile file("[metric]\nname = \"a\"\n");
+  Scene scene;
+  const Failure failure = failure_of([&] { apply_scene_file(scene, file.path(), {}, {"metric"}); });
+  EXPECT_EQ(failure.message, "metric must be an array of tables, [[metric]] (" + file.line(1) + ")");
+}
+
 TEST(SceneFile, SetsAnExperimentsOwnKeysToo) {
   double frames_per_second = 0;
   const Field field = &frames_per_second;
