@@ -129,10 +129,18 @@ StripResult strip_tested(const Fabric& fabric, const KesFlags& flags, const LawR
     if (error.exit_code() != 3) throw;
     result.failure = error.what();
   }
-  if (!flags.options.quiet)
-    std::cerr << fabric.name << ", " << law.name << ", strip " << mesh << ": "
-              << (result.failure.empty() ? "tested" : result.failure) << std::endl;
+  if (!flags.options.quiet && result.failure.empty())
+    std::cerr << fabric.name << ", " << law.name << ", strip " << mesh << ": tested" << std::endl;
   return result;
+}
+
+// The others of them are missing in the tables.
+void warn_of_failures(const std::vector<KesFabric>& fabrics, Run& run) {
+  for (const KesFabric& fabric : fabrics)
+    for (const KesResult& result : fabric.results)
+      for (const StripResult& strip : result.strips)
+        if (!strip.failure.empty())
+          run.warn(fabric.fabric.name + ", " + result.law + ", strip " + strip.mesh + ": " + strip.failure);
 }
 
 // Not a single strip could be tested.
@@ -199,6 +207,7 @@ int run_kes(const CommandLine& line) {
   refuse_failures(results);
 
   Run run(line, flags.options, resolved(flags, laws, fabrics));
+  warn_of_failures(results, run);
   write_metrics(run, results);
   write_tables(run, results, flags.protocol);
   if (!flags.options.no_images) write_plots(run, results, flags.protocol);

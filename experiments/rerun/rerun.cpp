@@ -6,9 +6,12 @@
 
 #include "experiments/rerun/recorded_workflow.h"
 #include "experiments/workbench/app/gpu_choice.h"
+#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/report.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -58,15 +61,25 @@ bool takes(const Experiment& experiment, const std::string& key) {
   return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
 }
 
+// A warning of a run that is over: said, and kept in its manifest and on its page.
+void warn_of(const fs::path& folder, const std::string& text) {
+  std::cerr << "warning: " << text << std::endl;
+  const fs::path file = folder / "manifest.json";
+  Json manifest = read_json(file);
+  manifest["warnings"].push_back(text);
+  write_text(file, manifest.dump(2) + "\n");
+  if (fs::exists(folder / "report.html")) write_report(folder);
+}
+
 // "state 70f23134675a1e81, as recorded"
-void say_outcome(const Manifest& before, const fs::path& folder) {
+void say_outcome(const Manifest& before, const fs::path& folder, bool quiet) {
   const std::optional<Manifest> now = manifest_or_none(folder / "manifest.json");
   if (!now || !now->state_hash || !before.state_hash) return;
-  if (now->state_hash == before.state_hash)
+  if (now->state_hash != before.state_hash)
+    warn_of(folder, "state " + *now->state_hash + " differs from the recorded " + *before.state_hash +
+                        ": `hysteron verify` tells in what");
+  else if (!quiet)
     std::cerr << "state " << *now->state_hash << ", as recorded" << std::endl;
-  else
-    std::cerr << "state " << *now->state_hash << " differs from the recorded " << *before.state_hash
-              << ": `hysteron verify` tells in what" << std::endl;
 }
 
 // Of all runs below a folder, with what the line asks of each.
@@ -105,7 +118,7 @@ int run_rerun(const CommandLine& line) {
   repeated.command = command_of(repeated);
   choose_gpu(repeated);
   const int exit_code = experiment.run(repeated);
-  if (last_text(line.flags, "quiet", "") != "true") say_outcome(run.manifest, out);
+  say_outcome(run.manifest, out, last_text(line.flags, "quiet", "") == "true");
   return exit_code;
 }
 

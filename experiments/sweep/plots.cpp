@@ -131,7 +131,7 @@ class StudyPlots {
     const Groups panels = grouped(all(), others);
     const std::string name = "plot_" + metric.name + "-" + axis(x).key;
     if (panels.size() > kMostPanels) {
-      run_.progress(fmt::format("{}: {} panels are too many to be drawn", name, panels.size()));
+      run_.warn(fmt::format("{}: {} panels are too many to be drawn", name, panels.size()));
       return;
     }
     render::Panels page{fmt::format("{}: {} over {}", study_.experiment, metric.words, axis(x).key),
@@ -212,7 +212,7 @@ class StudyPlots {
     const Groups maps = grouped(all(), {grid.begin() + 2, grid.end()});
     const std::string name = "plot_" + metric.name + "-map";
     if (maps.size() > kMostPanels) {
-      run_.progress(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
+      run_.warn(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
       return;
     }
     const Groups columns = grouped(all(), {x});

@@ -21,6 +21,7 @@
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
 #include "experiments/workbench/app/time_left.h"
+#include "experiments/workbench/compare/column_warnings.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
@@ -182,6 +183,7 @@ void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const
   const auto stage = run.stage("runs");
   Progress progress(run, runs.size());
   bool none_complete = true;
+  ColumnWarnings warnings;
   run_columns(
       runs, jobs,
       [&](SweepColumn& column) {
@@ -189,20 +191,25 @@ void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const
         progress.ended(column);
         if (column.stopped.empty() && std::exchange(none_complete, false))
           warn_of_unknown_metric(run, study, column);
+        warnings.hear(column);
         forget_the_scene(column);
       },
       [&](const std::string& line) { progress.running(line); });
+  warnings.say(run);
   progress.stop();
   progress.note(run, std::min(jobs.at_once, static_cast<int>(processes_of(runs, jobs))));
 }
 
 void collect(Run& run, std::vector<SweepColumn>& runs) {
   std::size_t failed = 0;
+  ColumnWarnings warnings;
   for (SweepColumn& column : runs) {
     recall_outcome(column);
+    warnings.hear(column);
     forget_the_scene(column);
     if (!column.stopped.empty()) ++failed;
   }
+  warnings.say(run);
   run.metric("runs_count", runs.size());
   run.metric("failed_count", failed);
 }

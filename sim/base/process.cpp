@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -122,9 +123,17 @@ std::string exchange(Pipes& pipes, std::string_view text,
   return errors;
 }
 
+// What a program warns of it says before it fails, and is not why.
 std::string first_line_with_text(const std::string& said) {
-  const size_t begin = said.find_first_not_of(" \t\r\n");
-  return begin == std::string::npos ? "it said nothing" : said.substr(begin, said.find('\n', begin) - begin);
+  std::string first;
+  for (size_t begin = 0; (begin = said.find_first_not_of(" \t\r\n", begin)) != said.npos;) {
+    const size_t end = std::min(said.find('\n', begin), said.size());
+    const std::string line = said.substr(begin, end - begin);
+    if (!line.starts_with("warning: ")) return line;
+    if (first.empty()) first = line;
+    begin = end;
+  }
+  return first.empty() ? "it said nothing" : first;
 }
 
 // A child that exits before reading its input must not end us.

@@ -10,7 +10,7 @@ namespace hysteron {
 struct ProcessResult {
   bool started = false;
   int exit_code = -1;            // -1 if it was not started or a signal ended it
-  std::string first_error_line;  // of what it wrote to stderr that is not blank
+  std::string first_error_line;  // of what it wrote to stderr that is not blank, and no "warning: ..."
 };
 
 // Runs `words` (the first is searched in PATH), writes `input` to its stdin and waits.  `said`, which must

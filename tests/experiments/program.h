@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include "tests/experiments/folder.h"
@@ -12,6 +13,15 @@ struct Outcome {
   int exit_code;
   std::string out, err;
 };
+
+// What is said on stderr beside warnings.
+inline std::string without_warnings(const std::string& err) {
+  std::istringstream lines(err);
+  std::string rest;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("warning: ")) rest += line + "\n";
+  return rest;
+}
 
 // HYSTERON_PROGRAM is defined by the build.
 inline Outcome program(const std::string& arguments) {

@@ -78,6 +78,11 @@ FirstRun& first_run() {
   return run;
 }
 
+std::string& reason_of_no_manifest() {
+  static thread_local std::string reason;
+  return reason;
+}
+
 void remember_first(const fs::path& folder, bool json) {
   if (!first_run().started && !json) first_run().folder = folder;
   first_run().started = true;
@@ -116,9 +121,11 @@ Run::~Run() {
     write_manifest(false);
   } catch (const Error& error) {
     // The exception that ended the run is on its way; this one can only be mentioned.
-    std::cerr << "hysteron: " << error.what() << std::endl;
+    reason_of_no_manifest() = error.what();
   }
 }
+
+const std::string& Run::unwritten() { return reason_of_no_manifest(); }
 
 const fs::path& Run::first_folder() { return first_run().folder; }
 
@@ -185,7 +192,7 @@ void Run::plot(const std::string& name, const std::function<void(const fs::path&
   } catch (const Error& error) {
     for (const char* ending : kPlotEndings) forget(name + ending);
     manifest_.plots_missing.push_back(name + ": " + error.what());
-    warn("a plot is missing: " + std::string(error.what()));
+    warn("the plot " + name + " is missing: " + error.what());
   }
 }
 

@@ -45,6 +45,9 @@ class Run {
   // Of the first run of this process, which was asked for; those of its parts lie in it.  "": none, or its
   // manifest goes to stdout.
   static const std::filesystem::path& first_folder();
+  // Why the manifest of a run of this thread could not be written after an exception had ended it; "": it
+  // was.
+  static const std::string& unwritten();
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
   // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
   // sequence the first file stands for all.  Throws Error::request where it would replace another's file.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/workbench/compare/column_warnings.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/key_table.h"
@@ -33,6 +34,9 @@ void run_columns(Run& run, std::vector<SweepColumn>& columns, const SweepJobs& j
   run_columns(
       columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
       [&](const std::string& line) { run.progress(line); });
+  ColumnWarnings warnings;
+  for (const SweepColumn& column : columns) warnings.hear(column);
+  warnings.say(run);
 }
 
 void check_metrics(const std::vector<SweepColumn>& columns, const std::vector<std::string>& names) {

@@ -205,9 +205,8 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
   const ProcessResult result = run_process(words, "");
   if (result.started && result.exit_code == 0) return;
   run.forget(name);
-  const std::string why = result.started ? result.first_error_line : "ffmpeg is not installed";
-  run.manifest().film_missing = why;
-  run.warn("the film is missing: " + why);
+  run.manifest().film_missing = result.started ? result.first_error_line : "ffmpeg is not installed";
+  run.warn("compare.video: there is no " + name + ": " + run.manifest().film_missing);
 }
 
 // What the first column notes that notes anything: lists of series, of curves.

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/compare/sweep_columns.h"
+#include "experiments/workbench/compare/column_warnings.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
@@ -81,6 +81,20 @@ Repeated what_came_of(const Repeat& repeat, const SweepColumn& column, const Run
   return {repeat, column.metrics(), column.stopped, unchanged};
 }
 
+// Beyond what the run itself warns of.
+void warn_of(const std::vector<SweepColumn>& columns, Run& run) {
+  ColumnWarnings warnings;
+  const std::vector<std::string>& own = run.manifest().warnings;
+  for (const SweepColumn& column : columns) {
+    if (!column.manifest) continue;
+    std::vector<std::string> texts = column.manifest->warnings;
+    std::erase_if(texts,
+                  [&](const std::string& text) { return std::count(own.begin(), own.end(), text) > 0; });
+    warnings.hear("errors, " + column.name, texts);
+  }
+  warnings.say(run);
+}
+
 // errors.csv: a row for each repeat.
 void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<Repeat>& repeats,
                  const std::vector<SweepColumn>& columns) {
@@ -153,6 +167,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
       columns, jobs,
       [&](const SweepColumn& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
       [&](const std::string& line) { run.progress("errors: " + line); });
+  warn_of(columns, run);
   write_table(run, names, repeats, columns);
   std::vector<Repeated> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
@@ -161,7 +176,7 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   run.manifest().errors_missing = errors.missing;
   for (const std::string& name : names)
     if (is_headline(run.metrics(), name)) run.progress(with_errors(run.metrics(), name));
-  for (const std::string& sentence : errors.missing) run.progress("errors: " + sentence);
+  for (const std::string& sentence : errors.missing) run.warn("errors: " + sentence);
 }
 
 }  // namespace hysteron::experiments

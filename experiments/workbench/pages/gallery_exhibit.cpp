@@ -159,9 +159,13 @@ std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const std::optional<Manifest>& manifest = exhibit.manifest;
   const std::string metrics =
       manifest ? metrics_html(manifest->metrics, !tables.html.empty()) + missing_errors(*manifest) : "";
+  std::vector<Fields> warnings;
+  if (manifest)
+    for (const std::string& text : manifest->warnings) warnings.push_back({{"text", text}});
   return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
                                  {"name", exhibit.name},
                                  {"badge", manifest ? warning(*manifest) : ""},
+                                 {"warnings", warnings},
                                  {"about", manifest ? about_html(*manifest) : ""},
                                  {"pictures", pictures_html(exhibit, form)},
                                  {"metrics", metrics},

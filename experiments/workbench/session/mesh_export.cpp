@@ -89,9 +89,8 @@ void MeshExport::finish(Run& run, const Cloth& cloth) const {
   const auto stage = run.stage("io");
   write_glb(run.path(kAnimation).string(), cloth.mesh, frames);
   if (frames.size() < animation_.instants())
-    run.progress(fmt::format("mesh/cloth.glb has {} of {} instants: viewers bear {} morph targets",
-                             frames.size(), animation_.instants(),
-                             most_morph_targets(cloth.mesh.rest.size())));
+    run.warn(fmt::format("mesh/cloth.glb has {} of {} instants: viewers bear {} morph targets", frames.size(),
+                         animation_.instants(), most_morph_targets(cloth.mesh.rest.size())));
 }
 
 void MeshExport::visit(Archive& archive) {

@@ -49,6 +49,19 @@ TEST_F(Recorded, RunIsRepeatedToTheBit) {
   }
 }
 
+TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
+  record("swing --quick --no-images");
+  edit([](Json& json) { json["state_hash"] = "0123456789abcdef"; });
+  const Outcome outcome = program("rerun " + run().string() + " --quiet --out " + in("again"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string words = " differs from the recorded 0123456789abcdef";
+  EXPECT_NE(outcome.err.find("warning: state "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  const Json warnings = json_in(in("again"))["warnings"];
+  EXPECT_NE(warnings.back().get<std::string>().find(words), std::string::npos) << warnings;
+  EXPECT_NE(text_of(fs::path(in("again")) / "report.html").find(words), std::string::npos);
+}
+
 TEST_F(Recorded, FolderOfRunsIsWrittenAsAWorkflow) {
   record(kDrape);
   fs::create_directories(folder_.path() / "runs" / "other");

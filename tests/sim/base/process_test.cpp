@@ -22,6 +22,16 @@ TEST(Process, GetsItsInputAndGivesItsExitCodeAndFirstLineOfErrors) {
   EXPECT_EQ(result.first_error_line, "said!");
 }
 
+// A run that fails may have warned before.
+TEST(Process, FailsForAnotherReasonThanAWarning) {
+  const auto first_line = [](const std::string& said) {
+    return run_process({"sh", "-c", "printf '" + said + "' >&2"}, "").first_error_line;
+  };
+  EXPECT_EQ(first_line("\\nwarning: thin\\nwarning: coarse\\n  no room\\nmore\\n"), "no room");
+  EXPECT_EQ(first_line("warning: thin\\n"), "warning: thin");
+  EXPECT_EQ(first_line("\\n"), "it said nothing");
+}
+
 TEST(Process, IsHeardLineByLineAsItSpeaks) {
   std::vector<std::string> heard;
   const std::string say = "echo one; echo two; echo wrong >&2; read word; echo \"$word\"; printf half";

@@ -1,6 +1,7 @@
 #include "experiments/workbench/app/run.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "tests/experiments/folder.h"
@@ -83,8 +84,28 @@ TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
   run.finish();
   const Json manifest = manifest_of(folder.path());
   EXPECT_EQ(manifest["plots_missing"], Json::array({"plot_a: no gnuplot"}));
-  EXPECT_EQ(manifest["warnings"], Json::array({"a plot is missing: no gnuplot"}));
+  EXPECT_EQ(manifest["warnings"], Json::array({"the plot plot_a is missing: no gnuplot"}));
   EXPECT_EQ(manifest["files"], Json::array({"plot_b.png", "plot_b.svg"}));
+}
+
+// A disk that is full before the run ends.
+TEST(Run, LeavesItToOthersToSayThatItsManifestCouldNotBeWritten) {
+  const auto run_out_of_disk = [] {
+    const Folder folder;
+    std::optional<test::SmallDisk> full;  // until the run is gone
+    testing::internal::CaptureStderr();
+    try {
+      ExperimentRun run(drape_line(), setup_in(folder.path()));
+      full.emplace(10);
+      throw Error::machine("cannot write metrics.csv: No space left on device");
+    } catch (const Error&) {
+    }
+    full.reset();
+    const bool silent = testing::internal::GetCapturedStderr().empty();
+    return silent && ExperimentRun::unwritten().find("manifest.json") != std::string::npos ? 0 : 1;
+  };
+  EXPECT_EQ(on_a_disk_with(1 << 20, run_out_of_disk), 0);
+  EXPECT_EQ(ExperimentRun::unwritten(), "");
 }
 
 TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {

@@ -298,6 +298,9 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_mesh_error"].is_null());
   EXPECT_TRUE(manifest["metrics"]["bending_friction_J_step_error"].is_number());
   ASSERT_EQ(manifest["errors_missing"].size(), 1);
+  const std::string missing = manifest["errors_missing"][0].get<std::string>();
+  EXPECT_EQ(manifest["warnings"].back(), "errors: " + missing);
+  EXPECT_NE(outcome.err.find("warning: errors: " + missing), std::string::npos) << outcome.err;
   EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
   const TextTable table = read_words(folder.path() / "run/errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();

@@ -103,6 +103,16 @@ TEST_F(Gallery, NamesTheCommandTheDeviceTheMetricAndTheManifest) {
   }
 }
 
+TEST_F(Gallery, SaysWhatRunsWarnOf) {
+  EXPECT_EQ(count_of(page(), "class=\"warning\""), 0);
+  {
+    ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "doubtful"));
+    run.warn("layers < 2 are thin");
+    run.finish();
+  }
+  EXPECT_EQ(count_of(page(), "<p class=\"warning\">Warning: layers &lt; 2 are thin</p>"), 1);
+}
+
 TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
   EXPECT_EQ(count_of(page(), ">incomplete<"), 0);
   { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }
