@@ -28,7 +28,7 @@ std::vector<double> numbers_of(const std::string& text, const std::string& key) 
   std::vector<double> numbers;
   for (const std::string& word : split(text)) {
     const auto number = number_in(word);
-    if (!number || *number <= 0)
+    if (!number || !(*number > 0) || !std::isfinite(*number))
       throw Error::request(key + " = " + text + " must be numbers > 0 separated by commas").of(key, text);
     numbers.push_back(*number);
   }

@@ -21,7 +21,7 @@ constexpr double kFallOfFriction = 0.2;  // of the force range over the way: fri
 class Checks {
  public:
   Checks(const FabLoops& loops, const std::string& file, const std::string& reader)
-      : loops_(loops), before_(file + ": " + loops.name() + ": "), reader_(reader) {}
+      : loops_(loops), file_(file), reader_(reader) {}
 
   void names() const {
     const std::string known[] = {"L", "W", "B", "warp", "weft", "bias"};
@@ -41,13 +41,15 @@ class Checks {
   void branch(std::size_t b) const {
     const std::vector<double>& distance = loops_.branches[b].distance;
     if (distance.size() < kFewestRows) refuse("a branch has fewer than 4 rows");
-    for (const double d : distance)
-      if (!(d > 0 && d < kMostStretch * loops_.gauge) || (loops_.bends() && d >= loops_.gauge))
-        refuse(fmt::format("clamps at {:g} m do not fit a gauge of {:g} m", d, loops_.gauge));
+    for (std::size_t i = 0; i < distance.size(); ++i)
+      if (const double d = distance[i];
+          !(d > 0 && d < kMostStretch * loops_.gauge) || (loops_.bends() && d >= loops_.gauge))
+        refuse(fmt::format("clamps at {:g} m do not fit a gauge of {:g} m", d, loops_.gauge), line(b, i));
     order(b);
     if (b > 0 && std::abs(distance.front() - loops_.branches[b - 1].distance.back()) > kGap * way(b))
       refuse(fmt::format("branch {} begins at {:g} m, far from where the one before it ends, {:g} m", b,
-                         distance.front(), loops_.branches[b - 1].distance.back()));
+                         distance.front(), loops_.branches[b - 1].distance.back()),
+             line(b, 0));
   }
 
   void start() const {
@@ -60,29 +62,37 @@ class Checks {
   void forces(int cycle) const {
     const BranchForces force = forces_of(loops_);
     const double range = force_range(force, cycle);
+    const std::string first = line(2 * static_cast<std::size_t>(cycle), 0);
     if (!(range > 0))
       refuse(fmt::format("the force is {:g} N in all rows of cycle {}, and must vary",
-                         force[2 * cycle][0] * loops_.width, cycle + 1));
+                         force[2 * cycle][0] * loops_.width, cycle + 1),
+             first);
     const double longest = std::max(way(2 * cycle), way(2 * cycle + 1));
     const double area = loop_area(loops_, force, cycle) / (range * longest);
     const double rise = slope(force, cycle) * longest / range;
     // Weight makes a strip that bends up push less as it goes on.
     const bool falls = rise < -kFallOfFriction && (!loops_.bends_up() || area < -kWorkOfNoise);
     if (falls)
-      refuse(
-          fmt::format("in cycle {} forces fall as the clamps part, and must rise, tension being positive: "
-                      "turn the sign of the forces",
-                      cycle + 1));
+      refuse(fmt::format("in cycle {} forces fall as the clamps part, and must rise, tension being positive: "
+                         "turn the sign of the forces",
+                         cycle + 1),
+             first);
     if (area < -kWorkOfNoise)
-      refuse(
-          fmt::format("over cycle {} the strip gives back more work than it takes: its rows run backwards "
-                      "in time, or the sign of the forces is turned",
-                      cycle + 1));
+      refuse(fmt::format("over cycle {} the strip gives back more work than it takes: its rows run backwards "
+                         "in time, or the sign of the forces is turned",
+                         cycle + 1),
+             first);
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw Error::request(before_ + what).in(reader_);
+  [[noreturn]] void refuse(const std::string& what, const std::string& line = "") const {
+    throw Error::request(file_ + line + ": " + loops_.name() + ": " + what).in(reader_);
+  }
+
+  // ":17" of a row that was read there.
+  std::string line(std::size_t b, std::size_t row) const {
+    const std::vector<int>& lines = loops_.branches[b].lines;
+    return lines.empty() ? "" : ":" + std::to_string(lines[row]);
   }
 
   // 1 where the clamps part on this branch, -1 where they approach.
@@ -95,28 +105,34 @@ class Checks {
     return *high - *low;
   }
 
-  // The farthest that the clamps come back from where they were, over the way, going by this sense.
-  double comes_back(std::size_t b, int sense) const {
-    double farthest = -INFINITY, back = 0;
-    for (const double d : loops_.branches[b].distance) {
-      farthest = std::max(farthest, sense * d);
-      back = std::max(back, farthest - sense * d);
+  // The first row at which the clamps, going by this sense, have come back by more than a ripple; none: the
+  // number of rows.
+  std::size_t comes_back(std::size_t b, int sense) const {
+    const std::vector<double>& distance = loops_.branches[b].distance;
+    double farthest = -INFINITY;
+    for (std::size_t i = 0; i < distance.size(); ++i) {
+      farthest = std::max(farthest, sense * distance[i]);
+      if (farthest - sense * distance[i] > kRipple * way(b)) return i;
     }
-    return back / way(b);
+    return distance.size();
   }
 
   void order(std::size_t b) const {
     if (!(way(b) > 0)) refuse(fmt::format("the clamps do not move on branch {}", b));
-    const double back = comes_back(b, sense(b));
-    if (back <= kRipple) return;
-    const std::string must = sense(b) > 0 ? "parts the clamps" : "brings the clamps together";
-    if (comes_back(b, -sense(b)) <= kRipple)
-      refuse(fmt::format("branch {} goes the wrong way: it {} (branches 0, 2, ... go out, 1, 3, ... back)", b,
-                         must));
+    const std::vector<double>& distance = loops_.branches[b].distance;
+    const std::size_t row = comes_back(b, sense(b));
+    if (row == distance.size()) return;
+    const std::string must = sense(b) > 0 ? "part the clamps" : "bring the clamps together";
+    if (comes_back(b, -sense(b)) == distance.size())
+      refuse(
+          fmt::format("branch {} goes the wrong way: it must {} (branches 0, 2, ... go out, 1, 3, ... back)",
+                      b, must),
+          line(b, row));
     refuse(
-        fmt::format("on branch {}, which {}, they come back by {:.0f} % of their way, at most {:g} % is "
-                    "noise: rows must stand in the order in which they were measured",
-                    b, must, 100 * back, 100 * kRipple));
+        fmt::format("clamps at {:g} m lie back by more than {:g} % of the way of branch {}, which must {}: "
+                    "rows must stand in the order in which they were measured",
+                    distance[row], 100 * kRipple, b, must),
+        line(b, row));
   }
 
   // Of the straight line of force against distance through the cycle [N/m^2].
@@ -131,7 +147,7 @@ class Checks {
   }
 
   const FabLoops& loops_;
-  std::string before_, reader_;
+  std::string file_, reader_;
 };
 
 }  // namespace

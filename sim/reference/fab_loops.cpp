@@ -144,6 +144,7 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     };
     same(loops.gauge, c.gauge);
     same(loops.width, c.width);
+    loops.branches.back().lines.push_back(table.lines[row]);
     loops.branches.back().distance.push_back(unit.metre * number(c.distance));
     loops.branches.back().force.push_back(unit.newton * number(c.force) / loops.width);
   }

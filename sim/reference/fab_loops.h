@@ -11,6 +11,7 @@ namespace hysteron {
 
 struct FabBranch {                      // one way, out or back
   std::vector<double> distance, force;  // of the clamps [m]; per width of the strip, tension > 0 [N/m]
+  std::vector<int> lines;               // of the file that it was read from; empty: of none
 };
 
 struct FabLoops {

@@ -273,7 +273,8 @@ TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
   says([](Row& row) { row[4] = "0"; }, "must vary");
   says([](Row& row) { row[4] = number_text(-std::stod(row[4])); }, "turn the sign of the forces");
   int place = 0;
-  says([&](Row& row) { row[3] = number_text(0.0195 - 0.004 * (place++ * 7 % 13) / 13); }, "come back by");
+  says([&](Row& row) { row[3] = number_text(0.0195 - 0.004 * (place++ * 7 % 13) / 13); },
+       "lie back by more than");
 }
 
 TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
@@ -291,6 +292,8 @@ TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
   std::vector<Flag> bias = flags(file);
   bias.push_back({"fab.directions", "L,B"});
   EXPECT_NE(test::refusal([&] { fit(bias); }).find("must begin with warp and weft"), std::string::npos);
+  bias.back() = {"fab.cycles", "inf"};
+  EXPECT_NE(test::refusal([&] { fit(bias); }).find("must be numbers > 0"), std::string::npos);
   bias.back() = {"fab.cycles", "1.5"};
   EXPECT_NE(test::refusal([&] { fit(bias); }).find("must be whole numbers"), std::string::npos);
 }

@@ -160,7 +160,7 @@ TEST_F(FabRecord, IsReadWhereverTheZeroOfForceIs) {
 
 TEST_F(FabRecord, OfForcesThatDoNotVaryIsRefused) {
   change_forces([](double) { return 0; });
-  EXPECT_TRUE(has(said(), "t: a.csv: L D1: the force is 0 N in all rows of cycle 1, and must vary"))
+  EXPECT_TRUE(has(said(), "t: a.csv:2: L D1: the force is 0 N in all rows of cycle 1, and must vary"))
       << said();
 }
 
@@ -184,14 +184,15 @@ TEST_F(FabRecord, WithBranchesFromTheirEndToTheirBeginningIsRefused) {
     std::reverse(branch.distance.begin(), branch.distance.end());
     std::reverse(branch.force.begin(), branch.force.end());
   }
-  EXPECT_TRUE(has(said(), "branch 0 goes the wrong way")) << said();
+  EXPECT_TRUE(has(said(), "branch 0 goes the wrong way: it must bring the clamps together")) << said();
 }
 
 TEST_F(FabRecord, WithRowsOutOfOrderIsRefused) {
   FabBranch& branch = loops_.branches[1];
   std::swap(branch.distance[4], branch.distance[9]);
   std::swap(branch.force[4], branch.force[9]);
-  EXPECT_TRUE(has(said(), "on branch 1, which parts the clamps, they come back by 25 % of their way"))
+  EXPECT_TRUE(
+      has(said(), "a.csv:28: L D1: clamps at 0.017625 m lie back by more than 5 % of the way of branch 1"))
       << said();
 }
 
@@ -207,7 +208,8 @@ TEST_F(FabRecord, WhoseClampsTurnLateIsRead) {
 
 TEST_F(FabRecord, ThatJumpsBetweenBranchesIsRefused) {
   for (double& distance : loops_.branches[2].distance) distance -= 0.003;
-  EXPECT_TRUE(has(said(), "branch 2 begins at 0.0165 m, far from where the one before it ends, 0.0195 m"))
+  EXPECT_TRUE(has(
+      said(), "a.csv:44: L D1: branch 2 begins at 0.0165 m, far from where the one before it ends, 0.0195 m"))
       << said();
 }
 
