@@ -11,14 +11,13 @@ namespace hysteron::experiments {
 // Largest distance of a vertex from where it was [m].
 double farthest_moved(const std::vector<Eigen::Vector3d>& now, const std::vector<Eigen::Vector3d>& before);
 
-// Steps without inertia until one of them ends in equilibrium and moves no vertex farther than a hundredth of
-// the thickness [m].
 struct Rest {
   double moved = 0;     // by the last step, a vertex at most [m]
   std::string failure;  // why none is near; "": the simulation is at rest
 };
-// Where there is no rest, the simulation is where it was, history, losses and counts included; it is only
-// good for looking at then.
+// Takes steps without inertia until one of them ends in equilibrium and moves no vertex farther than a
+// hundredth of the thickness [m].  Where none does, the simulation is where it was, history, losses and
+// counts included; it is only good for looking at then.
 Rest seek_rest(Simulation& simulation, double thickness);
 
 }  // namespace hysteron::experiments
