@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -22,6 +23,11 @@ void say_last_words(const CommandLine& line) {
   std::cout << closing_words(Run::first_folder()) << std::flush;
 }
 
+int flushed(int exit_code) {
+  if (!std::cout.flush() || std::ferror(stdout)) throw Error::machine("cannot write to standard output");
+  return exit_code;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -29,18 +35,20 @@ int main(int count, char** words) {
   std::optional<CommandLine> line;
   const Ending ending = ending_of(experiment, [&] {
     line = parse_command_line(count, words);
-    if (!line) return 0;
+    if (!line) return flushed(0);
     experiment = line->experiment;
     const Experiment& chosen = experiment_named(experiment);
     if (!chosen.run) throw Error::request("not built yet");
     choose_gpu(*line);
     const int exit_code = chosen.run(*line);
     say_last_words(*line);
-    if (!std::cout.flush()) throw Error::machine("cannot write to standard output");
-    return exit_code;
+    return flushed(exit_code);
   });
   if (ending.error.empty()) return ending.exit_code;
   if (line && ending.exit_code == kCouldNotGoOn) say_last_words(*line);
+  // Where the machine failed, that is why.
+  if (ending.exit_code != kMachineFailed && !Run::unwritten().empty())
+    std::cerr << "hysteron: " << Run::unwritten() << std::endl;
   std::cerr << ending.error << std::endl;
   return ending.exit_code;
 }

@@ -19,6 +19,7 @@
 #include "experiments/bench/sizes.h"
 #include "experiments/bench/table.h"
 #include "experiments/bench/thread_scaling.h"
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/comma_list.h"
@@ -237,7 +238,7 @@ void print(const StepProfile& profile) {
 }
 
 // Numbers of threads to compare; none: as the scene has it.
-std::vector<int> compared_threads(Request& request, const Run& run) {
+std::vector<int> compared_threads(Request& request, Run& run) {
   const Numbers& asked = request.own.profile_threads;
   Scene& scene = request.setup.scene;
   if (asked.empty()) return {scene.threads};
@@ -249,7 +250,7 @@ std::vector<int> compared_threads(Request& request, const Run& run) {
   if (threads.empty())
     throw Error::request(fmt::format("profile-threads: this machine has {} processors", processors));
   if (threads.size() < asked.size())
-    run.progress(fmt::format("{} processors: larger numbers of threads are left out", processors));
+    run.warn(fmt::format("{} processors: larger numbers of threads are left out", processors));
   return threads;
 }
 
@@ -336,6 +337,26 @@ int bench_together(Request& request) {
   return 0;
 }
 
+// What each of its questions leaves of a scene.
+std::vector<DecidedKey> left_out_by(const BenchOptions& own) {
+  const std::set<std::string> machine = {"device", "precision", "threads"};
+  if (own.hard) return unused_but("", machine, "--hard takes steps of other scenes");
+  std::vector<DecidedKey> keys = {{"seconds", "steps are timed", true}};
+  if (own.profile || !own.batch.empty()) return keys;
+  if (own.parts) return unused_but("", machine, "--parts takes steps of other scenes");
+  const auto decided = [&](const char* why, std::initializer_list<const char*> paths) {
+    for (const char* path : paths) keys.push_back({path, why});
+  };
+  const bool in_steps = own.laws && !own.laws_triangles.empty();
+  if (own.laws && !in_steps)
+    decided("the laws are alone", {"law", "element", "integrator", "step", "triangles"});
+  if (in_steps || own.sizes)
+    decided("the table is of several", {"triangles", "integrator", "step", "substeps"});
+  if (in_steps) decided("the table is of several", {"law"});
+  if (!own.laws && !own.sizes) decided("the table is of several", {"law", "param", "element"});
+  return keys;
+}
+
 int run_bench(const CommandLine& line) {
   BenchOptions own;
   const Setup setup = set_up(line, defaults(), bind(kRows, own), [&](Setup&) {
@@ -347,6 +368,7 @@ int run_bench(const CommandLine& line) {
   });
   if (setup.options.checkpoint > 0 || setup.options.resume)
     throw Error::request("--checkpoint and --resume: bench measures runs from their start");
+  refuse_flags(line, left_out_by(own));
   Request request{line, setup, own};
   if (own.hard) return bench_hard_steps(request);
   if (!own.batch.empty()) return bench_together(request);

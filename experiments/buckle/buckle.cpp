@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/specimens/buckling.h"
+#include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
 
@@ -43,6 +44,19 @@ Setup defaults() {
   setup.options.camera_direction = {0.8, -1.0, 0.6};
   setup.options.camera_fov = 24;
   return setup;
+}
+
+std::vector<DecidedKey> decided() {
+  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+  const char* weight = "the strip's weight grows through that of theory, whatever it was";
+  keys.insert(keys.end(), {{"cloth.rotation", "buckle.kind says how the strip stands"},
+                           {"integrator", "it looks for equilibria (quasi-static)"},
+                           {"fabric.density", weight},
+                           {"gravity", weight},
+                           {"seconds", weight},
+                           {"ramp", weight},
+                           {"unload", weight}});
+  return keys;
 }
 
 // Bounds of a strip from its clamp at the origin that may bend down to the side.
@@ -175,7 +189,8 @@ Experiment buckle() {
           .run = run_buckle,
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .decided = decided};
 }
 
 }  // namespace hysteron::experiments

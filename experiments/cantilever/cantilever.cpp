@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "experiments/specimens/cantilever_strip.h"
+#include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/session/session.h"
 
 namespace hysteron::experiments {
@@ -33,13 +35,18 @@ Setup defaults() {
   // 32 cells along: 0.06 % of the drop, and the cheapest within 0.1 % (`hysteron accuracy`, problem sag).
   scene.triangles = 512;
   scene.ramp = scene.unload = 1;
-  scene.seconds = 2;
   scene.step = 0.05;
   scene.device = DeviceChoice::cpu;
   setup.options.fps = 20;
   setup.options.camera_direction = {0.35, -1.0, 0.3};
   setup.options.camera_fov = 24;
   return setup;
+}
+
+std::vector<DecidedKey> decided() {
+  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+  keys.push_back({"seconds", "the weight grows in ramp and goes in unload"});
+  return keys;
 }
 
 bool names_law(const CommandLine& line) {
@@ -73,7 +80,9 @@ int run_cantilever(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   Scene& scene = setup.scene;
+  scene.seconds = scene.ramp + scene.unload;
   if (choice.gamma > 0) {
+    decide(line, setup, {{"fabric.density", "gamma says how heavy the strip is"}});
     if (!names_law(line)) scene.law = "linear";
     scene.fabric.density =
         choice.gamma * scene.fabric.b2 / (scene.gravity.norm() * std::pow(scene.cloth.length, 3));
@@ -137,7 +146,8 @@ Experiment cantilever() {
           .run = run_cantilever,
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .decided = decided};
 }
 
 }  // namespace hysteron::experiments

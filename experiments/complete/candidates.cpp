@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/help.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/scene/assets.h"
 
@@ -28,6 +29,7 @@ std::vector<Candidate> subcommands() {
 }
 
 const std::vector<Candidate> kEverywhere = {{"--help", "options, and what exit codes say"},
+                                            {"--help-all", "the options of every group"},
                                             {"--version", "version and commit"}};
 
 std::vector<Candidate> options(const std::vector<KeyDescription>& keys) {
@@ -46,6 +48,13 @@ std::vector<Candidate> values_of(const KeyDescription& key) {
   if (key.path == "law")
     for (const LawEntry& law : law_catalogue()) laws.push_back({law.name, law.description});
   return laws;
+}
+
+// Behind --help.
+std::vector<Candidate> groups_of(const Experiment& experiment, const std::vector<KeyDescription>& keys) {
+  std::vector<Candidate> all;
+  for (const OptionGroup& group : option_groups(experiment, keys)) all.push_back({group.name, group.about});
+  return all;
 }
 
 // Of an argument that is no option: the words among what it may be, "drape|swing|SCENE".
@@ -99,6 +108,7 @@ std::vector<Candidate> candidates(const std::vector<std::string>& words) {
   std::vector<std::string> rest(words.begin() + 1, words.end());
   const bool whole = rest.back().starts_with("--") && rest.back().find('=') != std::string::npos;
   const std::string option = option_before(rest), begun = rest.back();
+  if (option == "--help") return those_with(begun, groups_of(experiment, keys));
   for (const KeyDescription& key : keys)
     if (!option.empty() && option_name(key) == option && key.type != "flag") {
       std::vector<Candidate> found = those_with(begun, values_of(key));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/crease/specimen.h"
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/archive.h"
@@ -51,6 +52,20 @@ Setup defaults() {
   setup.options.camera_direction = {0.25, -1.0, 0.2};
   setup.options.camera_fov = 22;
   return setup;
+}
+
+std::vector<DecidedKey> decided() {
+  std::vector<DecidedKey> keys = unused_but(
+      "cloth.",
+      {"cloth.shape", "cloth.length", "cloth.width", "cloth.position", "cloth.rotation", "cloth.warp-angle"},
+      "the specimen is one flat strip");
+  keys.insert(keys.end(), {{"cloth.shape", "the specimen is a strip"},
+                           {"cloth.position", "the specimen lies where it is folded"},
+                           {"mesh", "its mesh has its finest columns along the crease", true},
+                           {"seconds", "crease.hold, crease.lift and crease.recovery say how long it takes"},
+                           {"pin", "a clamp and a hand hold the specimen"},
+                           {"obstacle", "crease.fold says what it is folded with"}});
+  return keys;
 }
 
 // A quick release needs inertia, and steps whose own damping is small beside the fabric's, solved as well as
@@ -266,7 +281,8 @@ Experiment crease() {
           .run = run_crease,
           .simulates = true,
           .own_keys = own_keys_of<kRows, page_keys>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .decided = decided};
 }
 
 }  // namespace hysteron::experiments

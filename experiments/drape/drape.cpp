@@ -52,6 +52,10 @@ Setup defaults() {
   return setup;
 }
 
+std::vector<DecidedKey> decided() {
+  return {{"cloth.position", "the specimen lies in the middle of the pedestal"}};
+}
+
 // The tolerance is one for the default integrator: less accurate ones would creep to keep it.
 void keep_the_step(Scene& scene) {
   if (scene.integrator != Integrator::tr_bdf2 && !scene.origin.contains("tolerance")) scene.tolerance = 0;
@@ -209,7 +213,8 @@ Experiment drape() {
           .run = run_drape,
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .decided = decided};
 }
 
 }  // namespace hysteron::experiments

@@ -9,6 +9,7 @@
 
 #include "experiments/fold/flexing_machine.h"
 #include "experiments/fold/material.h"
+#include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/simulated_run.h"
@@ -46,6 +47,15 @@ Setup defaults() {
   setup.options.camera_direction = {0.3, -1.0, 0.22};
   setup.options.camera_fov = 22;
   return setup;
+}
+
+std::vector<DecidedKey> decided() {
+  std::vector<DecidedKey> keys = decided_by_clamped_strips();
+  keys.insert(keys.end(),
+              {{"seconds", "fold.cycles of fold.period and the time after them say how long it takes"},
+               {"phase", "cycles are its phases"},
+               {"obstacle", "the clamps are its obstacles"}});
+  return keys;
 }
 
 struct Request {
@@ -254,7 +264,8 @@ Experiment fold() {
           .run = run_fold,
           .simulates = true,
           .own_keys = own_keys_of<kRows, page_keys>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .decided = decided};
 }
 
 }  // namespace hysteron::experiments

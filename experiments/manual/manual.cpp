@@ -60,7 +60,8 @@ std::string manual_text() {
          section("NAME", "hysteron \\- bending hysteresis of cloth: simulate, measure, picture\n") +
          section("SYNOPSIS",
                  ".B hysteron\n\\fISUBCOMMAND\\fR [\\fIargument\\fR | \\fIoption\\fR]...\n.br\n.B hysteron\n"
-                 "[\\fISUBCOMMAND\\fR] \\fB\\-\\-help\\fR | \\fB\\-\\-version\\fR\n") +
+                 "[\\fISUBCOMMAND\\fR] \\fB\\-\\-help\\fR [\\fIGROUP\\fR] | \\fB\\-\\-help\\-all\\fR | "
+                 "\\fB\\-\\-version\\fR\n") +
          section("SUBCOMMANDS", subcommands()) +
          section("OPTIONS OF RUNS", entries(descriptions(bind_options(options)))) +
          section("KEYS OF SCENES",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/workbench/app/decided_keys.h"
 #include "sim/base/error.h"
 #include "sim/mesh/builders.h"
 
@@ -56,6 +57,20 @@ ClampedMesh clamped_mesh(const std::string& family, double free_length, double w
   add_column(mesh, 0, -d, d, growth);
   if (clamps > 1) add_column(mesh, between, between + d, d, growth);
   return {flat_mesh(growth.points, std::move(growth.triangles), "strip"), d, between + clamps * d};
+}
+
+std::vector<DecidedKey> unused_by_clamped_meshes() {
+  return unused_but(
+      "cloth.",
+      {"cloth.shape", "cloth.length", "cloth.width", "cloth.position", "cloth.rotation", "cloth.warp-angle"},
+      "the specimen is one flat rectangle, meshed to fit its clamp");
+}
+
+std::vector<DecidedKey> decided_by_clamped_strips() {
+  std::vector<DecidedKey> keys = unused_by_clamped_meshes();
+  keys.push_back({"cloth.shape", "the specimen is a strip"});
+  keys.push_back({"pin", "clamps hold the strip"});
+  return keys;
 }
 
 Pin held_between(double from, double to) {

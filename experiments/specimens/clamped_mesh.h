@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "experiments/workbench/app/experiment.h"
 #include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
@@ -22,6 +23,11 @@ struct ClampedMesh {
 // the free end [m].  About `triangles` triangles on it.  Error::request for impossible meshes.
 ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
                          int clamps, unsigned seed);
+
+// Keys of scenes that say nothing of such a mesh, and what then holds it.
+std::vector<DecidedKey> unused_by_clamped_meshes();
+// The same, and what is decided where the cloth is always such a strip.
+std::vector<DecidedKey> decided_by_clamped_strips();
 
 // Holds what lies in between along x at rest, over the whole width [m].
 Pin held_between(double from, double to);

@@ -10,6 +10,7 @@
 #include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
@@ -185,6 +186,9 @@ class StudyFile {
   const KeyDescription& known_key(const std::string& key, const TomlNode& node) const {
     if (kOfTheSweep.contains(key))
       throw refusal(node, key + " is given to sweep (--" + key + "), not to its runs").of(key, "");
+    for (const DecidedKey& decided : decided_by(study_.experiment))
+      if (decided.path == key)
+        throw refusal(node, key + " cannot be set: " + decided_words(study_.experiment, decided)).of(key, "");
     if (key.starts_with("param.")) return find_key(keys_, "param", at(node)).description;
     return find_key(keys_, key == "fabric" ? "fabric.name" : key, at(node)).description;
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiments/specimens/clamped_mesh.h"
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/identification/decay_shape.h"
@@ -120,10 +121,14 @@ void limit_to_quick(Setup& setup) {
 
 // Meshes that are built here have a column of vertices on either side of the clamp's end; of others, all
 // vertices up to there are held.  None where the scene has pins of its own.
-std::optional<Cloth> clamp(Scene& scene) {
+std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
+  Scene& scene = setup.scene;
   if (!scene.pin.empty()) return {};
   const bool rectangle = scene.cloth.shape == "strip" || scene.cloth.shape == "square";
-  if (rectangle && !scene.mesh.ends_with(".obj")) return clamp_at(scene, kClamp);
+  if (rectangle && !scene.mesh.ends_with(".obj")) {
+    decide(line, setup, unused_by_clamped_meshes());
+    return clamp_at(scene, kClamp);
+  }
   scene.pin.push_back(held_between(-1, kClamp));
   return {};
 }
@@ -132,7 +137,7 @@ int run_swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
   const float length = static_cast<float>(setup.scene.cloth.length),
               width = static_cast<float>(setup.scene.cloth.width);
-  std::optional<Cloth> clamped = clamp(setup.scene);
+  std::optional<Cloth> clamped = clamp(line, setup);
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_tip", "plot_energy"});

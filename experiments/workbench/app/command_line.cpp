@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iostream>
 #include <string_view>
 
-#include "experiments/workbench/app/exit_codes.h"
+#include "experiments/workbench/app/help.h"
 #include "experiments/workbench/app/run.h"
 #include "sim/base/error.h"
 #include "sim/scene/keys.h"
@@ -25,23 +26,37 @@ struct Command {
 
 CLI::Option* add_flag(CLI::App& app, const KeyDescription& key) {
   const std::string name = option_name(key);
-  if (key.type == "flag") return app.add_flag(name)->description(option_help(key));
-  CLI::Option* option = app.add_option(key.path == "fabric.name" ? name + ",--" + key.path : name)
-                            ->description(option_help(key));
+  if (key.type == "flag") return app.add_flag(name);
+  CLI::Option* option = app.add_option(key.path == "fabric.name" ? name + ",--" + key.path : name);
   option->expected(1)->type_name(key.type);
   if (key.type == "name=value") return option->take_all()->allow_extra_args(false);
   return option->take_last();
 }
 
-void add_command(CLI::App& program, const Experiment& experiment, Defaults defaults, Command& command) {
+// The experiment's own, then those of every simulated run.
+std::vector<KeyDescription> every_option_of(const Experiment& experiment, Defaults defaults) {
+  std::vector<KeyDescription> keys;
+  if (experiment.own_keys) keys = experiment.own_keys();
+  if (!experiment.simulates) return keys;
+  const bool shown = defaults == Defaults::shown && experiment.defaults;
+  Setup setup = shown ? experiment.defaults() : Setup();
+  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
+  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
+  for (KeyDescription& key : general) {
+    if (!shown) key.usual.clear();
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+// What the experiment decides itself, too: what it says to such a flag is more than that it is unknown.
+void add_command(CLI::App& program, const Experiment& experiment, Command& command) {
   command.experiment = &experiment;
   command.app = program.add_subcommand(experiment.name, experiment.question);
   command.app->allow_extras();
   command.app->set_version_flag("--version", program_version());
-  command.app->footer(exit_codes_text(experiment.differs));
-  if (experiment.hidden) command.app->group("");
   if (!experiment.run) return;
-  for (const KeyDescription& key : options_of(experiment, defaults))
+  for (const KeyDescription& key : every_option_of(experiment, Defaults::left_out))
     command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
   if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);
 }
@@ -64,6 +79,38 @@ std::string shell_command(int count, const char* const* words) {
   return shell_text(all);
 }
 
+// Of an option that wants a value CLI11 takes any next word for it, an option as well, and so it does for one
+// that is empty, "--key=".
+std::vector<std::string> with_their_values(const std::vector<std::string>& words, const Command& command) {
+  const auto wants = [&](const std::string& name) {
+    return std::any_of(command.flags.begin(), command.flags.end(), [&](const auto& flag) {
+      return flag.second->get_items_expected_max() > 0 && flag.second->check_name(name);
+    });
+  };
+  std::vector<std::string> all;
+  std::size_t i = 0;
+  for (; i < words.size() && words[i] != "--"; ++i) {
+    const std::size_t equals = words[i].find('=');
+    const std::string name = words[i].substr(0, equals);
+    all.push_back(words[i]);
+    if (!name.starts_with("--") || !wants(name)) continue;
+    if (equals + 1 == words[i].size()) {
+      all.back() = name;
+      all.emplace_back();
+    } else if (equals == std::string::npos && i + 1 < words.size()) {
+      const std::string& value = words[++i];
+      if (value.starts_with("--"))
+        throw Error::request(name + " needs a value, and " + value + " is an option: " + name + "=" + value +
+                             " if it is not")
+            .of(name.substr(2), value)
+            .in(command.experiment->name);
+      all.push_back(value);
+    }
+  }
+  all.insert(all.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+  return all;
+}
+
 // CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
 // and what was meant.
 void refuse_unknown(const Command& command) {
@@ -75,12 +122,12 @@ void refuse_unknown(const Command& command) {
   if (!word.starts_with('-')) throw Error::request("unexpected argument \"" + word + "\"").in(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
+  const std::string owner = whose(word.substr(std::min(word.find_first_not_of('-'), word.size())));
   const std::string nearest = nearest_name(word, known);
-  throw Error::request(
-      "unknown option " + word +
-      (nearest.empty() ? "; see hysteron " + experiment + " --help" : "; did you mean " + nearest + "?"))
-      .of(word, "")
-      .in(experiment);
+  std::string more = owner;
+  if (!nearest.empty()) more = "did you mean " + nearest + "?" + (owner.empty() ? "" : " (" + owner + ")");
+  if (more.empty()) more = "see hysteron " + experiment + " --help";
+  throw Error::request("unknown option " + word + "; " + more).of(word, "").in(experiment);
 }
 
 // A word before the subcommand, or instead of one.
@@ -111,17 +158,13 @@ CommandLine taken_apart(const Command& command, std::string shell_command) {
 }  // namespace
 
 std::vector<KeyDescription> options_of(const Experiment& experiment, Defaults defaults) {
-  std::vector<KeyDescription> keys;
-  if (experiment.own_keys) keys = experiment.own_keys();
-  if (!experiment.simulates) return keys;
-  const bool shown = defaults == Defaults::shown && experiment.defaults;
-  Setup setup = shown ? experiment.defaults() : Setup();
-  std::vector<KeyDescription> general = descriptions(bind_options(setup.options));
-  for (const KeyDescription& key : descriptions(bind_scene(setup.scene))) general.push_back(key);
-  for (KeyDescription& key : general) {
-    if (!shown) key.usual.clear();
-    keys.push_back(std::move(key));
-  }
+  std::vector<KeyDescription> keys = every_option_of(experiment, defaults);
+  if (!experiment.decided) return keys;
+  const std::vector<DecidedKey> decided = experiment.decided();
+  std::erase_if(keys, [&](const KeyDescription& key) {
+    return std::any_of(decided.begin(), decided.end(),
+                       [&](const DecidedKey& own) { return own.path == key.path; });
+  });
   return keys;
 }
 
@@ -144,18 +187,35 @@ std::string shell_text(const std::vector<std::string>& words) {
   return text;
 }
 
+namespace {
+
+void parse(CLI::App& program, const std::vector<std::string>& words) {
+  std::vector<const char*> all = {"hysteron"};
+  for (const std::string& word : words) all.push_back(word.c_str());
+  program.parse(static_cast<int>(all.size()), all.data());
+}
+
+// Of the subcommand that the words begin with, the value that each option is given.
+std::vector<std::string> checked(const std::vector<std::string>& words,
+                                 const std::vector<Command>& commands) {
+  for (const Command& command : commands)
+    if (!words.empty() && words.front() == command.experiment->name) return with_their_values(words, command);
+  return words;
+}
+
+}  // namespace
+
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known) {
-  CLI::App program("Bending hysteresis of cloth: simulate, measure, picture", "hysteron");
+  const std::vector<std::string> given(words + 1, words + count);
+  if (const auto help = help_asked(given, known, terminal_width())) return std::cout << *help, std::nullopt;
+  CLI::App program("", "hysteron");
+  program.set_help_flag();
   program.set_version_flag("--version", program_version());
-  program.footer(exit_codes_text("what was compared differs"));
   program.allow_extras();
   program.require_subcommand(0, 1);
   std::vector<Command> commands(known.size());
-  const bool for_help = std::any_of(
-      words, words + count, [](const std::string_view word) { return word == "--help" || word == "-h"; });
-  for (std::size_t i = 0; i < commands.size(); ++i)
-    add_command(program, known[i], for_help ? Defaults::shown : Defaults::left_out, commands[i]);
+  for (std::size_t i = 0; i < commands.size(); ++i) add_command(program, known[i], commands[i]);
   const auto chosen = [&]() -> const Command* {
     for (const Command& command : commands) {
       if (command.app->parsed()) return &command;
@@ -163,7 +223,7 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
     return nullptr;
   };
   try {
-    program.parse(count, words);
+    parse(program, checked(given, commands));
   } catch (const CLI::Success& asked) {
     program.exit(asked);
     return std::nullopt;

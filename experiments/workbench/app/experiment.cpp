@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
@@ -24,7 +25,34 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
   return text;
 }
 
+std::string whose(const std::string& key) {
+  const auto is_it = [&](const KeyDescription& description) { return description.path == key; };
+  const std::vector<KeyDescription> of_scenes = scene_keys();
+  if (std::any_of(of_scenes.begin(), of_scenes.end(), is_it))
+    return "it is an option of what simulates a cloth";
+  std::vector<std::string> owners;
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.hidden || !experiment.own_keys) continue;
+    const std::vector<KeyDescription> own = experiment.own_keys();
+    if (std::none_of(own.begin(), own.end(), is_it)) continue;
+    if (key.starts_with(std::string(experiment.name) + "."))
+      return "it is an option of " + std::string(experiment.name);
+    owners.push_back(experiment.name);
+  }
+  return owners.empty() ? "" : "it is an option of " + join(owners, ", ");
+}
+
 namespace {
+
+// The same with whose key it is, where it is another experiment's.
+Error with_owner(const Error& error, const Keys& known) {
+  std::vector<KeyDescription> all = scene_keys();
+  for (const BoundKey& key : known) all.push_back(key.description);
+  if (std::any_of(all.begin(), all.end(), [&](const KeyDescription& key) { return key.path == error.key(); }))
+    return error;
+  const std::string owner = error.key().empty() ? "" : whose(error.key());
+  return owner.empty() ? error : Error::request(error.what() + ("; " + owner)).of(error.key(), "");
+}
 
 // Without those that change no file of a run, or whose outcome is in the scene.
 std::string choices_of(Keys keys) {
@@ -39,10 +67,15 @@ std::string choices_of(Keys keys) {
 
 Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
              const std::function<void(Setup&)>& quick) {
+  decide(line, setup, decided_by(line.experiment));
   Keys extra = bind_options(setup.options);
   extra.insert(extra.end(), own.begin(), own.end());
   setup.options.scene = last_text(line.flags, "scene", setup.options.scene);
-  if (!setup.options.scene.empty()) apply_scene(setup, line.experiment, setup.options.scene, extra);
+  try {
+    if (!setup.options.scene.empty()) apply_scene(setup, line.experiment, setup.options.scene, extra);
+  } catch (const Error& error) {
+    throw with_owner(error, extra);
+  }
   apply_flags(setup.scene, line.flags, extra);
   if (setup.options.quick && quick) {
     quick(setup);  // which may ask what the flags say

@@ -28,6 +28,13 @@ std::string last_text(const std::vector<Flag>& flags, const std::string& path, c
 
 struct Setup;
 
+// A key of scenes that an experiment sets itself, whatever is asked for, or does not use.
+struct DecidedKey {
+  std::string path;     // "cloth.position"; of an array of tables its name: "pin"
+  std::string why;      // "the specimen lies on the pedestal"
+  bool unused = false;  // it stays in the scene as it was given, and changes nothing
+};
+
 struct Experiment {
   const char* name;
   const char* question;                      // one line for --help
@@ -39,6 +46,8 @@ struct Experiment {
   // What the pictures of that line frame where its scene decides, for runs beside each other; nothing where
   // it draws none or says so itself.  Null: it is the same for all.
   std::optional<render::Box> (*framing)(const CommandLine&) = nullptr;
+  std::vector<DecidedKey> (*decided)() =
+      nullptr;               // of an experiment that simulates: flags of these are refused; null: none
   const char* names = "";    // what CommandLine::names are ("DIR"); "": not allowed
   const char* differs = "";  // what exit code 4 says; "": it does not occur
   bool hidden = false;       // called by scripts of the project: not in --help
@@ -48,6 +57,9 @@ struct Experiment {
 const std::vector<Experiment>& experiments();
 // The one with this name, which there must be.
 const Experiment& experiment_named(const std::string& name);
+
+// "it is an option of drape", of a key that no scene has; "" where no experiment has it.
+std::string whose(const std::string& key);
 
 // A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
 // experiment's own keys, bound to its own struct; `quick` is what --quick makes of scene, options and those
@@ -61,6 +73,7 @@ struct Setup {
       {};  // arrays of tables of a scene file that the experiment reads itself
   std::vector<std::string> asked_metrics =
       {};  // of the scene file: said at the end, and --errors finds theirs, beside the headlines'
+  std::vector<DecidedKey> decided = {};  // by the experiment: what a file says of them is not done
 };
 Setup set_up(const CommandLine& line, Setup defaults, const Keys& own = {},
              const std::function<void(Setup&)>& quick = {});

@@ -47,7 +47,7 @@ const KeyRow<Options> kRows[] = {
     {"quick", at<&O::quick>, "", any(), "", "a small version of the same question; flags that are given take precedence"},
     {"dump-scene", at<&O::dump_scene>, "", any(), "", "write the resolved scene to this TOML file, with where each value comes from, and stop"},
     {"explain", at<&O::explain>, "", any(), "", "print what this scene includes and leaves out, and stop"},
-    {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr"},
+    {"quiet", at<&O::quiet>, "", any(), "", "no progress on stderr; warnings are said"},
     {"json", at<&O::json>, "", any(), "", "print the manifest on stdout"},
 };
 // clang-format on

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/time_left.h"
@@ -137,6 +138,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
   reserve(probes_.files(), probes_.plots());
   reserve(MeshExport::files(setup_.options.export_format));
   if (setup_.options.errors) reserve({"errors.csv"});
+  for (const std::string& words : lost_words(line, setup)) run_->warn(words);
   watch_crossings();
 }
 

@@ -45,6 +45,7 @@ TEST(Completion, OffersTheValuesOfAnOptionHoweverItIsTyped) {
   EXPECT_EQ(offered({"swing", "--law", "prand"}), Words{"prandtl"});
   EXPECT_EQ(offered({"swing", "--quick", ""}), Words{}) << "no value";
   EXPECT_EQ(offered({"swing", "--out", ""}), Words{}) << "a file";
+  EXPECT_EQ(offered({"drape", "--help", "s"}), (Words{"scene", "solver"}));
 }
 
 TEST(Completion, OffersArgumentsThatAreWords) {

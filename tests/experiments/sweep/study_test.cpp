@@ -108,6 +108,9 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
       {swing + "seeds = 2\n[scene]\nout = \"x\"\n",
        "out is given to sweep (--out), not to its runs (s.toml:4)"},
       {swing + "seeds = 2\n[scene]\ntriangels = 10\n", "did you mean triangles?"},
+      {"experiment = \"cantilever\"\nseeds = 2\n[scene]\nseconds = 9\n",
+       "seconds cannot be set: cantilever sets seconds itself: the weight grows in ramp and goes in unload "
+       "(s.toml:4)"},
       {axis + "key = \"fabric\"\nvalues = [\"woll-tropical\"]\n", "did you mean wool-tropical?"},
       {axis + "key = \"step\"\nvalues = [0.1, -0.1]\n", "step = -0.1 s must be in (0, 1] (s.toml:4)"},
       {axis + "key = \"step\"\nvalues = [0.1, 0.1]\n", "step = 0.1 stands twice among the values (s.toml:4)"},

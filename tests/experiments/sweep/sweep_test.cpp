@@ -72,6 +72,24 @@ TEST_F(Sweep, GoesOnToTheSameTableAndRepeatsNothingThatIsFinished) {
   EXPECT_EQ(table().rows[0], whole.rows[0]) << "kept with its time";
 }
 
+TEST_F(Sweep, WarnsOfWhatItsRunsWarnOf) {
+  write_text(folder_.path() / "scene.toml", "cloth.copies = 2\n");
+  write(
+      "experiment = \"swing\"\n[scene]\nscene = \"scene.toml\"\nno-images = true\ntriangles = 40\nseconds = "
+      "0.02\n"
+      "[[axis]]\nkey = \"law\"\nvalues = [\"linear\", \"dahl\"]\n");
+  for (const char* how : {"--quiet", "--quiet --collect"}) {
+    const Outcome outcome = run(how);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto warnings = manifest("out")["warnings"];
+    ASSERT_FALSE(warnings.empty());
+    const std::string names = warnings[0].get<std::string>();
+    for (const char* part : {"linear", "dahl", ": cloth.copies = 2 ("})
+      EXPECT_NE(names.find(part), std::string::npos) << warnings;
+    EXPECT_NE(outcome.err.find("warning: "), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   std::string text = kStudy;
   text.replace(text.find("2e-6"), 4, "1.0 ");  // a rigidity above b1

@@ -101,6 +101,31 @@ TEST(CommandLine, RefusesUnknownWordsAndNamesTheNearest) {
 
 TEST(CommandLine, RefusesToWriteToNowhere) {
   EXPECT_EQ(refusal({"drape", "--out", ""}), "drape: --out is empty: name where to write");
+  EXPECT_EQ(refusal({"drape", "--out=", "--quick"}), "drape: --out is empty: name where to write");
+}
+
+TEST(CommandLine, RefusesAnOptionAsTheValueOfAnother) {
+  EXPECT_EQ(refusal({"drape", "--out", "--quick"}),
+            "drape: --out needs a value, and --quick is an option: --out=--quick if it is not");
+  EXPECT_EQ(refusal({"drape", "--param", "--"}),
+            "drape: --param needs a value, and -- is an option: --param=-- if it is not");
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--out=--quick"}), "out"), "--quick");
+  EXPECT_EQ(text_of_flag(*parsed({"drape", "--out=--quick"}), "quick"), "(none)");
+}
+
+TEST(CommandLine, TakesNothingBehindAnEqualsSignForNothing) {
+  const auto line = parsed({"drape", "--reference=", "--quick", "--probe=", "--out", "here"});
+  EXPECT_EQ(text_of_flag(*line, "reference"), "");
+  EXPECT_EQ(text_of_flag(*line, "quick"), "true");
+  EXPECT_EQ(text_of_flag(*line, "probe"), "");
+  EXPECT_EQ(text_of_flag(*line, "out"), "here");
+}
+
+TEST(CommandLine, SaysWhoseAnOptionIs) {
+  EXPECT_EQ(refusal({"drape", "--gamma", "1"}),
+            "drape: unknown option --gamma; it is an option of cantilever");
+  EXPECT_EQ(refusal({"report", "--crease.hold=3"}),
+            "report: unknown option --crease.hold; it is an option of crease");
 }
 
 TEST(CommandLine, RefusesAFlagWithoutItsValueInOneLine) {

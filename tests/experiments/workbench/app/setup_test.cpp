@@ -91,6 +91,14 @@ TEST(Setup, RefusesWhatNoPictureSequenceCanHave) {
   EXPECT_NE(refusal({{"camera.direction", "0 0 0"}}).find("must not be zero"), std::string::npos);
 }
 
+TEST(Setup, SaysWhoseAKeyOfItsFileIs) {
+  const Folder folder;
+  const std::string file = folder.path() / "scene.toml";
+  std::ofstream(file) << "\n[crease]\nhold = 3\n";
+  EXPECT_EQ(refusal({{"scene", file}}),
+            "unknown key crease.hold (" + file + ":3); it is an option of crease");
+}
+
 TEST(Setup, ChecksTheSceneAsAWhole) {
   EXPECT_NE(refusal({{"fabric.b1", "1e-9"}}).find("fabric.b1 = 1e-09 N m (--fabric.b1) must be >= fabric.b2"),
             std::string::npos);

@@ -1,0 +1,87 @@
+#include "experiments/workbench/app/decided_keys.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/manifest.h"
+#include "sim/base/error.h"
+#include "sim/scene/shown_key.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// Of a scene as JSON; null where there is no such key.
+Json value_at(const Json& scene, std::string path) {
+  std::replace(path.begin(), path.end(), '.', '/');
+  const Json::json_pointer place("/" + path);
+  return scene.contains(place) ? scene[place] : Json();
+}
+
+// Null where the catalogue has none of that name.
+const Experiment* in_the_catalogue(const std::string& name) {
+  for (const Experiment& experiment : experiments())
+    if (experiment.name == name) return &experiment;
+  return nullptr;
+}
+
+// Where the tables of that name stand, "x.toml:3"; "" where they are not of a file.
+std::string place_of_tables(const Scene& scene, const std::string& name) {
+  const auto first = scene.origin.find(name + "[0]");
+  return first == scene.origin.end() ? "" : first->second;
+}
+
+}  // namespace
+
+std::vector<DecidedKey> decided_by(const std::string& experiment) {
+  const Experiment* known = in_the_catalogue(experiment);
+  return known && known->decided ? known->decided() : std::vector<DecidedKey>();
+}
+
+std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
+                                   const std::string& why) {
+  std::vector<DecidedKey> keys;
+  for (const KeyDescription& key : scene_keys())
+    if (key.path.starts_with(beginning) && !used.contains(key.path)) keys.push_back({key.path, why, true});
+  return keys;
+}
+
+std::string decided_words(const std::string& experiment, const DecidedKey& key) {
+  return experiment + (key.unused ? " does not use " : " sets ") + key.path + (key.unused ? "" : " itself") +
+         ": " + key.why;
+}
+
+void refuse_flags(const CommandLine& line, const std::vector<DecidedKey>& decided) {
+  for (const Flag& flag : line.flags)
+    for (const DecidedKey& key : decided)
+      if ((flag.path == "fabric" ? "fabric.name" : flag.path) == key.path)
+        throw Error::request("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
+                             decided_words(line.experiment, key))
+            .of(key.path, flag.text);
+}
+
+void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys) {
+  refuse_flags(line, keys);
+  setup.decided.insert(setup.decided.end(), keys.begin(), keys.end());
+}
+
+// A file that was dumped has every key: those that are as the experiment has them by itself ask for nothing.
+std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup) {
+  std::vector<std::string> words;
+  const Experiment* experiment = in_the_catalogue(line.experiment);
+  if (!experiment || !experiment->defaults || setup.decided.empty()) return words;
+  const Json usual = to_json(experiment->defaults().scene), asked = Json::parse(setup.asked),
+             now = to_json(setup.scene);
+  for (const DecidedKey& key : setup.decided) {
+    if (const std::string place = place_of_tables(setup.scene, key.path); !place.empty())
+      words.push_back("[[" + key.path + "]] (" + place +
+                      ") is not used: " + decided_words(line.experiment, key));
+    if (!setup.scene.origin.contains(key.path)) continue;
+    const Json value = value_at(asked, key.path);
+    if (value == value_at(usual, key.path) || (!key.unused && value == value_at(now, key.path))) continue;
+    words.push_back(key.path + " = " + value.dump() + " (" + origin_of(setup.scene, key.path) +
+                    ") is not used: " + decided_words(line.experiment, key));
+  }
+  return words;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,28 @@
+// Keys of scenes that an experiment decides: a flag of one is refused, a file that sets one is told of.
+#pragma once
+
+#include <set>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+// What the experiment of that name always decides; nothing of one that is not in the catalogue.
+std::vector<DecidedKey> decided_by(const std::string& experiment);
+// All keys that begin so but these, which are not used.
+std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
+                                   const std::string& why);
+
+// "fold sets cloth.shape itself: the specimen is a strip"
+std::string decided_words(const std::string& experiment, const DecidedKey& key);
+
+// Error::request where a flag sets one of the keys, "--cloth.shape disc: fold sets cloth.shape itself: ...".
+void refuse_flags(const CommandLine& line, const std::vector<DecidedKey>& decided);
+// The same; and the set-up remembers them, for lost_words().
+void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys);
+
+// What a scene's file asks for that the experiment has not done: a sentence for each such key, with its
+// place.  `setup` is as the experiment has changed it.
+std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,260 @@
+#include "experiments/workbench/app/help.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/exit_codes.h"
+#include "sim/base/error.h"
+#include "sim/base/number_in.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kUsualWidth = 100, kLeastWidth = 40, kWidestName = 28;
+
+struct Group {
+  const char* name;
+  const char* about;
+  std::vector<std::string> beginnings;  // of the keys that it has
+};
+// The last two take what no other does: the keys of scenes, and the options of runs.
+const std::vector<Group>& groups() {
+  static const std::vector<Group> all = {
+      {"fabric",
+       "the fabric's numbers, the law of bending and its parameters",
+       {"fabric.", "law", "param", "element", "force"}},
+      {"solver",
+       "integrator, steps, tolerances, precision",
+       {"integrator", "step", "substeps", "implicit-every", "solver-", "newton-", "tolerance", "ramp",
+        "unload", "linear-", "precision"}},
+      {"pictures",
+       "pictures, camera, meshes and probes that are written",
+       {"size", "fps", "quality", "renderer", "no-images", "look", "curvature-range", "reference", "plain",
+        "light", "background", "camera.", "export", "probe"}},
+      {"scene", "cloth, its mesh and start, gravity, contact, the scene's file", {"scene", "dump-scene"}},
+      {"running", "folder, device, threads, errors, checkpoints, what is printed", {"device", "threads"}}};
+  return all;
+}
+
+// "step" is no beginning of "steps-of-something".
+bool begins(const std::string& path, const std::string& beginning) {
+  const bool open = beginning.ends_with('.') || beginning.ends_with('-');
+  return open ? path.starts_with(beginning) : path == beginning;
+}
+
+std::string group_of(const KeyDescription& key, const std::set<std::string>& of_scenes) {
+  for (const Group& group : groups())
+    for (const std::string& beginning : group.beginnings)
+      if (begins(key.path, beginning)) return group.name;
+  return of_scenes.contains(key.path) ? "scene" : "running";
+}
+
+std::vector<KeyDescription> own_keys_of(const Experiment& experiment) {
+  return experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
+}
+
+bool has(const std::vector<KeyDescription>& keys, const std::string& path) {
+  return std::any_of(keys.begin(), keys.end(), [&](const KeyDescription& key) { return key.path == path; });
+}
+
+// Of a comparison's own options those of the experiment that it compares: "drape" of "drape.disc".
+std::string other_owner(const KeyDescription& key, const std::string& experiment) {
+  const std::string name = key.path.substr(0, key.path.find('.'));
+  if (name == experiment || name == key.path) return "";
+  for (const Experiment& other : experiments())
+    if (other.name == name && has(own_keys_of(other), key.path)) return name;
+  return "";
+}
+
+// Words of a text; lists without spaces that are longer than `most` in parts that end with a comma.
+std::vector<std::string> words_of(const std::string& text, std::size_t most) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) {
+    for (std::size_t comma; word.size() > most && (comma = word.rfind(',', most - 1)) != word.npos;) {
+      words.push_back(word.substr(0, comma + 1));
+      word.erase(0, comma + 1);
+    }
+    words.push_back(word);
+  }
+  return words;
+}
+
+// Lines of whole words; those after the first begin with `indent` spaces, and the first has `begun` already.
+std::string wrapped(const std::string& text, int width, int indent, int begun) {
+  std::string all;
+  int column = begun;
+  for (const std::string& word : words_of(text, static_cast<std::size_t>(width - indent))) {
+    const int length = static_cast<int>(word.size());
+    if (column > indent && column + 1 + length > width) {
+      all += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!all.empty()) {
+      all += ' ';
+      ++column;
+    }
+    all += word;
+    column += length;
+  }
+  return all;
+}
+
+// A line, or more, for each: the name, and beside it what it means.
+std::string entries(const std::vector<std::pair<std::string, std::string>>& all, int width) {
+  int widest = 0;
+  for (const auto& [name, meaning] : all)
+    widest = std::max(widest, std::min(static_cast<int>(name.size()), kWidestName));
+  const int indent = std::min(widest + 4, width / 2);
+  std::string text;
+  for (const auto& [name, meaning] : all) {
+    text += "  " + name;
+    const int after = 2 + static_cast<int>(name.size());
+    text += after + 2 > indent ? "\n" + std::string(indent, ' ') : std::string(indent - after, ' ');
+    text += wrapped(meaning, width, indent, indent) + "\n";
+  }
+  return text;
+}
+
+std::string options_text(const std::vector<KeyDescription>& keys, int width) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const KeyDescription& key : keys)
+    all.emplace_back(option_name(key) + (key.type == "flag" ? "" : " " + key.type), option_help(key));
+  return entries(all, width);
+}
+
+std::string counted_options(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " option" : " options");
+}
+
+std::string group_text(const Experiment& experiment, const OptionGroup& group, int width) {
+  const bool own = group.name == experiment.name;
+  const std::string title = own ? "Options of " + group.name : "Options: " + group.about;
+  return wrapped(title, width, 0, 0) + "\n" + options_text(group.keys, width);
+}
+
+// Those that every subcommand has and, unless it is "", what 4 says.
+std::string exit_codes_text(const std::string& differs, int width) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const ExitCode& exit : kExitCodes) all.emplace_back(std::to_string(exit.code), exit.meaning);
+  if (!differs.empty()) all.emplace_back(std::to_string(kDiffers), differs);
+  return "Exit codes:\n" + entries(all, width);
+}
+
+// The other groups, a line each.
+std::string list_of(const Experiment& experiment, const std::vector<OptionGroup>& others, int width) {
+  const std::string command = std::string("hysteron ") + experiment.name + " --help";
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const OptionGroup& group : others)
+    all.emplace_back(group.name, group.about + " (" + counted_options(group.keys.size()) + ")");
+  return wrapped("Further options by group; " + command + " GROUP lists one, " + command + "-all all of them",
+                 width, 0, 0) +
+         "\n" + entries(all, width);
+}
+
+std::string opening(const Experiment& experiment, int width) {
+  const std::string name = std::string("hysteron ") + experiment.name;
+  const std::string names = *experiment.names ? std::string(" ") + experiment.names : "";
+  return wrapped(name + ": " + experiment.question, width, 0, 0) + "\n\n" +
+         wrapped("Usage: " + name + names + (experiment.run ? " [options]" : ""), width, 2, 0) + "\n\n";
+}
+
+std::string help_of(const Experiment& experiment, bool all, int width) {
+  std::string text = opening(experiment, width);
+  const std::vector<OptionGroup> groups = option_groups(
+      experiment, experiment.run ? options_of(experiment, Defaults::shown) : std::vector<KeyDescription>());
+  for (std::size_t i = 0; i < groups.size() && (i == 0 || all); ++i)
+    if (!groups[i].keys.empty()) text += group_text(experiment, groups[i], width) + "\n";
+  if (groups.size() > 1 && !all)
+    text += list_of(experiment, {groups.begin() + 1, groups.end()}, width) + "\n";
+  return text + exit_codes_text(experiment.differs, width);
+}
+
+std::string help_of_group(const Experiment& experiment, const std::string& name, int width) {
+  std::vector<std::string> known;
+  for (const OptionGroup& group : option_groups(experiment, options_of(experiment, Defaults::shown))) {
+    if (group.name == name) return group_text(experiment, group, width);
+    known.push_back(group.name);
+  }
+  throw Error::request("--help " + name + ": no group of options is called so; there are " +
+                       join(known, ", "))
+      .of("help", name)
+      .in(experiment.name);
+}
+
+std::string program_help(const std::vector<Experiment>& known, int width) {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const Experiment& experiment : known)
+    if (!experiment.hidden) all.emplace_back(experiment.name, experiment.question);
+  return "Bending hysteresis of cloth: simulate, measure, picture\n\n"
+         "Usage: hysteron SUBCOMMAND [arguments] [options]\n\nSubcommands\n" +
+         entries(all, width) + "\nOptions\n" +
+         entries({{"--help", "this; behind a subcommand, its options"},
+                  {"--help GROUP", "behind a subcommand: one group of its options in full"},
+                  {"--help-all", "behind a subcommand: all of its options"},
+                  {"--version", "version and commit"}},
+                 width) +
+         "\n" + exit_codes_text("what was compared differs", width);
+}
+
+}  // namespace
+
+std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys) {
+  std::set<std::string> of_scenes;
+  for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
+  const std::vector<KeyDescription> own = own_keys_of(experiment);
+  std::vector<OptionGroup> all = {{experiment.name, "", {}}};
+  for (const char* name : {"scene", "fabric", "solver", "pictures", "running"})
+    for (const Group& group : groups())
+      if (group.name == std::string(name)) all.push_back({name, group.about, {}});
+  for (KeyDescription& key : keys) {
+    const bool is_own = !experiment.simulates || has(own, key.path);
+    std::string name = is_own ? experiment.name : group_of(key, of_scenes);
+    if (const std::string other = is_own && experiment.simulates ? other_owner(key, name) : "";
+        !other.empty())
+      name = other;
+    auto group = std::find_if(all.begin(), all.end(), [&](const OptionGroup& g) { return g.name == name; });
+    if (group == all.end()) group = all.insert(all.end(), {name, "what " + name + " is asked", {}});
+    group->keys.push_back(std::move(key));
+  }
+  std::erase_if(all, [&](const OptionGroup& g) { return g.keys.empty() && g.name != experiment.name; });
+  return all;
+}
+
+int terminal_width() {
+  const char* columns = std::getenv("COLUMNS");
+  const double said = number_in(columns ? columns : "").value_or(0);
+  winsize size{};
+  if (said < 1 && (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)) return kUsualWidth;
+  constexpr double kWidest = 1000;
+  return std::max(kLeastWidth, static_cast<int>(said < 1 ? size.ws_col : std::min(said, kWidest)));
+}
+
+std::optional<std::string> help_asked(const std::vector<std::string>& words,
+                                      const std::vector<Experiment>& known, int width) {
+  const auto end = std::find(words.begin(), words.end(), "--");
+  const auto asks = std::find_if(words.begin(), end, [](const std::string& word) {
+    return word == "--help" || word == "-h" || word == "--help-all" || word.starts_with("--help=");
+  });
+  if (asks == end) return std::nullopt;
+  std::string group = asks->starts_with("--help=") ? asks->substr(7) : "";
+  if (*asks == "--help" && asks + 1 != end && !(asks + 1)->starts_with('-')) group = *(asks + 1);
+  const auto named = [&](const std::string& name) {
+    return std::find_if(known.begin(), known.end(), [&](const Experiment& e) { return e.name == name; });
+  };
+  auto experiment = named(words.front());
+  if (experiment == known.end() && asks == words.begin()) experiment = named(std::exchange(group, ""));
+  if (experiment == known.end() && (asks == words.begin() || words.front().starts_with('-')))
+    return program_help(known, width);
+  if (experiment == known.end()) return std::nullopt;  // an unknown subcommand
+  return group.empty() ? help_of(*experiment, *asks == "--help-all", width)
+                       : help_of_group(*experiment, group, width);
+}
+
+}  // namespace hysteron::experiments

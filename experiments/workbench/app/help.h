@@ -1,0 +1,26 @@
+// What --help prints: options by group, as wide as the terminal.
+#pragma once
+
+#include <optional>
+
+#include "experiments/workbench/app/experiment.h"
+
+namespace hysteron::experiments {
+
+struct OptionGroup {
+  std::string name;   // as --help takes it: "fabric"
+  std::string about;  // "the fabric's numbers, the law of bending and its parameters"
+  std::vector<KeyDescription> keys;
+};
+// The experiment's own options first, under its name, even if there are none; then those of scenes and runs.
+std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys);
+
+// Columns of the terminal that stdout is, or as COLUMNS says; 100 without one.
+int terminal_width();
+
+// The answer to --help, -h, --help GROUP or --help-all among the words behind `hysteron`; none if they do not
+// ask.  Throws Error::request for a group that is not there.
+std::optional<std::string> help_asked(const std::vector<std::string>& words,
+                                      const std::vector<Experiment>& known, int width);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,146 @@
+// What experiments decide themselves is refused as a flag, and told of where a file asks for it.
+#include "experiments/workbench/app/decided_keys.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/app/command_line.h"
+#include "experiments/workbench/app/manifest.h"
+#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+std::string refusal(const std::string& experiment, const Flag& flag) {
+  return test::refusal([&] {
+    set_up({experiment, "hysteron " + experiment, {flag}, {}}, experiment_named(experiment).defaults());
+  });
+}
+
+TEST(DecidedKeys, AreRefusedByName) {
+  EXPECT_EQ(
+      refusal("drape", {"cloth.position", "1 0 0"}),
+      "--cloth.position 1 0 0: drape sets cloth.position itself: the specimen lies in the middle of the "
+      "pedestal");
+  EXPECT_EQ(refusal("fold", {"cloth.shape", "disc"}),
+            "--cloth.shape disc: fold sets cloth.shape itself: the specimen is a strip");
+  EXPECT_EQ(refusal("cantilever", {"seconds", "9"}),
+            "--seconds 9: cantilever sets seconds itself: the weight grows in ramp and goes in unload");
+  EXPECT_EQ(refusal("crease", {"mesh", "random"}),
+            "--mesh random: crease does not use mesh: its mesh has its finest columns along the crease");
+  EXPECT_EQ(program("buckle --gravity '0 0 -1' --no-images").exit_code, 2);
+  EXPECT_EQ(
+      program("cantilever --gamma 1 --fabric.density 0.1 --no-images --out /nonexistent/x").err,
+      "hysteron cantilever: --fabric.density 0.1: cantilever sets fabric.density itself: gamma says how "
+      "heavy the strip is\n");
+  EXPECT_EQ(program("swing --cloth.copies 3 --explain").err,
+            "hysteron swing: --cloth.copies 3: swing does not use cloth.copies: the specimen is one flat "
+            "rectangle, meshed to fit its clamp\n");
+  EXPECT_EQ(program("bench --hard --fabric.k0 40").err,
+            "hysteron bench: --fabric.k0 40: bench does not use fabric.k0: --hard takes steps of other "
+            "scenes\n");
+}
+
+// With the value that the experiment has by itself, too.
+TEST(DecidedKeys, OfEveryExperimentAreKeysThatItTakesNoFlagOf) {
+  const std::vector<std::string> tables = {"pin", "obstacle", "command", "phase"};
+  for (const Experiment& experiment : experiments()) {
+    if (!experiment.decided) continue;
+    const std::vector<KeyDescription> taken = options_of(experiment, Defaults::left_out),
+                                      known = scene_keys();
+    const auto has = [](const std::vector<KeyDescription>& keys, const std::string& path) {
+      return std::any_of(keys.begin(), keys.end(),
+                         [&](const KeyDescription& key) { return key.path == path; });
+    };
+    for (const DecidedKey& key : experiment.decided()) {
+      EXPECT_FALSE(has(taken, key.path)) << experiment.name << " " << key.path;
+      if (std::count(tables.begin(), tables.end(), key.path)) continue;
+      EXPECT_TRUE(has(known, key.path)) << key.path;
+      EXPECT_TRUE(refusal(experiment.name, {key.path, "1"}).starts_with("--" + key.path + " 1: "))
+          << key.path;
+    }
+  }
+}
+
+// Paths of all that the patch changes, tables by their names.
+void changed_in(const Json& patch, const std::string& prefix, std::vector<std::string>& paths) {
+  for (const auto& [name, value] : patch.items())
+    value.is_object() ? changed_in(value, prefix + name + ".", paths) : paths.push_back(prefix + name);
+}
+
+// The manifest tells what was asked for where the experiment has done something else: steps and sizes that
+// are made to fit, a parameter that nobody gave, and what it decides.
+TEST(DecidedKeys, AreAllThatAnExperimentChangesButWhatItMakesFit) {
+  const std::vector<std::string> fitted = {"triangles", "step", "cloth.length", "param.fatigue.dc"};
+  const std::pair<const char*, const char*> runs[] = {
+      {"drape", "--triangles 150 --seconds 0.05"},
+      {"fold", "--triangles 60 --fold.cycles 1 --fold.period 0.2"},
+      {"cantilever", "--triangles 32"},
+      {"buckle", "--triangles 80"},
+      {"crease", "--triangles 60 --crease.fold pleat --crease.recovery 0.02"},
+      {"swing", "--triangles 40 --seconds 0.05"}};
+  for (const auto& [name, flags] : runs) {
+    const Folder folder;
+    const Outcome outcome =
+        program(std::string(name) + " " + flags + " --device cpu --no-images --quiet --out " +
+                (folder.path() / "run").string());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::vector<std::string> changed;
+    changed_in(Json::parse(text_of(folder.path() / "run" / "manifest.json"))["asked"], "", changed);
+    for (const std::string& path : changed) {
+      const std::vector<DecidedKey> decided = decided_by(name);
+      const bool known = std::any_of(decided.begin(), decided.end(),
+                                     [&, &p = path](const DecidedKey& key) { return key.path == p; });
+      const bool of_swing =
+          name == std::string("swing") && path == "pin";  // which has one if the scene has none
+      EXPECT_TRUE(known || of_swing || std::count(fitted.begin(), fitted.end(), path) ||
+                  (name == std::string("drape") && path == "obstacle"))
+          << name << " changes " << path;
+    }
+  }
+}
+
+class Strips : public testing::Test {
+ protected:
+  // Of a cantilever with this scene file.
+  Outcome run(const fs::path& scene) const {
+    return program("cantilever --triangles 32 --device cpu --no-images --quiet --scene " + scene.string() +
+                   " --out " + (folder_.path() / "run").string());
+  }
+  fs::path written(const std::string& text) const {
+    std::ofstream(folder_.path() / "strip.toml") << text;
+    return folder_.path() / "strip.toml";
+  }
+
+  Folder folder_;
+};
+
+TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
+  const fs::path scene =
+      written("seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
+  const Outcome outcome = run(scene);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const std::string words :
+       {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
+        "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
+        "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
+    EXPECT_NE(outcome.err.find("warning: " + words), std::string::npos) << outcome.err;
+    EXPECT_NE(text_of(folder_.path() / "run/report.html").find("Warning: " + words), std::string::npos)
+        << words;
+  }
+  EXPECT_EQ(outcome.err.find("cloth.width"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Strips, OfADumpedFileAskForNothingElse) {
+  const fs::path dumped = folder_.path() / "dumped.toml";
+  ASSERT_EQ(program("cantilever --triangles 32 --device cpu --dump-scene " + dumped.string()).exit_code, 0);
+  const Outcome outcome = run(dumped);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err.find("is not used"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,104 @@
+// What --help prints: by group, no wider than the terminal.
+#include "experiments/workbench/app/help.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "experiments/workbench/app/command_line.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kWidth = 100;
+
+std::string help(const std::vector<std::string>& words, int width = kWidth) {
+  return help_asked(words, experiments(), width).value_or("(not asked)");
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(Help, HasTheExperimentsOwnOptionsInFullAndALineForEachOtherGroup) {
+  const std::string text = help({"drape", "--help"});
+  EXPECT_TRUE(text.starts_with("hysteron drape: Cusick's drape test")) << text;
+  EXPECT_TRUE(has(text, "\nUsage: hysteron drape [options]\n"));
+  for (const KeyDescription& key : experiment_named("drape").own_keys())
+    EXPECT_TRUE(has(text, "\n  " + option_name(key) + " ")) << key.path;
+  for (const char* group : {"scene", "fabric", "solver", "pictures", "running"})
+    EXPECT_TRUE(has(text, std::string("\n  ") + group + " ")) << group;
+  EXPECT_TRUE(has(text, "hysteron drape --help GROUP"));
+  EXPECT_FALSE(has(text, "--fabric.b1"));
+  EXPECT_LT(lines_of(text).size(), 40u);
+}
+
+TEST(Help, OfAGroupHasItsOptionsAlone) {
+  for (const auto& words :
+       {std::vector<std::string>{"drape", "--help", "fabric"}, {"drape", "--help=fabric"}}) {
+    const std::string text = help(words);
+    for (const char* option :
+         {"  --fabric text", "  --fabric.b1 number", "  --law text", "  --param name=value"})
+      EXPECT_TRUE(has(text, option)) << option;
+    for (const char* other : {"--drape.disc", "--step ", "--size", "Usage"})
+      EXPECT_FALSE(has(text, other)) << other;
+  }
+  EXPECT_TRUE(has(help({"compare", "--help", "crease"}), "  --crease.hold number"));
+  EXPECT_EQ(test::refusal([] {
+              help({"drape", "--help", "fabrics"});
+            }),
+            "drape: --help fabrics: no group of options is called so; there are drape, scene, fabric, "
+            "solver, pictures, running");
+}
+
+TEST(Help, OfAllHasEveryOptionOnce) {
+  for (const Experiment& experiment : experiments()) {
+    if (!experiment.run) continue;
+    std::map<std::string, int> times;
+    for (const std::string& line : lines_of(help({experiment.name, "--help-all"})))
+      if (line.starts_with("  --")) ++times[line.substr(2, line.find(' ', 2) - 2)];
+    const std::vector<KeyDescription> keys = options_of(experiment, Defaults::left_out);
+    for (const KeyDescription& key : keys)
+      EXPECT_EQ(times[option_name(key)], 1) << experiment.name << key.path;
+    EXPECT_EQ(times.size(), keys.size()) << experiment.name;
+  }
+}
+
+TEST(Help, IsNoWiderThanTheTerminal) {
+  for (const Experiment& experiment : experiments())
+    for (const int width : {80, 100, 160})
+      for (const char* asked : {"--help", "--help-all"})
+        for (const std::string& line : lines_of(help({experiment.name, asked}, width)))
+          EXPECT_LE(line.size(), static_cast<std::size_t>(width)) << experiment.name << ": " << line;
+  for (const std::string& line : lines_of(help({"--help"}, 80))) EXPECT_LE(line.size(), 80u) << line;
+}
+
+TEST(Help, OfTheProgramNamesItsSubcommands) {
+  const std::string text = help({"--help"});
+  for (const Experiment& experiment : experiments())
+    EXPECT_EQ(has(text, std::string("\n  ") + experiment.name + " "), !experiment.hidden) << experiment.name;
+  EXPECT_EQ(help({"-h"}), text);
+  EXPECT_EQ(help({"--help", "drape"}), help({"drape", "--help"}));
+}
+
+TEST(Help, IsAskedForByItsOwnWordsAlone) {
+  EXPECT_EQ(help({"drape", "--quick"}), "(not asked)");
+  EXPECT_EQ(help({"complete", "--", "drape", "--help"}), "(not asked)");
+  EXPECT_EQ(help({"drap", "--help"}), "(not asked)") << "an unknown subcommand is refused";
+}
+
+TEST(Help, LeavesOutWhatTheExperimentDecides) {
+  EXPECT_FALSE(has(help({"fold", "--help-all"}), "--cloth.shape"));
+  EXPECT_TRUE(has(help({"swing", "--help-all"}), "--cloth.shape"));
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
