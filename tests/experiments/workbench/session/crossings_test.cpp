@@ -41,10 +41,9 @@ TEST_P(CountOfCrossings, IsThatOfAllInstantsAndToldByTheCaller) {
   EXPECT_EQ(crossings.pairs(), 1);
   EXPECT_EQ(crossings.pairs(), 1);  // no instant counts twice
   ASSERT_EQ(told.lines.size(), 1U);
-  EXPECT_EQ(
-      told.lines[0],
-      "1 pairs of triangles cross at t = 0.7500 s, the first are 0 and 1 near (0.0000, 0.0000, "
-      "0.0000) m");
+  EXPECT_EQ(told.lines[0],
+            "1 pairs of triangles cross at t = 0.7500 s, the first are 0 and 1 near (0.0000, 0.0000, "
+            "0.0000) m");
   EXPECT_EQ(told.by, std::this_thread::get_id());
 }
 
