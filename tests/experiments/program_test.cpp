@@ -82,6 +82,14 @@ TEST(Program, NeedsNoHomeAndNoPlaceForTemporaryFiles) {
   EXPECT_EQ(without_warnings(text_of(err)), "");
 }
 
+TEST(Program, HelpsWithoutItsAssets) {
+  const Folder folder;
+  const std::string out = (folder.path() / "out").string();
+  const std::string line = "env HYSTERON_ASSETS=/nonexistent " HYSTERON_PROGRAM " drape --help-all >" + out;
+  EXPECT_EQ(std::system(line.c_str()), 0);
+  EXPECT_NE(text_of(out).find("--fabric.b1 number"), std::string::npos);
+}
+
 // The first run and the one that replaces it.
 TEST(Program, LeavesTenThousandFilesOfOthersInItsFolderAlone) {
   const Folder folder;

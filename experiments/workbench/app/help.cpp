@@ -165,10 +165,19 @@ std::string opening(const Experiment& experiment, int width) {
          wrapped("Usage: " + name + names + (experiment.run ? " [options]" : ""), width, 2, 0) + "\n\n";
 }
 
+// Where the fabric of the defaults cannot be read, the options are listed all the same.
+std::vector<KeyDescription> shown_options_of(const Experiment& experiment) {
+  if (!experiment.run) return {};
+  try {
+    return options_of(experiment, Defaults::shown);
+  } catch (const Error&) {
+    return options_of(experiment, Defaults::left_out);
+  }
+}
+
 std::string help_of(const Experiment& experiment, bool all, int width) {
   std::string text = opening(experiment, width);
-  const std::vector<OptionGroup> groups = option_groups(
-      experiment, experiment.run ? options_of(experiment, Defaults::shown) : std::vector<KeyDescription>());
+  const std::vector<OptionGroup> groups = option_groups(experiment, shown_options_of(experiment));
   for (std::size_t i = 0; i < groups.size() && (i == 0 || all); ++i)
     if (!groups[i].keys.empty()) text += group_text(experiment, groups[i], width) + "\n";
   if (groups.size() > 1 && !all)
@@ -178,7 +187,7 @@ std::string help_of(const Experiment& experiment, bool all, int width) {
 
 std::string help_of_group(const Experiment& experiment, const std::string& name, int width) {
   std::vector<std::string> known;
-  for (const OptionGroup& group : option_groups(experiment, options_of(experiment, Defaults::shown))) {
+  for (const OptionGroup& group : option_groups(experiment, shown_options_of(experiment))) {
     if (group.name == name) return group_text(experiment, group, width);
     known.push_back(group.name);
   }
@@ -208,13 +217,17 @@ std::string program_help(const std::vector<Experiment>& known, int width) {
 std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector<KeyDescription> keys) {
   std::set<std::string> of_scenes;
   for (const KeyDescription& key : scene_keys()) of_scenes.insert(key.path);
-  const std::vector<KeyDescription> own = own_keys_of(experiment);
+  const std::vector<KeyDescription> own = own_keys_of(experiment), fabric = fabric_keys();
+  // Of a test of fabrics, which simulates none.
+  const bool takes_fabrics = std::all_of(fabric.begin(), fabric.end(),
+                                         [&](const KeyDescription& key) { return has(own, key.path); });
   std::vector<OptionGroup> all = {{experiment.name, "", {}}};
   for (const char* name : {"scene", "fabric", "solver", "pictures", "running"})
     for (const Group& group : groups())
       if (group.name == std::string(name)) all.push_back({name, group.about, {}});
   for (KeyDescription& key : keys) {
-    const bool is_own = !experiment.simulates || has(own, key.path);
+    const bool of_fabric = takes_fabrics && has(fabric, key.path);
+    const bool is_own = !of_fabric && (!experiment.simulates || has(own, key.path));
     std::string name = is_own ? experiment.name : group_of(key, of_scenes);
     if (const std::string other = is_own && experiment.simulates ? other_owner(key, name) : "";
         !other.empty())

@@ -51,6 +51,8 @@ TEST(Help, OfAGroupHasItsOptionsAlone) {
     for (const char* other : {"--drape.disc", "--step ", "--size", "Usage"})
       EXPECT_FALSE(has(text, other)) << other;
   }
+  EXPECT_TRUE(has(help({"kes", "--help", "fabric"}), "  --fabric.b1 number"));
+  EXPECT_FALSE(has(help({"kes", "--help"}), "--fabric.b1"));
   EXPECT_TRUE(has(help({"compare", "--help", "crease"}), "  --crease.hold number"));
   EXPECT_EQ(test::refusal([] {
               help({"drape", "--help", "fabrics"});
