@@ -17,6 +17,8 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(python::checked(sc
     cloth_ = make_cloth(scene_);
     simulation_ = make_simulation(scene_, cloth_);
   });
+  for (const std::string& warning : cloth_.warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) < 0) throw py::error_already_set();
 }
 
 Simulation& SimulationValue::at_rest() const {

@@ -18,6 +18,7 @@
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 #include "sim/mesh/cloth_mesh.h"
+#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/mesh_sequence.h"
 
 namespace hysteron::experiments {
@@ -35,7 +36,7 @@ using F = RenderFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
     {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; without it pictures carry the frame's number"},
-    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre, for all or for each"},
+    {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
     {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics"},
     {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
@@ -106,11 +107,10 @@ std::string value_of(const std::string& key, const std::string& list, std::size_
   throw refusal(key, list, "one value, or as many as sequences: " + std::to_string(count));
 }
 
-double metre_of(const std::string& unit) {
-  if (unit == "metre") return 1;
-  if (unit == "centimetre") return 1e-2;
-  if (unit == "millimetre") return 1e-3;
-  throw refusal("render.unit", unit, "metre | centimetre | millimetre");
+LengthUnit unit_of(const std::string& unit) {
+  const auto units = names(LengthUnit{});
+  if (std::count(units.begin(), units.end(), unit)) return value_named<LengthUnit>(unit);
+  throw refusal("render.unit", unit, join({units.begin(), units.end()}, " | "));
 }
 
 bool is_y_up(const std::string& up) {
@@ -155,7 +155,7 @@ std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& w
       return value_of(key, list, i, sequences.size());
     };
     columns.push_back({sequences[i],
-                       {metre_of(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
+                       {unit_of(value("render.unit", flags.unit)), is_y_up(value("render.up", flags.up))},
                        rate_of(value("fps", flags.fps)),
                        {}});
   }
@@ -169,6 +169,15 @@ Surface body_of(const F& flags, const FileAxes& axes) {
   return read_frame(flags.body, axes);
 }
 
+// As a cloth, whose triangles must be two sides of a surface.
+ClothMesh mesh_of(const Surface& frame, const std::string& what) {
+  ClothMesh mesh;
+  mesh.rest = frame.vertex;
+  mesh.face = frame.face;
+  build_topology(mesh, what);
+  return mesh;
+}
+
 void check_curvature(const F& flags, const Surface& frame, const std::string& what) {
   if (flags.options.look != "curvature") return;
   if (flags.curvature == "file") {
@@ -176,10 +185,17 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
     throw Error::request(what + ": no property curvature of its vertices (--render.curvature file)")
         .of("render.curvature", flags.curvature);
   }
-  ClothMesh mesh;
-  mesh.rest = frame.vertex;
-  mesh.face = frame.face;
-  build_topology(mesh, what);
+  mesh_of(frame, what);
+}
+
+// What is doubtful about each sequence's first mesh: curvature needs an edge between two triangles.
+void warn_of_loose_parts(const F& flags, const std::vector<Column>& columns, Run& run) {
+  if (flags.options.look != "curvature" || flags.curvature == "file") return;
+  for (const Column& column : columns) {
+    const std::string what = "mesh " + column.files().front().string();
+    const ClothMesh mesh = mesh_of(read_frame(column.files().front(), column.axes), what);
+    for (const std::string& doubt : mesh_doubts(mesh, {what, {}, {}})) run.warn(doubt);
+  }
 }
 
 // Reads every file once before anything is written: what is wrong with one of them is known at the start.
@@ -313,6 +329,7 @@ int run_render(const CommandLine& line) {
   const render::Box bounds = framed(flags, checked_box(flags, columns));
   Run run(line, flags.options, to_json(keys));
   note_sequences(columns, run);
+  warn_of_loose_parts(flags, columns, run);
   FramesAndSheet(flags, columns, bounds, run).draw();
   finish_with_report(run);
   return 0;

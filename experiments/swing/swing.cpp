@@ -10,6 +10,7 @@
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/identification/decay_shape.h"
+#include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -125,7 +126,7 @@ std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   Scene& scene = setup.scene;
   if (!scene.pin.empty()) return {};
   const bool rectangle = scene.cloth.shape == "strip" || scene.cloth.shape == "square";
-  if (rectangle && !scene.mesh.ends_with(".obj")) {
+  if (rectangle && rest_file(scene).empty()) {
     decide(line, setup, unused_by_clamped_meshes());
     return clamp_at(scene, kClamp);
   }
@@ -133,14 +134,22 @@ std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   return {};
 }
 
+// Along x and y; a strip that is built ends where the scene says, though its clamp is a little longer.
+Eigen::Vector2d sides_of(const Scene& scene, const ClothMesh& mesh) {
+  if (rest_file(scene).empty()) return {scene.cloth.length, scene.cloth.width};
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
+  return box.max().head<2>();
+}
+
 int run_swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
-  const float length = static_cast<float>(setup.scene.cloth.length),
-              width = static_cast<float>(setup.scene.cloth.width);
   std::optional<Cloth> clamped = clamp(line, setup);
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_tip", "plot_energy"});
+  const Eigen::Vector2d sides = sides_of(setup.scene, session.cloth().mesh);
+  const float length = static_cast<float>(sides.x()), width = static_cast<float>(sides.y());
   if (!setup.options.no_images) session.run().path("README.md");
 
   int tip = 0;
@@ -168,10 +177,10 @@ int run_swing(const CommandLine& line) {
   session.simulate(question);
   const Ledger ledger = session.simulation().ledger();
   Run& run = session.run();
-  const auto turns = turning_points(times, swing, kLeastTurn * setup.scene.cloth.length);
+  const auto turns = turning_points(times, swing, kLeastTurn * sides.x());
   const std::vector<Amplitude> amplitudes =
-      amplitudes_of(turning_points(times, swing, kLeastTurn * setup.scene.cloth.length, kSwingRipple));
-  const Decay decay = decay_of(amplitudes, kSmallSwing * (setup.scene.cloth.length - kClamp));
+      amplitudes_of(turning_points(times, swing, kLeastTurn * sides.x(), kSwingRipple));
+  const Decay decay = decay_of(amplitudes, kSmallSwing * (sides.x() - kClamp));
   run.metric("turns", turns.size());
   note_decay(run, decay);
   write_turns(run, amplitudes);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/mesh/length_unit.h"
+
 namespace hysteron {
 
 // An edge with its two triangles:
@@ -109,12 +111,15 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
 // That many of the same mesh, each `offset` further than the one before; vertices and triangles copy by copy.
 ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset);
 
-// Reads a Wavefront OBJ of triangles and quads [m] (quads are cut along the shorter diagonal).  Texture
-// coordinates, where every corner has one, become the pattern, or panels if they have seams.
-// weld > 0 merges each vertex into the first one closer than that distance [m].
+// Reads a Wavefront OBJ of triangles and quads (quads are cut along the shorter diagonal) in that unit.
+// Texture coordinates, where every corner has one, become the pattern, or panels if they have seams.
+// weld > 0 merges each vertex into the first one closer than that distance [m].  Adds to `doubts`, where they
+// are asked for, those of mesh_doubts.h.
 // Throws Error::machine for a file that cannot be read; Error::request, naming the file and the line, for
-// malformed lines, numbers that are not finite, and all that build_topology refuses.
-ClothMesh read_obj(const std::string& file, double weld);
+// malformed lines, numbers that are not finite, quads that cross themselves, and all that build_topology
+// refuses.
+ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit = LengthUnit::metre,
+                   std::vector<std::string>* doubts = nullptr);
 // Writers of one frame, atomic (temporary name, then rename): position [m] per vertex, value (a curvature
 // [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with its texture
 // coordinates; PLY binary little-endian, doubles.  Throw Error::machine.

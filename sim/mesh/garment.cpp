@@ -36,6 +36,37 @@ double length_of_sides(const ClothMesh& mesh) {
   return sum;
 }
 
+// "1 2 12", counted as in files.
+std::string vertices_of(const Eigen::Vector3i& face) {
+  return std::to_string(face[0] + 1) + " " + std::to_string(face[1] + 1) + " " + std::to_string(face[2] + 1);
+}
+
+// Otherwise vertices of `start` say where others are.
+void check_triangles(const ClothMesh& start, const ClothMesh& rest, const std::string& what) {
+  if (start.vertices() != rest.vertices() || start.faces() != rest.faces())
+    throw Error::request(
+        what + " has " + std::to_string(start.vertices()) + " vertices and " + std::to_string(start.faces()) +
+        " triangles; where cloth starts it must have the same as at rest, " +
+        std::to_string(rest.vertices()) + " and " + std::to_string(rest.faces()) + ", in the same order");
+  for (int f = 0; f < rest.faces(); ++f)
+    if (start.face[f] != rest.face[f])
+      throw Error::request(
+          what + ": its triangle " + std::to_string(f + 1) + " has the vertices " +
+          vertices_of(start.face[f]) + " and at rest " + vertices_of(rest.face[f]) +
+          "; where cloth starts all must be the same (a quad that is bent may be cut along its "
+          "other diagonal: triangulate both files alike)");
+}
+
+void check_size(double stretch, const std::string& what) {
+  if (stretch <= kLargestStretch && stretch >= 1 / kLargestStretch) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << what << ": where cloth starts, sides of its triangles are " << stretch
+       << " times as long as at rest, which must be " << 1 / kLargestStretch << " to " << kLargestStretch
+       << ": both files must be in cloth.unit, and their vertices in the same order";
+  throw Error::request(text.str());
+}
+
 void check_scale(double stretch, double scale, const std::string& what) {
   if (stretch <= kLargestStretch && stretch >= 1 / kLargestStretch) return;
   std::ostringstream text;
@@ -57,8 +88,9 @@ bool is_seam(const ClothMesh& mesh, int edge) {
   return place(e.face0, e.p2) != place(e.face1, e.p2) || place(e.face0, e.p3) != place(e.face1, e.p3);
 }
 
-ClothMesh read_pattern(const std::string& file, double weld, double scale) {
-  ClothMesh mesh = read_obj(file, weld);
+ClothMesh read_pattern(const std::string& file, double weld, double scale, LengthUnit unit,
+                       std::vector<std::string>* doubts) {
+  ClothMesh mesh = read_obj(file, weld, unit, doubts);
   const std::string what = "mesh " + file;
   if (mesh.pattern.empty() && mesh.panel.empty())
     throw Error::request(what + ": its texture coordinates are no flat cloth: corners have none");
@@ -74,13 +106,13 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale) {
   return mesh;
 }
 
-std::vector<Eigen::Vector3d> read_start(const std::string& file, double weld, const ClothMesh& mesh) {
-  const ClothMesh start = read_obj(file, weld);
-  if (start.face == mesh.face && start.vertices() == mesh.vertices()) return start.rest;
-  throw Error::request(
-      "mesh " + file + " has " + std::to_string(start.vertices()) + " vertices and " +
-      std::to_string(start.faces()) + " triangles; where cloth starts it must have the same as at rest, " +
-      std::to_string(mesh.vertices()) + " and " + std::to_string(mesh.faces()) + ", in the same order");
+std::vector<Eigen::Vector3d> read_start(const std::string& file, double weld, const ClothMesh& mesh,
+                                        LengthUnit unit) {
+  ClothMesh start = read_obj(file, weld, unit);
+  const std::string what = "mesh " + file;
+  check_triangles(start, mesh, what);
+  check_size(length_of_sides(start) / length_of_sides(mesh), what);
+  return std::move(start.rest);
 }
 
 }  // namespace hysteron

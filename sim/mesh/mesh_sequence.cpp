@@ -2,23 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/mesh/file_ending.h"
 
 namespace hysteron {
 namespace {
 namespace fs = std::filesystem;
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string format_of(const fs::path& file) { return lower(file.extension().string()); }
-
-bool is_mesh(const fs::path& file) { return format_of(file) == ".obj" || format_of(file) == ".ply"; }
+bool is_mesh(const fs::path& file) { return ending_of(file) == ".obj" || ending_of(file) == ".ply"; }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -78,7 +71,7 @@ MeshSequence folder_sequence(const fs::path& folder) {
 
 void check_format(const MeshSequence& sequence) {
   for (const fs::path& file : sequence.files)
-    if (format_of(file) != format_of(sequence.files.front()))
+    if (ending_of(file) != ending_of(sequence.files.front()))
       throw Error::request("one sequence of two formats: " + sequence.files.front().string() + " and " +
                            file.string());
 }
@@ -159,9 +152,9 @@ Surface read_frame(const fs::path& file, const FileAxes& axes) {
   Surface surface = read_surface(file.string());
   for (Eigen::Vector3d& x : surface.vertex) {
     if (axes.y_up) x = {x.x(), -x.z(), x.y()};
-    x *= axes.metre;
+    for (double& length : x) length = in_metres(length, axes.unit);
   }
-  for (double& k : surface.curvature) k /= axes.metre;
+  for (double& k : surface.curvature) k /= in_metres(1, axes.unit);
   return surface;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/mesh/length_unit.h"
 #include "sim/mesh/surface.h"
 
 namespace hysteron {
@@ -24,7 +25,7 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
 
 // How a file's coordinates stand to metres with z up.
 struct FileAxes {
-  double metre = 1;   // one unit of the file [m]
+  LengthUnit unit = LengthUnit::metre;
   bool y_up = false;  // (x, y, z) of the file is (x, -z, y) here
 };
 // A frame in metres, z up; its curvature in 1/m.  Throws what read_surface throws.

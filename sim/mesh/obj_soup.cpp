@@ -6,6 +6,7 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -32,8 +33,10 @@ Error bad_line(const std::string& what, int line, const std::string& problem) {
   return Error::request(what + ": line " + std::to_string(line) + ": " + problem);
 }
 
+// Of a line without its comment.
 std::vector<std::string_view> words(std::string_view line) {
   constexpr std::string_view kBlanks = " \t";
+  line = line.substr(0, line.find('#'));
   std::vector<std::string_view> found;
   for (std::size_t at = line.find_first_not_of(kBlanks); at != line.npos;) {
     const std::size_t end = std::min(line.find_first_of(kBlanks, at), line.size());
@@ -71,8 +74,19 @@ void check_corner(std::string_view corner, const std::string& what, int line) {
                      "bits other than 0");
 }
 
-void add_words(const std::vector<std::string_view>& word, std::size_t count, std::string& line) {
-  for (std::size_t i = 0; i < count; ++i) line.append(i ? " " : "").append(word[i]);
+void add_face(const std::vector<std::string_view>& word, std::string& line) {
+  line += "f";
+  for (std::size_t i = 1; i < word.size(); ++i) line.append(" ").append(word[i]);
+}
+
+// A vertex or a face behind bytes that no editor shows, or in capitals, is none to a reader that passes over
+// what it does not know.
+void check_record(std::string_view word, const std::string& what, int line) {
+  std::string letters;
+  for (const unsigned char c : word)
+    if (std::isalpha(c) && c < 0x80) letters += static_cast<char>(std::tolower(c));
+  if (letters != "v" && letters != "vt" && letters != "f") return;
+  throw bad_line(what, line, "\"" + std::string(word) + "\" must be plain \"" + letters + "\"");
 }
 
 void scan_line(const std::vector<std::string_view>& word, const std::string& what, int line, Lines& lines) {
@@ -88,16 +102,27 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
     lines.texture.emplace_back(finite_number(word[1], what, line), finite_number(word[2], what, line));
     lines.resolved += "vt 0 0";  // counted only
   } else if (word[0] == "vn") {
-    lines.resolved += "vn 0 0 1";  // counted only
-  } else if (word[0] == "f") {
+    lines.resolved += "vn 0 0 1";                  // counted only
+  } else if (word[0] == "f" || word[0] == "fo") {  // as files before OBJ 3.0 have it
     if (word.size() != 4 && word.size() != 5)
       throw bad_line(what, line,
                      "a face of " + std::to_string(word.size() - 1) +
                          " corners; allowed are triangles and quads, triangulate the mesh first");
     for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line);
-    add_words(word, word.size(), lines.resolved);
+    add_face(word, lines.resolved);
     lines.face_line.push_back(line);
+  } else {
+    check_record(word[0], what, line);
   }
+}
+
+// Text may begin with a byte order mark.
+std::string text_of(const std::string& file, const std::string& what) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string text = whole_file(file, "cannot read mesh " + file);
+  if (text.find('\0') != text.npos)
+    throw Error::request(what + ": not an OBJ: it holds bytes that are no text");
+  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
 Lines scan(const std::string& text, const std::string& what) {
@@ -139,6 +164,7 @@ class Faces {
     for (const auto& c : corner) check_index(c.vertex_index, lines_.vertex.size(), "vertex", line);
     if (corner.size() == 3) return add_triangle(corner[0], corner[1], corner[2], line);
     const auto at = [&](int i) { return lines_.vertex[corner[i].vertex_index]; };
+    if (crosses_itself(at(0), at(1), at(2), at(3))) soup_.crossed_line.push_back(line);
     if (is_cut_from_first(at(0), at(1), at(2), at(3))) {
       add_triangle(corner[0], corner[1], corner[2], line);
       add_triangle(corner[0], corner[2], corner[3], line);
@@ -178,7 +204,10 @@ class Faces {
 }  // namespace
 
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
-  Lines lines = scan(whole_file(file, "cannot read mesh " + file), what);
+  Lines lines = scan(text_of(file, what), what);
+  if (lines.vertex.empty() && lines.face_line.empty())
+    throw Error::request(what +
+                         ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
   ObjSoup soup = Faces(what, lines).take_soup();
   soup.vertex = std::move(lines.vertex);
   soup.vertex_line = std::move(lines.vertex_line);

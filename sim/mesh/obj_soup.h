@@ -17,10 +17,12 @@ struct ObjSoup {
   std::vector<Eigen::Vector3i> face;  // quads are cut
   std::vector<std::array<Uv, 3>> uv;  // texture coordinates at each triangle's corners
   std::vector<int> face_line;
+  std::vector<int> crossed_line;  // of quads with two sides that cross
 };
 
 // `what` names the mesh in messages.  Throws Error::machine for a file that cannot be read, Error::request
-// for malformed lines, numbers that are not finite, and faces that are neither triangles nor quads.
+// for what is no OBJ, malformed lines, numbers that are not finite, and faces that are neither triangles nor
+// quads.
 ObjSoup read_obj_soup(const std::string& file, const std::string& what);
 
 // Whether every corner has a texture coordinate.

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/weld.h"
@@ -15,6 +16,13 @@ void check_weld(double distance, const std::string& what) {
   std::ostringstream text;
   text << what << ": weld = " << distance << " m must be >= 0";
   throw Error::request(text.str());
+}
+
+// No two triangles are such a quad.
+void check_quads(const ObjSoup& soup, const std::string& what) {
+  if (soup.crossed_line.empty()) return;
+  throw Error::request(what + ": line " + std::to_string(soup.crossed_line.front()) +
+                       ": sides of the quad cross: its corners must follow one another around it");
 }
 
 // Renumbers the soup's vertices to the kept ones; fills rest and the vertices' lines.
@@ -45,16 +53,21 @@ void take_pattern(const ObjSoup& soup, ClothMesh& mesh) {
 
 }  // namespace
 
-ClothMesh read_obj(const std::string& file, double weld) {
+ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit, std::vector<std::string>* doubts) {
   MeshNames names{"mesh " + file, {}, {}};
   check_weld(weld, names.what);
-  const ObjSoup soup = read_obj_soup(file, names.what);
+  ObjSoup soup = read_obj_soup(file, names.what);
+  check_quads(soup, names.what);
+  for (Eigen::Vector3d& x : soup.vertex)
+    for (double& length : x) length = in_metres(length, unit);
   ClothMesh mesh;
   mesh.face = soup.face;
   names.face_line = soup.face_line;
   weld_vertices(weld, soup, mesh, names);
   take_pattern(soup, mesh);
   build_topology(mesh, names);
+  if (doubts)
+    for (const std::string& doubt : mesh_doubts(mesh, names)) doubts->push_back(doubt);
   return mesh;
 }
 

@@ -1,11 +1,10 @@
 #include "sim/mesh/surface.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
+#include "sim/mesh/file_ending.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/ply_content.h"
 #include "sim/mesh/quad.h"
@@ -112,9 +111,7 @@ Surface read_ply(const std::string& file) {
 }
 
 Surface read_surface(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = ending_of(file);
   if (ending == ".obj") return read_obj_surface(file);
   if (ending == ".ply") return read_ply(file);
   throw Error::request("mesh " + file + ": its name must end in .obj or .ply");

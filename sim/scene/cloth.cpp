@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/error.h"
+#include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
 #include "sim/mesh/subdivision.h"
+#include "sim/scene/plausible.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"
 
@@ -14,14 +16,13 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSelectionSlack = 1e-9;  // [m]: box corners meet grid vertices in spite of rounding
 
-bool is_obj(const std::string& name) { return name.size() > 4 && name.substr(name.size() - 4) == ".obj"; }
-
-ClothMesh one_rest_mesh(const Scene& scene) {
+// What is doubtful about a mesh that is read goes into `doubts`.
+ClothMesh one_rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
   const ClothShape& c = scene.cloth;
   const int triangles = scene.triangles / c.copies;
-  if (is_obj(scene.mesh)) return read_obj(scene.mesh, c.weld);
-  if (c.shape == "file") return read_obj(c.file, c.weld);
-  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale);
+  if (names_an_obj(scene.mesh)) return read_obj(scene.mesh, c.weld, c.unit, &doubts);
+  if (c.shape == "file") return read_obj(c.file, c.weld, c.unit, &doubts);
+  if (c.shape == "pattern") return read_pattern(c.file, c.weld, c.texture_scale, c.unit, &doubts);
   const MeshFamily family = mesh_family(scene.mesh);
   if (c.shape == "disc") return make_disc(c.radius, triangles, family, scene.seed);
   if (c.shape == "tube") return make_tube(c.length, c.radius, triangles, family, scene.seed);
@@ -44,8 +45,8 @@ void check_copies(const Scene& scene, const ClothMesh& one) {
                        " m, twice the fabric's thickness");
 }
 
-ClothMesh rest_mesh(const Scene& scene) {
-  ClothMesh one = one_rest_mesh(scene);
+ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
+  ClothMesh one = one_rest_mesh(scene, doubts);
   if (scene.cloth.copies == 1) return one;
   check_copies(scene, one);
   return copies_of(one, scene.cloth.copies, scene.cloth.copy_offset);
@@ -135,13 +136,17 @@ std::vector<char> Cloth::held_throughout(const Scene& scene) const {
 }
 
 Cloth make_cloth(const Scene& scene) {
-  ClothMesh mesh = rest_mesh(scene);
+  std::vector<std::string> doubts;
+  ClothMesh mesh = rest_mesh(scene, doubts);
   std::vector<Eigen::Vector3d> start = start_shape(scene, mesh);
   for (int i = 0; i < scene.cloth.subdivisions; ++i) {
     start = with_middles(mesh, std::move(start));
     mesh = subdivided(mesh);
   }
-  return placed(scene, std::move(mesh), std::move(start));
+  for (const std::string& doubt : cloth_doubts(scene, mesh, start)) doubts.push_back(doubt);
+  Cloth cloth = placed(scene, std::move(mesh), std::move(start));
+  cloth.warnings = std::move(doubts);
+  return cloth;
 }
 
 Cloth place_cloth(const Scene& scene, ClothMesh mesh) {

@@ -22,6 +22,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"cloth.width", at<&S::cloth, &C::width>, "m", positive(), "", "along weft (strip; a square takes cloth.length)"},
     {"cloth.radius", at<&S::cloth, &C::radius>, "m", positive(), "", "of the disc, the tube, the loops of a knot or the turns of pleats"},
     {"cloth.file", at<&S::cloth, &C::file>, "", any(), "", "OBJ of the rest shape (file), or with it as texture coordinates (pattern)"},
+    {"cloth.unit", at<&S::cloth, &C::unit>, "", any(), "", "of length in the OBJs of cloth.file, cloth.start and mesh"},
     {"cloth.weld", at<&S::cloth, &C::weld>, "m", at_least(0), "", "vertices of an OBJ closer than this are merged; 0: none are"},
     {"cloth.texture-scale", at<&S::cloth, &C::texture_scale>, "m", positive(), "", "pattern: length of a unit of the texture coordinates"},
     {"cloth.subdivisions", at<&S::cloth, &C::subdivisions>, "", between(0, 8), "", "how many times each triangle is cut into four, a finer mesh where a file has the triangles"},

@@ -13,6 +13,7 @@
 #include "sim/bending/choices.h"
 #include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
+#include "sim/mesh/length_unit.h"
 #include "sim/scene/method.h"
 #include "sim/scene/obstacle_kind.h"
 #include "sim/scene/solver_tuning.h"
@@ -75,6 +76,7 @@ struct ClothShape {
   double width = 0.5;
   double radius = 0.15;
   std::string file;
+  LengthUnit unit = LengthUnit::metre;
   double weld = 0;
   double texture_scale = 1;
   int subdivisions = 0;

@@ -4,6 +4,8 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
+#include "sim/mesh/file_ending.h"
+#include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
 #include "sim/scene/scene_reader.h"
 #include "sim/scene/shown_key.h"
@@ -40,16 +42,14 @@ void check_fabric(const Scene& scene) {
   check_in_plane_stops(scene);
 }
 
-bool is_obj(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
-
 void check_mesh(const Scene& scene) {
   const std::string& shape = scene.cloth.shape;
-  const bool given = shape == "file" && is_obj(scene.mesh);
+  const bool given = shape == "file" && names_an_obj(scene.mesh);
   if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
     throw Error::request("cloth.shape = " + shape + " (" + origin_of(scene, "cloth.shape") +
                          ") needs cloth.file, an OBJ");
   }
-  if (is_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
+  if (names_an_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
   const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
   throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") + ") must be " +
                        join(kMeshFamilies, " | ") + " | FILE.obj" +
@@ -64,6 +64,15 @@ void check_one_mesh(const Scene& scene) {
   throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
                        ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
                        ") both define the triangles: leave one out");
+}
+
+// Lengths of keys are metres.
+void check_unit(const Scene& scene) {
+  const ClothShape& cloth = scene.cloth;
+  if (cloth.unit == LengthUnit::metre || !rest_file(scene).empty() || names_an_obj(cloth.start)) return;
+  throw Error::request(shown(scene, "cloth.unit", name_of(cloth.unit), "") +
+                       " is that of an OBJ, and this cloth is built: lengths of keys are metres")
+      .of("cloth.unit", name_of(cloth.unit));
 }
 
 void check_method(const Scene& scene) {
@@ -252,6 +261,7 @@ void check_scene(const Scene& scene) {
   check_fabric(scene);
   check_mesh(scene);
   check_one_mesh(scene);
+  check_unit(scene);
   check_start_shape(scene);
   check_phases(scene);
   check_method(scene);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/base/error.h"
+#include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
 #include "sim/mesh/random_points.h"
 #include "sim/scene/shown_key.h"
@@ -137,8 +138,6 @@ void check_pleats(const Scene& scene) {
                          shown(scene, "cloth.radius", c.radius, "m"));
 }
 
-bool names_a_file(const std::string& name) { return name.ends_with(".obj") || name.ends_with(".OBJ"); }
-
 void check_start_name(const Scene& scene) {
   static const std::vector<std::string> kNames = {"rest", "knot", "pleats"};
   const std::string& start = scene.cloth.start;
@@ -159,12 +158,12 @@ void check_start_shape(const Scene& scene) {
     throw Error::request(shown(scene, "triangles", std::to_string(scene.triangles), "") +
                          " must be at least 2 for each of " +
                          shown(scene, "cloth.copies", std::to_string(c.copies), ""));
-  if (c.copies > 1 && (names_a_file(c.start) || c.shape == "pattern"))
+  if (c.copies > 1 && (names_an_obj(c.start) || c.shape == "pattern"))
     throw Error::request(shown(scene, "cloth.copies", std::to_string(c.copies), "") +
                          " must be 1 where a file says where the cloth starts");
-  if (c.start == "rest" || names_a_file(c.start)) return;
+  if (c.start == "rest" || names_an_obj(c.start)) return;
   check_start_name(scene);
-  const bool knot = c.start == "knot", of_file = names_a_file(scene.mesh);
+  const bool knot = c.start == "knot", of_file = names_an_obj(scene.mesh);
   if (of_file || !(c.shape == "strip" || (!knot && c.shape == "square")))
     throw Error::request(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
                          (knot ? "" : " or square") + ", not " +
@@ -174,8 +173,8 @@ void check_start_shape(const Scene& scene) {
 
 std::vector<Vector3d> start_shape(const Scene& scene, const ClothMesh& mesh) {
   const ClothShape& c = scene.cloth;
-  if (names_a_file(c.start)) return read_start(c.start, c.weld, mesh);
-  if (c.shape == "pattern") return read_start(c.file, c.weld, mesh);
+  if (names_an_obj(c.start)) return read_start(c.start, c.weld, mesh, c.unit);
+  if (c.shape == "pattern") return read_start(c.file, c.weld, mesh, c.unit);
   std::vector<Vector3d> x = mesh.rest;
   const auto each_with = [&](const auto& place) {
     const std::size_t each = x.size() / c.copies;

@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_history.h"
+#include "sim/scene/mesh_files.h"
 #include "sim/time/together.h"
 
 namespace hysteron::experiments {
@@ -82,12 +83,6 @@ void check(const Setup& setup, double bytes, const std::string& what) {
       .of("max-memory", fmt::format("{:g}", setup.options.max_memory));
 }
 
-// "" of a cloth that is built.
-std::string file_of(const Scene& scene) {
-  if (scene.mesh.ends_with(".obj") || scene.mesh.ends_with(".OBJ")) return scene.mesh;
-  return scene.cloth.shape == "file" || scene.cloth.shape == "pattern" ? scene.cloth.file : "";
-}
-
 }  // namespace
 
 MemoryNeed memory_need(const Setup& setup, double triangles) {
@@ -114,7 +109,7 @@ void check_memory(const Setup& setup, double triangles) {
 }
 
 void check_memory(const Setup& setup) {
-  const std::string file = file_of(setup.scene);
+  const std::string file = rest_file(setup.scene);
   if (file.empty()) return check_memory(setup, setup.scene.triangles);
   std::error_code missing;
   const auto bytes = static_cast<double>(fs::file_size(file, missing));

@@ -8,6 +8,7 @@
 #include "experiments/workbench/pages/error_words.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
+#include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -38,9 +39,7 @@ std::vector<Flag> drawn_number(const Scene& scene, int draw) {
   return {{"triangles", std::to_string(number)}};
 }
 
-bool from_a_file(const Scene& scene) {
-  return scene.cloth.shape == "file" || scene.cloth.shape == "pattern" || scene.mesh.ends_with(".obj");
-}
+bool from_a_file(const Scene& scene) { return !rest_file(scene).empty(); }
 
 Flag finer_mesh(const Scene& scene) {
   if (from_a_file(scene)) return {kSubdivisions, std::to_string(scene.cloth.subdivisions + 1)};

@@ -82,6 +82,7 @@ const Cloth& fitting(const Setup& setup, const Cloth& cloth) {
 void explain(const Cloth& cloth, const Simulation& simulation) {
   std::cout << cloth.mesh.faces() << " triangles, " << cloth.mesh.interior_edges << " hinges, "
             << cloth.mesh.vertices() << " vertices on " << simulation.device() << "\n";
+  for (const std::string& warning : cloth.warnings) std::cout << "warning: " << warning << "\n";
   const MethodChoice& method = simulation.method;
   if (!method.reason.empty()) std::cout << method.reason << "\n";
   if (method.linear_solver != Preconditioning::automatic)

@@ -134,6 +134,18 @@ render::Image without_name(const fs::path& file) {
   return rest;
 }
 
+// It would be zero: no edge has two triangles.
+TEST(RenderedFiles, CurvatureOfLooseTrianglesIsDoubted) {
+  const Folder folder;
+  const std::string soup = write(folder.path() / "soup.obj",
+                                 "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\n"
+                                 "f 1 2 3\nf 4 5 6\n");
+  ASSERT_EQ(rendered(folder.path() / "out", {soup}, {{"look", "curvature"}}), 0);
+  const Json warnings = manifest_of(folder.path() / "out")["warnings"];
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0], "mesh " + soup + ": 2 triangles in 2 parts that share no edge, with 0 hinges");
+}
+
 TEST(RenderedFiles, OfSeveralFoldersStandInColumnsEachInItsUnitAxesAndRate) {
   const Folder folder;
   const fs::path out = folder.path() / "out";
@@ -238,8 +250,8 @@ TEST(RenderedFiles, OptionsOutOfRangeAreRefused) {
             "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
   EXPECT_EQ(refusal({good}, {{"look", "friction"}}),
             "look = friction must be cloth | curvature | wireframe | silhouette (--look)");
-  EXPECT_EQ(refusal({good}, {{"render.unit", "inch"}}),
-            "render.unit = inch must be metre | centimetre | millimetre (--render.unit)");
+  EXPECT_EQ(refusal({good}, {{"render.unit", "foot"}}),
+            "render.unit = foot must be metre | centimetre | millimetre | inch (--render.unit)");
   EXPECT_EQ(refusal({good}, {{"render.up", "z,y"}}),
             "render.up = z,y must be one value, or as many as sequences: 1 (--render.up)");
   EXPECT_EQ(refusal({good}, {{"fps", "0"}}), "fps = 0 must be a number in (0, 10000] [1/s] (--fps)");

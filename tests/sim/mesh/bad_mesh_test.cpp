@@ -43,12 +43,18 @@ TEST_F(BadObj, FolderInsteadOfAFile) {
   EXPECT_EQ(std::string(error.what()), "cannot read mesh " + file + ": it is a folder");
 }
 
-TEST_F(BadObj, EmptyFile) { expect("", "no triangles; a cloth needs at least one"); }
+const char* const kNoObj = "not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"";
+
+TEST_F(BadObj, WhatIsNone) {
+  for (const char* content : {"", "solid cube\nfacet normal 0 0 1\nvertex 0 0 0\n", "{\"asset\": {}}\n",
+                              "ply\nformat ascii 1.0\nelement vertex 3\nend_header\n0 0 0\n"})
+    expect(content, kNoObj);
+}
 
 TEST_F(BadObj, VerticesWithoutFaces) { expect(kTriangle, "no triangles; a cloth needs at least one"); }
 
 TEST_F(BadObj, BinaryContent) {
-  expect(std::string("\0\1\2\377glTF\n\0\n", 10), "no triangles; a cloth needs at least one");
+  expect(std::string("\0\1\2\377glTF\n\0\n", 10), "not an OBJ: it holds bytes that are no text");
 }
 
 TEST_F(BadObj, CoordinateThatIsNoFiniteNumber) {
@@ -100,6 +106,17 @@ TEST_F(BadObj, FaceWithTooFewOrTooManyCorners) {
   const std::string allowed = "; allowed are triangles and quads, triangulate the mesh first";
   expect(std::string(kTriangle) + "f 1 2\n", "line 4: a face of 2 corners" + allowed);
   expect(kFan + "f 1 2 3 4 5\n", "line 6: a face of 5 corners" + allowed);
+}
+
+TEST_F(BadObj, QuadWhoseSidesCross) {
+  expect("v 0 0 0\nv 0.1 0.1 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3 4\n",
+         "line 5: sides of the quad cross: its corners must follow one another around it");
+}
+
+// To a reader that passes over what it does not know, the vertex would be lost and all others renumbered.
+TEST_F(BadObj, VertexThatIsWrittenOtherwise) {
+  expect("V 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "line 1: \"V\" must be plain \"v\"");
+  expect("o a\n\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nf 1 2 3\n", "line 2: \"\xEF\xBB\xBFv\" must be plain \"v\"");
 }
 
 TEST_F(BadObj, DegenerateTriangle) {

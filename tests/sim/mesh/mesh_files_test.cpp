@@ -69,6 +69,25 @@ TEST(ObjFile, GroupsCommentsRelativeIndicesNormalsAndCarriageReturnsAreUnderstoo
   EXPECT_TRUE(mesh.pattern.empty());
 }
 
+TEST(ObjFile, ByteOrderMarkAndCommentsBehindRecordsAreNoPartOfThem) {
+  const Folder folder;
+  const std::string file = folder.write(
+      "windows.obj",
+      "\xEF\xBB\xBFv 5 5 5 # first\nv 6 5 5\nv 6 6 5\n   # indented\nv 5 6 5\nf 1 2 3 4# face\n#end");
+  const ClothMesh mesh = read_obj(file, 0);
+  EXPECT_EQ(mesh.vertices(), 4);
+  EXPECT_EQ(mesh.rest[0], Eigen::Vector3d(5, 5, 5));
+  EXPECT_EQ(test::total_area(mesh), 1);
+}
+
+// Of OBJ before 3.0.
+TEST(ObjFile, OldFacesAreFaces) {
+  const Folder folder;
+  EXPECT_EQ(
+      read_obj(folder.write("old.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nfo 2 4 3\n"), 0).faces(),
+      2);
+}
+
 // Two panels whose edge is stored twice, as exporters write at a seam of the texture.
 const char* const kSeam =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

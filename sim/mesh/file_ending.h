@@ -1,0 +1,21 @@
+// What a mesh file is by its name, in letters of either case.
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+
+namespace hysteron {
+
+// ".obj" of "Shirt.OBJ".
+inline std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+inline bool names_an_obj(const std::filesystem::path& file) { return ending_of(file) == ".obj"; }
+
+}  // namespace hysteron

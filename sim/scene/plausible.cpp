@@ -1,0 +1,133 @@
+#include "sim/scene/plausible.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "sim/mesh/file_ending.h"
+#include "sim/scene/mesh_files.h"
+#include "sim/scene/shown_key.h"
+
+namespace hysteron {
+namespace {
+
+// Beyond these a cloth is doubtful.  They are wide enough for every specimen and garment, and narrow enough
+// that one of 10 cm to 1 m is beyond them where centimetres or millimetres are read as metres, and the other
+// way round.
+constexpr double kSmallest = 5e-3;   // largest extent [m]: testers clamp specimens of 1 cm at least
+constexpr double kLargest = 10;      // [m]: curtains; looms are 2 to 5 m wide
+constexpr double kLightest = 1e-6;   // [kg]: 5 mm square of 0.04 kg/m^2, a light voile
+constexpr double kHeaviest = 5;      // [kg]: a winter coat weighs 3 kg
+constexpr double kShortestEdge = 1;  // mean, in thicknesses: below, cloth is no surface any more
+constexpr double kLongestEdge =
+    500;                            // mean, in thicknesses, 25 cm of cotton: folds are some centimetres wide
+constexpr double kStretched = 0.5;  // of an edge at the start: weaves tear at 0.1 to 0.3
+
+struct Size {
+  double extent, weight, edge;  // [m], [kg], mean over the fabric's thickness
+
+  // Of the same mesh with lengths times this.
+  Size times(double scale) const { return {scale * extent, scale * scale * weight, scale * edge}; }
+};
+
+Size size_of(const Scene& scene, const ClothMesh& mesh) {
+  const int faces = mesh.faces() / scene.cloth.copies;  // of one cloth
+  Eigen::AlignedBox3d box;
+  for (int f = 0; f < faces; ++f)
+    for (const Eigen::Vector3d& x : mesh.corners(f)) box.extend(x);
+  double edges = 0;
+  for (std::size_t e = 0; e < mesh.edge.size(); ++e) edges += mesh.edge_length(static_cast<int>(e));
+  const double area = std::accumulate(mesh.face_area.begin(), mesh.face_area.begin() + faces, 0.0);
+  return {box.sizes().maxCoeff(), scene.fabric.density * area,
+          edges / static_cast<double>(mesh.edge.size()) / scene.fabric.thickness};
+}
+
+bool is_within(double x, double low, double high) { return x >= low && x <= high; }
+
+// Three digits.
+std::string rounded(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return text;
+}
+
+// What of it is beyond the limits: "is 24 m long (...), weighs 56 kg (...)"; "" where nothing is.
+std::string beyond(const Size& size) {
+  std::vector<std::string> words;
+  if (!is_within(size.extent, kSmallest, kLargest))
+    words.push_back("is " + rounded(size.extent) + " m long (" + rounded(kSmallest) + " to " +
+                    rounded(kLargest) + " m would be plausible)");
+  if (!is_within(size.weight, kLightest, kHeaviest))
+    words.push_back("weighs " + rounded(size.weight) + " kg (" + rounded(kLightest) + " to " +
+                    rounded(kHeaviest) + " kg)");
+  if (!is_within(size.edge, kShortestEdge, kLongestEdge))
+    words.push_back("has edges " + rounded(size.edge) + " times as long as it is thick (" +
+                    rounded(kShortestEdge) + " to " + rounded(kLongestEdge) + ")");
+  return join(words, ", ");
+}
+
+// Units in which nothing is beyond them: "cloth.unit = centimetre would make it 0.24 m long".
+std::string fitting_units(const Size& size, LengthUnit unit) {
+  std::vector<std::string> fitting;
+  for (std::size_t i = 0; i < names(LengthUnit{}).size(); ++i) {
+    const auto other = static_cast<LengthUnit>(i);
+    const Size then = size.times(in_metres(1, other) / in_metres(1, unit));
+    if (other != unit && beyond(then).empty())
+      fitting.push_back(name_of(other) + (fitting.empty() ? " would make it " : " ") + rounded(then.extent) +
+                        " m" + (fitting.empty() ? " long" : ""));
+  }
+  return fitting.empty() ? "" : "cloth.unit = " + join(fitting, ", ");
+}
+
+// Of cloth that is built the edges are asked for.
+std::string size_doubt(const Scene& scene, const ClothMesh& mesh) {
+  Size size = size_of(scene, mesh);
+  const std::string file = rest_file(scene);
+  if (file.empty()) size.edge = kShortestEdge;
+  const std::string what = beyond(size);
+  if (what.empty()) return "";
+  if (file.empty()) return "the cloth " + what + ": lengths are in metres";
+  const LengthUnit unit = scene.cloth.unit;
+  // The rest shape of a pattern is not in that unit.
+  const bool is_pattern = scene.cloth.shape == "pattern" && !names_an_obj(scene.mesh);
+  const std::string fitting = is_pattern ? "" : fitting_units(size, unit);
+  return "mesh " + file + ", read in " + (is_pattern ? "units of cloth.texture-scale" : name_of(unit) + "s") +
+         ", " + what + (fitting.empty() ? "" : ": " + fitting);
+}
+
+// Neither a bend nor a weave's stretch: vertices in another order, or another cloth's.
+std::string stretch_doubt(const Scene& scene, const ClothMesh& mesh,
+                          const std::vector<Eigen::Vector3d>& start) {
+  double largest = 0;
+  long stretched = 0;
+  for (std::size_t e = 0; e < mesh.edge.size(); ++e) {
+    const double length = (start[mesh.edge[e].p3] - start[mesh.edge[e].p2]).norm();
+    const double strain = length / mesh.edge_length(static_cast<int>(e)) - 1;
+    stretched += strain > kStretched;
+    largest = std::max(largest, strain);
+  }
+  if (stretched == 0) return "";
+  return shown(scene, "cloth.start", scene.cloth.start, "") + " stretches " + std::to_string(stretched) +
+         " edges by more than " + rounded(100 * kStretched) + " %, one by " + rounded(100 * largest) +
+         " %: are its vertices in the order of those at rest?";
+}
+
+}  // namespace
+
+std::vector<std::string> cloth_doubts(const Scene& scene, const ClothMesh& mesh,
+                                      const std::vector<Eigen::Vector3d>& start) {
+  std::vector<std::string> doubts;
+  const auto add = [&](const std::string& doubt) {
+    if (!doubt.empty()) doubts.push_back(doubt);
+  };
+  add(size_doubt(scene, mesh));
+  if (!names_an_obj(scene.cloth.start)) return doubts;
+  add(stretch_doubt(scene, mesh, start));
+  add(shown(scene, "cloth.start", scene.cloth.start, "") +
+      " is a shape without a history: friction and set begin as if the cloth were bent to it once, from "
+      "rest");
+  return doubts;
+}
+
+}  // namespace hysteron

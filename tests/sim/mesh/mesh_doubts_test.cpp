@@ -1,0 +1,113 @@
+// What is said about meshes that can be simulated and are hardly what was meant.
+#include "sim/mesh/mesh_doubts.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "tests/sim/base/folder.h"
+
+namespace hysteron {
+namespace {
+
+using Doubts = std::vector<std::string>;
+
+// Of an OBJ with this content, without "mesh FILE: ".
+Doubts doubts_of(const std::string& content, double weld = 0) {
+  const test::Folder folder;
+  const std::string file = folder.write("cloth.obj", content);
+  Doubts doubts;
+  read_obj(file, weld, LengthUnit::metre, &doubts);
+  for (std::string& doubt : doubts) doubt = doubt.substr(("mesh " + file + ": ").size());
+  return doubts;
+}
+
+// Every triangle with vertices of its own, as STL has them, with six digits.
+std::string soup_of(const ClothMesh& mesh) {
+  std::ostringstream text;
+  for (const Eigen::Vector3i& face : mesh.face)
+    for (const int v : face) text << "v " << mesh.rest[v].transpose() << "\n";
+  for (int f = 0; f < mesh.faces(); ++f)
+    text << "f " << 3 * f + 1 << " " << 3 * f + 2 << " " << 3 * f + 3 << "\n";
+  return text.str();
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(MeshDoubts, TrianglesThatShareNoVerticesAreCountedAndTheWeldIsNamed) {
+  const ClothMesh mesh = make_grid(0.2, 0.2, 10, 10, MeshFamily::aligned, 0);
+  const std::string soup = soup_of(mesh);
+  const Doubts doubts = doubts_of(soup);
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_EQ(doubts[0], "200 triangles in 200 parts that share no edge, with 0 hinges");
+  const int coincident = 3 * mesh.faces() - mesh.vertices();
+  EXPECT_TRUE(has(doubts[1], std::to_string(coincident) + " vertices on its boundary lie on others"))
+      << doubts[1];
+  // A thousandth of the mean edge (20 mm and its diagonals), rounded down to a power of ten.
+  EXPECT_TRUE(has(doubts[1], "cloth.weld = 1e-05 m joins them")) << doubts[1];
+  EXPECT_EQ(doubts_of(soup, 1e-5), Doubts());
+}
+
+// Two strips of n cells, the seam between them stored twice.
+TEST(MeshDoubts, SeamThatIsStoredTwiceIsCounted) {
+  constexpr int n = 7;
+  std::ostringstream text;
+  for (const double low : {0.0, 0.02})
+    for (int row = 0; row < 2; ++row)
+      for (int i = 0; i <= n; ++i) text << "v " << 0.02 * i << " " << low + 0.02 * row << " 0\n";
+  for (const int first : {1, 2 * (n + 1) + 1})
+    for (int i = 0; i < n; ++i) {
+      const int a = first + i, b = a + n + 1;
+      text << "f " << a << " " << a + 1 << " " << b + 1 << " " << b << "\n";
+    }
+  const Doubts doubts = doubts_of(text.str());
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_TRUE(has(doubts[0], "in 2 parts")) << doubts[0];
+  EXPECT_TRUE(has(doubts[1], std::to_string(n + 1) + " vertices on its boundary")) << doubts[1];
+}
+
+TEST(MeshDoubts, FansThatMeetInOneVertexAreNamed) {
+  const Doubts doubts =
+      doubts_of("v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv -0.1 0 0\nv -0.1 -0.1 0\nf 1 2 3\nf 1 4 5\n");
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_EQ(doubts[0], "2 triangles in 2 parts that share no edge, with 0 hinges");
+  EXPECT_TRUE(has(doubts[1], "meet in 1 vertex alone (the first is the vertex of line 1)")) << doubts[1];
+}
+
+// Closed fans have no boundary there that could be counted.
+TEST(MeshDoubts, TipsOfTwoClosedConesMeet) {
+  std::string text = "v 0 0 0\n";
+  for (const char* z : {" 1", " -1"})
+    for (const char* xy : {"v 1 0", "v 0 1", "v -1 -1"}) text += xy + std::string(z) + "\n";
+  const Doubts doubts = doubts_of(text + "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 1 6 5\nf 1 7 6\nf 1 5 7\n");
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_TRUE(has(doubts[1], "two fans of triangles meet in 1 vertex")) << doubts[1];
+}
+
+TEST(MeshDoubts, VertexWithinASideOfATriangleIsNamed) {
+  const Doubts doubts = doubts_of(
+      "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0.1 0.05 0\nv 0.2 0 0\nv 0.2 0.1 0\n"
+      "f 1 2 3 4\nf 2 6 5\nf 5 6 7\nf 5 7 3\n");
+  ASSERT_EQ(doubts.size(), 3u);
+  EXPECT_TRUE(has(doubts[1], "1 vertex lies within sides of triangles")) << doubts[1];
+  EXPECT_TRUE(has(doubts[1], "the first is the vertex of line 5 on the triangle of line 8")) << doubts[1];
+  // The parts hang together at both ends of that side.
+  EXPECT_TRUE(has(doubts[2], "meet in 2 vertices alone")) << doubts[2];
+}
+
+TEST(MeshDoubts, LoneTriangleCannotBend) {
+  EXPECT_EQ(doubts_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            Doubts{"one triangle with 0 hinges: it cannot bend"});
+}
+
+TEST(MeshDoubts, ThereAreNoneAboutAWholeCloth) {
+  for (const MeshFamily family : {MeshFamily::aligned, MeshFamily::equilateral, MeshFamily::random}) {
+    const MeshNames names{"mesh", {}, {}};
+    EXPECT_EQ(mesh_doubts(make_rectangle(0.3, 0.2, 400, family, 1), names), Doubts());
+    EXPECT_EQ(mesh_doubts(make_disc(0.15, 400, family, 1), names), Doubts());
+  }
+  EXPECT_EQ(mesh_doubts(make_tube(0.3, 0.05, 400, MeshFamily::unionjack, 1), {"mesh", {}, {}}), Doubts());
+}
+
+}  // namespace
+}  // namespace hysteron
