@@ -43,7 +43,7 @@ HardScene draping(int triangles, const Scene& like) {
   Scene scene = scene_of("drape", triangles, like);
   apply_flags(scene, {{"fabric", kLimpest}});
   scene.seconds = choice.released() + kHangs;
-  add_apparatus(scene, choice);
+  add_apparatus(scene, choice, {scene.cloth.radius});
   return {"drape", scene, make_cloth(scene)};
 }
 

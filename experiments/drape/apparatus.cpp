@@ -4,13 +4,13 @@
 
 namespace hysteron::experiments {
 
-void add_apparatus(Scene& scene, const DrapeChoice& choice) {
+void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
   // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
   // apparatus, and the plate throws nothing up when it goes down.
   constexpr double kOwnWeights = 4;
   const double pressure = kOwnWeights * scene.fabric.density * scene.gravity.norm();
   const double shell = distance_under(obstacle_shell(scene), pressure);
-  scene.cloth.position = {0, 0, shell};
+  scene.cloth.position += Eigen::Vector3d(0, 0, shell) - specimen.middle;
   Obstacle pedestal;
   pedestal.kind = ObstacleKind::cylinder;
   pedestal.radius = choice.disc;
@@ -23,7 +23,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice) {
   scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});
   if (choice.release == "dropped") return;
   Obstacle plate = clamp;
-  plate.radius = scene.cloth.radius + 0.01;
+  plate.radius = specimen.radius + 0.01;
   plate.center = {0, 0, -plate.height / 2};
   plate.friction = 0;
   for (int k = 0; k <= choice.strokes(); ++k) {

@@ -1,7 +1,7 @@
 // Cusick's apparatus: a pedestal on which a disc holds the specimen, and the plate that lets its ring down.
 #pragma once
 
-#include "sim/scene/scene.h"
+#include "experiments/drape/specimen.h"
 
 namespace hysteron::experiments {
 
@@ -19,7 +19,8 @@ struct DrapeChoice {
 
 inline constexpr double kPedestalHeight = 0.14;  // [m]
 
-// Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down.
-void add_apparatus(Scene& scene, const DrapeChoice& choice);
+// Pedestal, the upper disc that holds the specimen (not shown), and the plate that lets the ring down; the
+// specimen is laid on the pedestal, middle on middle.
+void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen);
 
 }  // namespace hysteron::experiments

@@ -11,6 +11,7 @@
 #include "render/caption.h"
 #include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/scene/mesh_files.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -62,17 +63,37 @@ void keep_the_step(Scene& scene) {
 }
 
 // Otherwise nothing hangs over it, and no ring is there to be covered.
-void check_disc(const Scene& scene, const DrapeChoice& choice) {
-  if (choice.disc < scene.cloth.radius) return;
-  throw Error::request("drape.disc = " + number_text(choice.disc) +
-                       " m must be < cloth.radius = " + number_text(scene.cloth.radius) + " m")
+void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
+  if (choice.disc < specimen.radius) return;
+  const std::string file = rest_file(scene);
+  const std::string of = file.empty() ? "cloth.radius = " + number_text(specimen.radius) + " m"
+                                      : fmt::format("{:.4g} m, the radius of mesh {}", specimen.radius, file);
+  throw Error::request("drape.disc = " + number_text(choice.disc) + " m must be < " + of)
       .of("drape.disc", number_text(choice.disc));
 }
 
+// The specimen lies on the pedestal, and scene and cloth say so.
+Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) {
+  const Specimen specimen = specimen_of(scene, cloth);
+  check_disc(scene, choice, specimen);
+  const Eigen::Vector3d before = scene.cloth.position;
+  add_apparatus(scene, choice, specimen);
+  for (Eigen::Vector3d& x : cloth.start) x += scene.cloth.position - before;
+  return specimen;
+}
+
+// A number beyond what a shadow can cover says that the specimen has slipped off or burst, not how it drapes.
+void check_coefficient(double percent) {
+  if (is_drape_coefficient(percent)) return;
+  throw Error::run(
+      fmt::format("the shadow covers {:.4g} % of the ring, which must be 0 to 101: the specimen has left "
+                  "the pedestal or was torn apart by its motion (a shorter step may keep it together)",
+                  percent));
+}
+
 // The cloth's shadow from above with the rim of the pedestal and of the flat specimen, and its dark area.
-double shadow_coefficient(Session& session, const DrapeChoice& choice) {
+double shadow_coefficient(Session& session, const DrapeChoice& choice, double radius) {
   double metres = 0;
-  const double radius = session.scene().cloth.radius;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
   const std::string unrest = unrest_words(session.run().metrics());
@@ -94,7 +115,7 @@ render::Series circle(double radius, const std::string& label) {
   return series;
 }
 
-void plot_outline(Session& session, const DrapeChoice& choice, const Outline& outline) {
+void plot_outline(Session& session, const DrapeChoice& choice, double radius, const Outline& outline) {
   render::Series cloth{"cloth", {}, {}};
   const std::size_t n = outline.radius.size();
   for (std::size_t k = 0; k <= n; ++k) {
@@ -103,8 +124,7 @@ void plot_outline(Session& session, const DrapeChoice& choice, const Outline& ou
     cloth.y.push_back(100 * outline.radius[k % n] * std::sin(angle));
   }
   render::Plot plot{"Outline from above, " + session.scene().fabric.name, {"x [cm]"}, {"y [cm]"}};
-  plot.series = {cloth, circle(choice.disc, "pedestal"),
-                 circle(session.scene().cloth.radius, "flat specimen")};
+  plot.series = {cloth, circle(choice.disc, "pedestal"), circle(radius, "flat specimen")};
   plot.equal_scales = true;
   session.plot("plot_outline", plot);
 }
@@ -149,15 +169,16 @@ int run_drape(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   keep_the_step(setup.scene);
   if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
-  check_disc(setup.scene, choice);
-  add_apparatus(setup.scene, choice);
-  Session session(line, setup);
+  Cloth cloth = make_cloth(setup.scene);
+  const double radius = lay_on_pedestal(setup.scene, choice, cloth).radius;
+  Session session(line, setup, std::move(cloth));
   if (session.is_over()) return 0;
   session.reserve(
       {}, {"shadow.png", "curvature.png", "friction.png", "plot_outline", "plot_drape", "plot_energy"});
   session.run().note("drape", to_json(bind(kRows, choice))["drape"]);
+  session.run().note("specimen_radius_m", radius);
 
-  const float r = static_cast<float>(setup.scene.cloth.radius);
+  const float r = static_cast<float>(radius);
   Question question;
   question.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
   question.floor = -static_cast<float>(kPedestalHeight);
@@ -165,7 +186,7 @@ int run_drape(const CommandLine& line) {
   double covered = 0, change = 0;  // the coefficient, and by how much the last record changed it [%]
   question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const Outline outline = outline_from_above(session.cloth().mesh, m.x, kDirections);
-    const double percent = drape_coefficient(outline.area(), choice.disc, setup.scene.cloth.radius);
+    const double percent = drape_coefficient(outline.area(), choice.disc, radius);
     change = percent - covered;
     covered = percent;
     return {percent, static_cast<double>(outline.nodes(kProminence))};
@@ -184,8 +205,9 @@ int run_drape(const CommandLine& line) {
   const Outline outline =
       outline_from_above(session.cloth().mesh, session.simulation().positions(), kDirections);
   Run& run = session.run();
-  run.metric("drape_coefficient_percent",
-             drape_coefficient(outline.area(), choice.disc, setup.scene.cloth.radius));
+  const double percent = drape_coefficient(outline.area(), choice.disc, radius);
+  check_coefficient(percent);
+  run.metric("drape_coefficient_percent", percent);
   run.metric("node_count", outline.nodes(kProminence));
   run.metric("settled", settled);
   run.metric("settling_limit_m_per_s", choice.still);
@@ -196,9 +218,12 @@ int run_drape(const CommandLine& line) {
     if (name == "node-count") run.metric("published_node_count", number.value);
   }
   if (session.pictures()) {
-    run.metric("shadow_drape_coefficient_percent", shadow_coefficient(session, choice));
+    const double shadow = shadow_coefficient(session, choice, radius);
+    // By less than its pixels; then the picture alone says so.
+    run.metric("shadow_drape_coefficient_percent",
+               is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
     draw_maps(session);
-    plot_outline(session, choice, outline);
+    plot_outline(session, choice, radius, outline);
     plot_series(session);
   }
   session.finish("Drape: " + setup.scene.fabric.name + ", law " + setup.scene.law);

@@ -22,5 +22,8 @@ Outline outline_from_above(const ClothMesh& mesh, const std::vector<Eigen::Vecto
 
 // 100 (A - A_disc)/(A_specimen - A_disc) (Cusick 1968; BS 5058, ISO 9073-9) [%].
 double drape_coefficient(double projected_area, double disc_radius, double specimen_radius);
+// Whether it can be one [%]: the shadow covers the pedestal, and at most the flat specimen, but for a little
+// stretch.
+inline bool is_drape_coefficient(double percent) { return percent >= 0 && percent <= 101; }
 
 }  // namespace hysteron::experiments
