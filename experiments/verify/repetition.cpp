@@ -181,6 +181,7 @@ std::string reasons_between(const Manifest& recorded, const Manifest& now) {
   const std::string keys =
       differing_keys(without_origins(*recorded.keys).dump(), without_origins(*now.keys).dump());
   if (!keys.empty()) reasons.push_back("keys " + keys);
+  for (const std::string& change : changed_meshes(recorded.meshes, now.meshes)) reasons.push_back(change);
   return join(reasons, "; ");
 }
 

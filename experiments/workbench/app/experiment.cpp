@@ -81,6 +81,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
     quick(setup);  // which may ask what the flags say
     apply_flags(setup.scene, line.flags, extra);
   }
+  make_mesh_paths_absolute(setup.scene);
   check_scene(setup.scene);
   check_options(setup.options);
   check_memory(setup);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/app/mesh_record.h"
 #include "experiments/workbench/app/options.h"
 #include "sim/scene/scene_reader.h"
 
@@ -71,6 +72,7 @@ struct Setup {
   std::string asked = "";      // the scene before the experiment changes it, JSON; empty: it is not changed
   std::vector<std::string> own_tables =
       {};  // arrays of tables of a scene file that the experiment reads itself
+  std::vector<MeshRecord> recorded_meshes = {};  // of the manifest that the scene is from
   std::vector<std::string> asked_metrics =
       {};  // of the scene file: said at the end, and --errors finds theirs, beside the headlines'
   std::vector<DecidedKey> decided = {};  // by the experiment: what a file says of them is not done

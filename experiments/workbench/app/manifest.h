@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "experiments/workbench/app/mesh_record.h"
+
 namespace hysteron::experiments {
 
 using Json = nlohmann::ordered_json;
@@ -157,6 +159,7 @@ struct Manifest {
       options;                        // resolved keys of a simulated run and its experiment; null: not noted
   std::shared_ptr<const Json> asked;  // merge patch that turns `keys` into the scene before its experiment
                                       // changed it; null: not noted
+  std::vector<MeshRecord> meshes;     // files that its cloth was read from
   std::optional<std::string> device, renderer, positions, precision, element, law;
   std::optional<std::int64_t> triangles, hinges, steps;
   std::optional<double> seconds_simulated;

@@ -55,6 +55,12 @@ Json to_json(const Frames& frames) {
   return {{"looks", looks}, {"m_per_pixel", frames.metres_per_pixel}, {"moments", instants}};
 }
 
+Json to_json(const std::vector<MeshRecord>& meshes) {
+  Json object = Json::object();
+  for (const MeshRecord& mesh : meshes) object[mesh.key] = {{"file", mesh.file}, {"hash", mesh.hash}};
+  return object;
+}
+
 Json to_json(const Curve& curve) {
   return {{"plot", curve.plot},
           {"file", curve.file},
@@ -283,6 +289,7 @@ Json to_json(const Manifest& m) {
   json["scene"] = *m.keys;
   if (m.options) json["options"] = *m.options;
   if (m.asked) json["asked"] = *m.asked;
+  if (!m.meshes.empty()) json["meshes"] = to_json(m.meshes);
   visit_results(m, [&](const char* key, const auto& value) { json[key] = to_json(value); });
   add_what_some_have(m, json);
   json["metrics"] = to_json(m.metrics);
@@ -305,6 +312,9 @@ Manifest manifest_of(const Json& json) {
   m.keys = std::make_shared<const Json>(at(json, "scene"));
   if (at(json, "options").is_object()) m.options = std::make_shared<const Json>(json["options"]);
   if (at(json, "asked").is_object()) m.asked = std::make_shared<const Json>(json["asked"]);
+  if (at(json, "meshes").is_object())
+    for (const auto& [key, mesh] : json["meshes"].items())
+      m.meshes.push_back({key, text_at(mesh, "file"), text_at(mesh, "hash")});
   visit_results(m, [&](const char* key, auto& value) { take(json, key, value); });
   take_what_some_have(json, m);
   m.metrics = metrics_of(at(json, "metrics"));

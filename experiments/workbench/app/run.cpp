@@ -98,6 +98,8 @@ Run::Run(const CommandLine& line, const Setup& setup, const std::vector<std::str
     : Run(line, setup.options, to_json(setup.scene), kept) {
   manifest_.options = std::make_shared<const Json>(Json::parse(setup.choices));
   manifest_.asked_metrics = setup.asked_metrics;
+  manifest_.meshes = mesh_records(setup.scene);
+  for (const std::string& change : changed_meshes(setup.recorded_meshes, manifest_.meshes)) warn(change);
   if (!setup.asked.empty())
     manifest_.asked = std::make_shared<const Json>(asked_patch(*manifest_.keys, setup.asked));
 }

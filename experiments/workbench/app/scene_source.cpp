@@ -91,6 +91,8 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
         .of("scene", name);
   apply_recorded_scene(setup.scene, scene_for(experiment, manifest), name);
+  find_meshes(setup.scene, manifest.meshes, name);
+  setup.recorded_meshes = manifest.meshes;
   if (manifest.experiment != experiment || !manifest.options) return;
   for (const auto& [path, value] : leaves_of(*manifest.options))
     if (!is_own_table(value)) assign(find_key(extra, path, name), recorded_value(value, path, name), name);

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/verify/repetition.h"
+#include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
@@ -100,6 +101,57 @@ TEST_F(Recorded, SceneNeedsItsFileNoMore) {
   ASSERT_EQ(program("rerun " + manifest().string() + " --quiet --out " + in("again")).exit_code, 0);
   EXPECT_EQ(json_in(run())["state_hash"], json_in(in("again"))["state_hash"]);
   EXPECT_EQ(json_in(run())["metrics"]["edge_m"], json_in(in("again"))["metrics"]["edge_m"]);
+}
+
+// A scene beside a mesh, named from its own folder, and its run beside both.
+class RecordedMesh : public testing::Test {
+ protected:
+  RecordedMesh() {
+    fs::create_directories(project_ / "meshes");
+    const ClothMesh mesh = make_grid(0.2, 0.1, 4, 2, MeshFamily::unionjack, 1);
+    write_obj(mesh_, mesh, mesh.rest);
+    std::ofstream(project_ / "mine.toml")
+        << "seconds = 0.05\n[cloth]\nshape = \"file\"\nfile = \"meshes/c.obj\"\n";
+  }
+  Outcome run(const std::string& arguments) const {
+    return program(arguments + " --quiet --no-images --threads 1 --device cpu");
+  }
+  Outcome record() const {
+    return run("run " + (project_ / "mine.toml").string() + " --out " + (project_ / "run").string());
+  }
+  static Json json_in(const fs::path& folder) { return Json::parse(text_of(folder / "manifest.json")); }
+
+  Folder folder_;
+  const fs::path project_ = folder_.path() / "project", mesh_ = project_ / "meshes" / "c.obj";
+};
+
+TEST_F(RecordedMesh, IsFoundFromElsewhereAndWhereAllHasMoved) {
+  ASSERT_EQ(record().exit_code, 0);
+  const Json before = json_in(project_ / "run");
+  EXPECT_EQ(before["scene"]["cloth"]["file"], mesh_.string());
+  EXPECT_EQ(before["meshes"]["cloth.file"]["file"], mesh_.string());
+  const fs::path moved = folder_.path() / "elsewhere";
+  fs::rename(project_, moved);
+  const Outcome again = run("rerun " + (moved / "run").string() + " --out " + (moved / "again").string());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.err, "");
+  const Json now = json_in(moved / "again");
+  EXPECT_EQ(now["state_hash"], before["state_hash"]);
+  EXPECT_EQ(now["meshes"]["cloth.file"]["hash"], before["meshes"]["cloth.file"]["hash"]);
+  EXPECT_EQ(now["scene"]["cloth"]["file"], (moved / "meshes" / "c.obj").string());
+}
+
+TEST_F(RecordedMesh, ThatHasChangedIsNamed) {
+  ASSERT_EQ(record().exit_code, 0);
+  std::ofstream(mesh_, std::ios::app) << "# another file\n";
+  const std::string out = (folder_.path() / "again").string();
+  const Outcome again = run("rerun " + (project_ / "run").string() + " --out " + out);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const std::string words = "mesh " + mesh_.string() + " (cloth.file) has changed since it was recorded";
+  EXPECT_NE(again.err.find("warning: " + words), std::string::npos) << again.err;
+  EXPECT_EQ(json_in(out)["warnings"][0].get<std::string>().substr(0, words.size()), words);
+  const Outcome verified = program("verify " + (project_ / "run").string());
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;  // the same cloth
 }
 
 TEST_F(Recorded, ManifestIsASceneOfItsExperiment) {
