@@ -9,6 +9,7 @@
 #include "experiments/workbench/app/experiment.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
+#include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
@@ -329,6 +330,25 @@ TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
 }
 
 // Along every path, and says what bringing it to rest has moved.
+// Turns are counted from a hundredth of its length on.
+TEST(Program, MeasuresASwingByTheStripThatItReads) {
+  const Folder folder;
+  const std::string file = (folder.path() / "strip.obj").string();
+  const ClothMesh strip = make_grid(0.09, 0.03, 9, 3, MeshFamily::unionjack, 1);
+  write_obj(file, strip, strip.rest);
+  const auto turns = [&](const std::string& flags) {
+    const fs::path out = folder.path() / "out";
+    const Outcome outcome = program(
+        "swing --quiet --no-images --device cpu --threads 1 --seconds 1 --cloth.shape file --cloth.file " +
+        file + " --out " + out.string() + flags);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(text_of(out / "manifest.json"))["metrics"]["turns"].get<int>();
+  };
+  const int expected = turns("");
+  EXPECT_GT(expected, 0);
+  EXPECT_EQ(turns(" --cloth.length 50"), expected);
+}
+
 TEST(Program, EndsADrapeAtRest) {
   const Folder folder;
   for (const std::string release : {"lowered", "dropped", "relifted"}) {

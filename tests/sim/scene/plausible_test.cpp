@@ -43,6 +43,15 @@ TEST_F(DiscFile, ClothHasItsSizeInEveryUnit) {
   }
 }
 
+// Its name ends in capitals.
+TEST_F(DiscFile, IsAMeshByEitherKey) {
+  Scene scene = read(1, LengthUnit::metre);
+  scene.mesh = scene.cloth.file;
+  scene.cloth = ClothShape();
+  check_scene(scene);
+  EXPECT_EQ(make_cloth(scene).mesh.face, disc_.face);
+}
+
 TEST_F(DiscFile, WrongUnitIsDoubtedAndTheRightOneNamed) {
   for (const auto& [scale, unit, right] :
        {std::tuple{100., LengthUnit::metre, "cloth.unit = centimetre would make it"},
