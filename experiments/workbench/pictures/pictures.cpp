@@ -24,9 +24,8 @@ std::string frame_file(const std::string& look, bool first, int number) {
   return fmt::format("{}/{:04}.png", first ? "frames" : "frames-" + look, number);
 }
 
-void check_cloth_in(const render::ClothView& view, const std::string& picture, double time) {
-  if (view.shows_cloth()) return;
-  throw Error::run(
+Error no_cloth_in(const std::string& picture, double time) {
+  return Error::run(
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
 }
 
@@ -119,7 +118,7 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
-    check_cloth_in(studio.view(), "the picture of look " + look, shown.time);
+    if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
     letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
     return image;
   });
@@ -172,12 +171,15 @@ void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x) {
 // On the studio's thread.
 void Pictures::fill(SceneRenderer& studio, const Order& order, bool on_sheet) {
   render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
+  if (!studio.view().shows_cloth()) {
+    writer_.write(order.file, std::move(image));
+    throw no_cloth_in(order.file.string(), order.shown.time);
+  }
   if (!options_.plain)
     letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)),
            color_bar_of(scene_, options_, order.look));
   if (on_sheet) thumbnails_.push_back({thumbnail(image), when(order.shown.time)});
   writer_.write(order.file, std::move(image));
-  check_cloth_in(studio.view(), order.file.string(), order.shown.time);
 }
 
 render::Image Pictures::silhouette(double half_width, int pixels, double& metres_per_pixel) {

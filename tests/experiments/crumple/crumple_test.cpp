@@ -122,6 +122,21 @@ TEST(Crumple, PicturesLawsThatAreComparedInOneFrame) {
   }
 }
 
+// The camera of one law looks elsewhere; of what its run says the error counts, not the warning before it.
+TEST(Crumple, WarnsOfALawThatIsMissingOnItsSheet) {
+  const Folder folder;
+  std::ofstream(folder.path() / "falling.toml") << kFalling;
+  const auto out = folder.path() / "run";
+  const Outcome outcome =
+      program("crumple --scene " + (folder.path() / "falling.toml").string() +
+              " --law 'linear,prandtl+camera.target=9 9 9+camera.distance=1' --size 160x120 --fps 5 "
+              "--threads 1 --quiet --out " +
+              out.string());
+  EXPECT_NE(outcome.err.find("is missing on the page's sheet and plots: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("shows no cloth at t = 0.000 s"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(out / "sheet.png"));
+}
+
 // The beginning of each shipped scene, on a small mesh.
 class ShippedScene : public testing::TestWithParam<const char*> {};
 

@@ -161,6 +161,27 @@ TEST_F(Scenes, AreComparedInOneFrame) {
   EXPECT_TRUE(prandtl["metrics"].contains("side_m"));
 }
 
+// Of all programs only env is found, which starts the columns.
+TEST_F(Scenes, WarnOfPlotsAndFilmsThatCannotBeMade) {
+  std::ofstream(folder_.path() / "mine.toml") << kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n";
+  const std::string path = std::getenv("PATH");
+  std::filesystem::create_symlink("/usr/bin/env", folder_.path() / "env");
+  setenv("PATH", folder_.path().c_str(), 1);
+  const Outcome outcome =
+      program("compare " + (folder_.path() / "mine.toml").string() +
+              " --laws linear,prandtl --compare.video mp4 --quiet --threads 1 --device cpu --size 160x120 "
+              "--fps 10 --out " +
+              out().string());
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string film = "the film is missing: ffmpeg is not installed";
+  EXPECT_NE(outcome.err.find("warning: " + film + "\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: a plot is missing: "), std::string::npos) << outcome.err;
+  const Json warnings = Json::parse(text_of(out() / "manifest.json"))["warnings"];
+  EXPECT_NE(std::find(warnings.begin(), warnings.end(), film), warnings.end()) << warnings;
+  EXPECT_TRUE(std::filesystem::exists(out() / "sheet.png"));
+}
+
 // Two points of a cloth that falls freely stay as far apart as they are.
 TEST_F(Scenes, SayAtTheEndWhatTheyWereAskedFor) {
   const Outcome outcome = run(kSquare + "[[metric]]\nname = \"side\"\nto = [0.2, 0, 0]\n", "--no-images");
