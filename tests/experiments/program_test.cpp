@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "experiments/workbench/app/experiment.h"
+#include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/assets.h"
 #include "sim/scene/fabric_reader.h"
-#include "sim/mesh/cloth_mesh.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"
 
