@@ -157,7 +157,7 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
   Plan plan;
   std::set<std::string> laws;
   for (const Variant& variant : variants) {
-    const std::string law = fabric_of(with(inner, variant)).law;
+    const std::string law = fabric_of(with_variant(inner, variant)).law;
     if (plan.reference != "prandtl") plan.reference = law;
     laws.insert(law);
   }
