@@ -10,26 +10,19 @@
 
 namespace hysteron {
 
-template <class Law>
-inline constexpr int kUnrolledSlots = Law::kHistory <= kShortHistory ? Law::kHistory : 8;
-
 // Numbers of a law's history, one set per element, in the device's preferred order.
 template <class Law, class Real>
 HYST_HD inline History<Real, Law::kHistory> load_history(const Real* memory, int i, int n) {
   History<Real, Law::kHistory> h;
-  if constexpr (Law::kHistory > 0) {
-    HYST_UNROLL(kUnrolledSlots<Law>)
+  if constexpr (Law::kHistory > 0)
     for (int k = 0; k < Law::kHistory; ++k) h[k] = memory[slot_index(i, k, Law::kHistory, n)];
-  }
   return h;
 }
 
 template <class Law, class Real>
 HYST_HD inline void store_history(Real* memory, int i, int n, const History<Real, Law::kHistory>& h) {
-  if constexpr (Law::kHistory > 0) {
-    HYST_UNROLL(kUnrolledSlots<Law>)
+  if constexpr (Law::kHistory > 0)
     for (int k = 0; k < Law::kHistory; ++k) memory[slot_index(i, k, Law::kHistory, n)] = h[k];
-  }
 }
 
 // Laws around other laws are long, and nvcc would compile their loops a second time for batches of cloths:

@@ -89,7 +89,7 @@ struct Fatigue {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    copy_slots<Law::kHistory>(whole, 0, result, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
     return result;
   }
   // With the step, with the potential of the law at full strength.
@@ -101,7 +101,7 @@ struct Fatigue {
     LawStep<Real, D, kHistory> result;
     result.moment = b2 * elastic + m * sound.moment;
     result.history = before;
-    copy_slots<Law::kHistory>(sound.history, 0, result.history, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = sound.history[i];
 
     // D counts what weakening itself releases; the release depends on the weakening: two rounds.
     Weakening after = weakened(m, strength_at(spent), sound.moment, sound.stored, elastic);

@@ -27,7 +27,6 @@ struct FourDirections {
   static constexpr int kDirections = 4;
   static constexpr int kScalarHistory = ScalarLaw::kHistory;
   static constexpr int kHistory = kDirections * kScalarHistory;
-  static constexpr int kUnrolled = kScalarHistory > 8 ? 1 : kDirections;  // a long law is written once
 
   static constexpr Real kBeta = Real(-0.17157287525380990240);  // -(sqrt2 - 1)^2
   static constexpr Real kScale = Real(1.202);                   // s
@@ -45,7 +44,6 @@ struct FourDirections {
                                           const History<Real, kHistory>& before) const {
     LawStep<Real, 3, kHistory> result;
     result.moment.setZero();
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d)
       add(law.step(Vec<Real, 1>(direction(d).dot(curvature)), part(before, d)), d, result);
     return result;
@@ -54,7 +52,6 @@ struct FourDirections {
                                                const History<Real, kHistory>& before) const {
     TriedStep<FourDirections> result{{}, 0};
     result.step.moment.setZero();
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d) {
       const auto one = hysteron::tried_step(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
       add(one.step, d, result.step);
@@ -67,7 +64,6 @@ struct FourDirections {
   HYST_HD Tangent<Real, 3> tangent(const Vec<Real, 3>& curvature,
                                    const History<Real, kHistory>& before) const {
     Tangent<Real, 3> result = Tangent<Real, 3>::Zero();
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d) {
       const Vec<Real, 3> w = direction(d);
       const Real slope = law.tangent(Vec<Real, 1>(w.dot(curvature)), part(before, d))(0, 0);
@@ -78,7 +74,6 @@ struct FourDirections {
 
   HYST_HD Real potential(const Vec<Real, 3>& curvature, const History<Real, kHistory>& before) const {
     Real sum = 0;
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d)
       sum += step_potential(law, Vec<Real, 1>(direction(d).dot(curvature)), part(before, d));
     return kWeight / kDirections * sum;
@@ -89,10 +84,9 @@ struct FourDirections {
   HYST_HD History<Real, kHistory> ironed(const History<Real, kHistory>& before) const requires
       LawWithIroning<ScalarLaw> {
     History<Real, kHistory> after;
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d) {
       const History<Real, kScalarHistory> one = law.ironed(part(before, d));
-      copy_slots<kScalarHistory>(one, 0, after, d * kScalarHistory);
+      for (int i = 0; i < kScalarHistory; ++i) after[d * kScalarHistory + i] = one[i];
     }
     return after;
   }
@@ -100,7 +94,6 @@ struct FourDirections {
   HYST_HD Real used(const Vec<Real, 3>& curvature,
                     const History<Real, kHistory>& history) const requires LawWithUse<ScalarLaw> {
     Real most = 0;
-    HYST_UNROLL(kUnrolled)
     for (int d = 0; d < kDirections; ++d) {
       const Real one = law.used(Vec<Real, 1>(direction(d).dot(curvature)), part(history, d));
       if (one > most) most = one;
@@ -127,11 +120,12 @@ struct FourDirections {
     sum.stored += kWeight / kDirections * one.stored;
     sum.dissipated += kWeight / kDirections * one.dissipated;
     if constexpr (kScalarHistory > 0)
-      copy_slots<kScalarHistory>(one.history, 0, sum.history, d * kScalarHistory);
+      for (int i = 0; i < kScalarHistory; ++i) sum.history[d * kScalarHistory + i] = one.history[i];
   }
   HYST_HD static History<Real, kScalarHistory> part(const History<Real, kHistory>& whole, int d) {
     History<Real, kScalarHistory> result;
-    if constexpr (kScalarHistory > 0) copy_slots<kScalarHistory>(whole, d * kScalarHistory, result, 0);
+    if constexpr (kScalarHistory > 0)
+      for (int i = 0; i < kScalarHistory; ++i) result[i] = whole[d * kScalarHistory + i];
     return result;
   }
 };

@@ -16,8 +16,6 @@
 
 namespace hysteron {
 
-inline constexpr int kShortHistory = 32;  // stays in a GPU's registers; longer ones nvcc need not unroll
-
 // What a law remembers for one element: N Reals, all zero for virgin cloth.  N = 0 takes no memory in a
 // scene.
 template <class Real, int N>
@@ -28,13 +26,6 @@ struct History {
 };
 template <class Real>
 struct History<Real, 0> {};
-
-// Copies n numbers from a place in one history to a place in another.
-template <int n, class Real, int N, int M>
-HYST_HD void copy_slots(const History<Real, N>& from, int first, History<Real, M>& to, int at) {
-  HYST_UNROLL(n <= kShortHistory ? n : 1)
-  for (int i = 0; i < n; ++i) to[at + i] = from[first + i];
-}
 
 template <class Real, int D, int N>
 struct LawStep {

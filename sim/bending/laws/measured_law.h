@@ -45,12 +45,13 @@ template <class Real, int D, int N, class Visit>
 void visit_measured(const LawChoice& c, const RelaxingBranches& branches, const Visit& visit) {
   const Spectrum warp = measured_stops(c);
   const BendingParts& parts = c.curve.parts;
-  if (!parts.set.on())
-    return visit_relaxing(SpectrumStops<Real, D, N>::make(c.curve.b2, warp, parts.weft_stops), branches,
-                          visit);
-  using Stops = SpectrumStops<Real, D, N, StopLoops::rolled>;  // which setting calls in several places
-  visit_relaxing(Stops::make(c.curve.b2, warp, parts.weft_stops), branches,
-                 [&]<class Law>(const Law& law) { visit(Setting<Law>::make(law, c.curve.b2, parts.set)); });
+  const auto stops = SpectrumStops<Real, D, N>::make(c.curve.b2, warp, parts.weft_stops);
+  visit_relaxing(stops, branches, [&]<class Law>(const Law& law) {
+    if (parts.set.on())
+      visit(Setting<Law>::make(law, c.curve.b2, parts.set));
+    else
+      visit(law);
+  });
 }
 
 }  // namespace hysteron

@@ -39,41 +39,41 @@ struct PrandtlStops : StopMemory<Real, D, N> {
                                           const History<Real, kHistory>& before) const {
     LawStep<Real, D, kHistory> result;
     const Stretch now = stretch(curvature, before);
-    store_slips(now, curvature, result.history);
-    for (int c = 0; c < D; ++c)
-      result.moment[c] =
-          b2 * curvature[c] + p * sum_over_stops([&](int j) { return now.offset[c][j] * now.scale[j]; });
-    result.stored = (b2 * curvature.squaredNorm() +
-                     p * sum_over_stops([&](int j) { return held(now, j) * held(now, j); })) /
-                    2;
-    result.dissipated = p * sum_over_stops([&](int j) { return limit[j] * (now.length[j] - held(now, j)); });
+    const PerStop held = now.scale * now.length;
+    for (int c = 0; c < D; ++c) {
+      const PerStop elastic = now.offset[c] * now.scale;
+      slip(result.history, c) = curvature[c] - elastic;
+      result.moment[c] = b2 * curvature[c] + p * sum(elastic);
+    }
+    result.stored = (b2 * curvature.squaredNorm() + p * sum(PerStop(held * held))) / 2;
+    result.dissipated = p * sum(PerStop(limits() * (now.length - held)));
     return result;
   }
 
   HYST_HD Tangent<Real, D> tangent(const Vec<Real, D>& curvature,
                                    const History<Real, kHistory>& before) const {
     const Stretch now = stretch(curvature, before);
-    Tangent<Real, D> result =
-        (b2 + p * sum_over_stops([&](int j) { return now.scale[j]; })) * Tangent<Real, D>::Identity();
+    const PerStop slipping = turning(now);
+    Tangent<Real, D> result = (b2 + p * sum(now.scale)) * Tangent<Real, D>::Identity();
     for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b)
-        result(a, b) -=
-            p * sum_over_stops([&](int j) { return turning(now, j) * now.offset[a][j] * now.offset[b][j]; });
+      for (int b = 0; b < D; ++b) result(a, b) -= p * sum(PerStop(slipping * now.offset[a] * now.offset[b]));
     return result;
   }
 
   HYST_HD Vec<Real, D> residual(const History<Real, kHistory>& history) const {
-    return zero_moment(*this, history, mean_slip(history));
+    Vec<Real, D> mean_slip;
+    for (int c = 0; c < D; ++c) mean_slip[c] = sum(PerStop(slip(history, c))) / N;
+    return zero_moment(*this, history, mean_slip);
   }
   HYST_HD Real largest_stiffness() const { return b2 + N * p; }
 
  private:
-  using Memory::held;
-  using Memory::mean_slip;
-  using Memory::store_slips;
+  using Memory::limits;
+  using Memory::slip;
   using Memory::stretch;
-  using Memory::sum_over_stops;
+  using Memory::sum;
   using Memory::turning;
+  using typename Memory::PerStop;
   using typename Memory::Stretch;
 };
 

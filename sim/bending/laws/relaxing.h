@@ -103,14 +103,14 @@ struct Relaxing {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    copy_slots<Law::kHistory>(whole, 0, result, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
     return result;
   }
   // With what the law itself makes of the step.
   HYST_HD LawStep<Real, D, kHistory> step_around(const LawStep<Real, D, Law::kHistory>& inner,
                                                  const Vec<Real, D>& curvature, const Memory& before) const {
     LawStep<Real, D, kHistory> result;
-    copy_slots<Law::kHistory>(inner.history, 0, result.history, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
     store_set<Real, D>(curvature, result.history, kCurvature);
     result.moment = inner.moment;
     result.stored = inner.stored;

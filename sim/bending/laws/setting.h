@@ -80,7 +80,7 @@ struct Setting {
 
   HYST_HD static History<Real, Law::kHistory> part(const Memory& whole) {
     History<Real, Law::kHistory> result;
-    copy_slots<Law::kHistory>(whole, 0, result, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result[i] = whole[i];
     return result;
   }
 
@@ -94,7 +94,7 @@ struct Setting {
                                                  const Vec<Real, D>& moved, const Memory& before) const {
     const Vec<Real, D> set = set_of(before) + moved;
     LawStep<Real, D, kHistory> result;
-    copy_slots<Law::kHistory>(inner.history, 0, result.history, 0);
+    for (int i = 0; i < Law::kHistory; ++i) result.history[i] = inner.history[i];
     store_set<Real, D>(set, result.history, Law::kHistory);
     result.moment = inner.moment;
     result.stored = inner.stored + hardening * set.squaredNorm() / 2;

@@ -21,9 +21,9 @@
 
 namespace hysteron {
 
-template <class Real, int D, int N, StopLoops loops = loops_over(N)>
-struct SpectrumStops : StopMemory<Real, D, N, loops> {
-  using Memory = StopMemory<Real, D, N, loops>;
+template <class Real, int D, int N>
+struct SpectrumStops : StopMemory<Real, D, N> {
+  using Memory = StopMemory<Real, D, N>;
   using Memory::kHistory;
   using Memory::limit;
   using Step = LawStep<Real, D, kHistory>;
@@ -57,18 +57,16 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
   // that direction, ends with the largest moment along u on its ellipsoid, (u.A B^-1 A u)^1/2 with B of the
   // half axes; so does the scalar stop made here, whose corner lies between.  Chosen here.
   HYST_HD void turn(Real warp, Real weft) requires(D == 1) {
-    using std::sqrt;
+    Eigen::Map<PerStop> own(p), own_limit(limit);
+    const Eigen::Map<const PerStop> other(weft_p), other_limit(weft_limit);
+    const PerStop slides = own * own_limit, other_slides = other * other_limit;
     const Real twist = 1 - warp - weft;
-    const Real turned = this->sum_over_stops([&](int j) {
-      const Real slides = p[j] * limit[j], other_slides = weft_p[j] * weft_limit[j];
-      const Real stiff = warp * p[j] + weft * weft_p[j] + twist * sqrt(p[j] * weft_p[j]);
-      const Real moment =
-          sqrt(warp * slides * slides + weft * other_slides * other_slides + twist * slides * other_slides);
-      if (stiff > Real(0)) limit[j] = moment / stiff;
-      p[j] = stiff;
-      return moment;
-    });
-    hb = turned;
+    const PerStop stiff = warp * own + weft * other + twist * (own * other).sqrt();
+    const PerStop moment =
+        (warp * slides * slides + weft * other_slides * other_slides + twist * slides * other_slides).sqrt();
+    own_limit = (stiff > Real(0)).select(moment / stiff, own_limit);
+    own = stiff;
+    hb = sum(moment);
   }
 
   HYST_HD Step step(const Vec<Real, D>& curvature, const Past& before) const {
@@ -76,15 +74,14 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
       if (two_spectra) return step_on_ellipsoids(curvature, before);
     Step result;
     const Stretch now = stretch(curvature, before);
-    store_slips(now, curvature, result.history);
-    for (int c = 0; c < D; ++c)
-      result.moment[c] =
-          b2 * curvature[c] + sum_over_stops([&](int j) { return p[j] * (now.offset[c][j] * now.scale[j]); });
-    result.stored = (b2 * curvature.squaredNorm() +
-                     sum_over_stops([&](int j) { return p[j] * held(now, j) * held(now, j); })) /
-                    2;
-    result.dissipated =
-        sum_over_stops([&](int j) { return p[j] * limit[j] * (now.length[j] - held(now, j)); });
+    const PerStop held = now.scale * now.length;
+    for (int c = 0; c < D; ++c) {
+      const PerStop elastic = now.offset[c] * now.scale;
+      slip(result.history, c) = curvature[c] - elastic;
+      result.moment[c] = b2 * curvature[c] + sum(PerStop(stiffness() * elastic));
+    }
+    result.stored = (b2 * curvature.squaredNorm() + sum(PerStop(stiffness() * held * held))) / 2;
+    result.dissipated = sum(PerStop(stiffness() * limits() * (now.length - held)));
     return result;
   }
 
@@ -92,17 +89,17 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
     if constexpr (D == 3)
       if (two_spectra) return tangent_on_ellipsoids(curvature, before);
     const Stretch now = stretch(curvature, before);
-    Tangent<Real, D> result =
-        (b2 + sum_over_stops([&](int j) { return p[j] * now.scale[j]; })) * Tangent<Real, D>::Identity();
+    const PerStop slipping = stiffness() * turning(now);
+    Tangent<Real, D> result = (b2 + sum(PerStop(stiffness() * now.scale))) * Tangent<Real, D>::Identity();
     for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b)
-        result(a, b) -= sum_over_stops(
-            [&](int j) { return p[j] * turning(now, j) * now.offset[a][j] * now.offset[b][j]; });
+      for (int b = 0; b < D; ++b) result(a, b) -= sum(PerStop(slipping * now.offset[a] * now.offset[b]));
     return result;
   }
 
   HYST_HD Vec<Real, D> residual(const Past& history) const {
-    return zero_moment(*this, history, mean_slip(history));
+    Vec<Real, D> mean_slip;
+    for (int c = 0; c < D; ++c) mean_slip[c] = sum(PerStop(slip(history, c))) / N;
+    return zero_moment(*this, history, mean_slip);
   }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Past& history) const {  // |F|/HB along warp
     return hb > 0 ? (step(curvature, history).moment - b2 * curvature).norm() / hb : Real(0);
@@ -114,13 +111,15 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
   }
 
  private:
-  using Memory::held;
-  using Memory::mean_slip;
-  using Memory::store_slips;
+  using Memory::limits;
+  using Memory::slip;
   using Memory::stretch;
-  using Memory::sum_over_stops;
+  using Memory::sum;
   using Memory::turning;
+  using typename Memory::PerStop;
   using typename Memory::Stretch;
+
+  HYST_HD Eigen::Map<const PerStop> stiffness() const { return Eigen::Map<const PerStop>(p); }
 
   HYST_HD StopEllipsoid<Real> ellipsoid(int j) const {
     using std::sqrt;
@@ -137,7 +136,6 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
     Step result;
     result.moment = b2 * curvature;
     result.stored = b2 * curvature.squaredNorm() / 2;
-    HYST_UNROLL(1)
     for (int j = 0; j < N; ++j) {
       const StopEllipsoid<Real> stop = ellipsoid(j);
       const StopReturn<Real> now = stop.returned(offset(curvature, before, j));
@@ -152,7 +150,6 @@ struct SpectrumStops : StopMemory<Real, D, N, loops> {
   [[gnu::noinline]] HYST_HD Tangent<Real, 3> tangent_on_ellipsoids(const Vec<Real, 3>& curvature,
                                                                    const Past& before) const {
     Tangent<Real, 3> result = b2 * Tangent<Real, 3>::Identity();
-    HYST_UNROLL(1)
     for (int j = 0; j < N; ++j) {
       const StopEllipsoid<Real> stop = ellipsoid(j);
       result += stop.tangent(stop.returned(offset(curvature, before, j)));

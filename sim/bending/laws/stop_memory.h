@@ -5,91 +5,64 @@
 // The radial return |E_j| <= r_j on the tensor makes a cylinder in any direction follow the scalar law.
 #pragma once
 
-#include <cmath>
-
 #include "sim/bending/laws/law.h"
 
 namespace hysteron {
 
-// How nvcc writes loops over stops: `unrolled` in registers, or as loops over a GPU's local memory, where a
-// law is written many times over or has more stops than there are registers; unrolled those take minutes to
-// compile.
-enum class StopLoops { unrolled, rolled };
-constexpr StopLoops loops_over(int stops) { return stops <= 8 ? StopLoops::unrolled : StopLoops::rolled; }
-
-template <class Real, int D, int N, StopLoops loops = loops_over(N)>
+template <class Real, int D, int N>
 struct StopMemory {
   static constexpr int kDimension = D;
   static constexpr int kHistory =
       N * D;  // slip S_j [1/m], laid out [component][stop] so that stops vectorise
   using Scalar = Real;
+  using PerStop = Eigen::Array<Real, N, 1>;  // compiles to vector registers on the CPU
 
   struct Stretch {
-    Real offset[D][N];  // U_j by component [1/m]
-    Real length[N];     // |U_j| [1/m]
-    Real scale[N];      // min(1, r_j/|U_j|)
+    PerStop offset[D];  // U_j by component [1/m]
+    PerStop length;     // |U_j| [1/m]
+    PerStop scale;      // min(1, r_j/|U_j|)
   };
 
   Real limit[N] = {};  // r_j: curvature at which stop j slips [1/m]
 
  protected:
-  static constexpr int kUnrolled = loops == StopLoops::unrolled ? N : 1;
-  static_assert((N & (N - 1)) == 0, "the number of stops is a power of two");
-
-  template <class Body>
-  HYST_HD static void for_each_stop(const Body& body) {
-    HYST_UNROLL(kUnrolled)
-    for (int j = 0; j < N; ++j) body(j);
+  HYST_HD Eigen::Map<const PerStop> limits() const { return Eigen::Map<const PerStop>(limit); }
+  HYST_HD static Eigen::Map<PerStop> slip(History<Real, kHistory>& h, int component) {
+    return Eigen::Map<PerStop>(h.slot + component * N);
   }
-
-  // Of term(j), by halves, so that the order does not depend on the width of a vector register.
-  template <class Term>
-  HYST_HD static Real sum_over_stops(const Term& term) {
-    Real sum[N];
-    for_each_stop([&](int j) { sum[j] = term(j); });
-    for (int half = N / 2; half > 0; half /= 2) {
-      HYST_UNROLL(kUnrolled)
-      for (int j = 0; j < half; ++j) sum[j] += sum[j + half];
-    }
-    return sum[0];
+  HYST_HD static Eigen::Map<const PerStop> slip(const History<Real, kHistory>& h, int component) {
+    return Eigen::Map<const PerStop>(h.slot + component * N);
   }
 
   HYST_HD Stretch stretch(const Vec<Real, D>& curvature, const History<Real, kHistory>& before) const {
-    using std::abs, std::sqrt;
     Stretch now;
-    for_each_stop([&](int j) {
-      for (int c = 0; c < D; ++c) now.offset[c][j] = curvature[c] - before.slot[c * N + j];
-      Real length = abs(now.offset[0][j]);
-      if constexpr (D > 1) {
-        Real squared = now.offset[0][j] * now.offset[0][j];
-        for (int c = 1; c < D; ++c) squared += now.offset[c][j] * now.offset[c][j];
-        length = sqrt(squared);
-      }
-      now.length[j] = length;
-      now.scale[j] = limit[j] / (length > limit[j] ? length : limit[j]);
-    });
+    for (int c = 0; c < D; ++c) now.offset[c] = curvature[c] - slip(before, c);
+    now.length = now.offset[0].abs();
+    if constexpr (D > 1) {
+      PerStop squared = now.offset[0] * now.offset[0];
+      for (int c = 1; c < D; ++c) squared += now.offset[c] * now.offset[c];
+      now.length = squared.sqrt();
+    }
+    now.scale = limits() / now.length.max(limits());
     return now;
   }
 
-  // The slips S_j after the step.
-  HYST_HD static void store_slips(const Stretch& now, const Vec<Real, D>& curvature,
-                                  History<Real, kHistory>& after) {
-    for (int c = 0; c < D; ++c)
-      for_each_stop([&](int j) { after.slot[c * N + j] = curvature[c] - now.offset[c][j] * now.scale[j]; });
-  }
-  // Length of the stretch that stop j holds [1/m].
-  HYST_HD static Real held(const Stretch& now, int j) { return now.scale[j] * now.length[j]; }
-
-  // Of a slipping stop, what turns stretches into d(scale)/d(stretch); 0 of another [m^2].
-  HYST_HD static Real turning(const Stretch& now, int j) {
-    const Real squared = now.length[j] * now.length[j];
-    return now.scale[j] < Real(1) ? now.scale[j] / squared : Real(0);
+  // Of the slipping stops, what turns stretches into d(scale)/d(stretch); 0 of the others [m^2].
+  HYST_HD static PerStop turning(const Stretch& now) {
+    const PerStop squared = now.length * now.length;
+    return (now.scale < Real(1)).select(now.scale / squared, PerStop::Zero());
   }
 
-  HYST_HD static Vec<Real, D> mean_slip(const History<Real, kHistory>& history) {
-    Vec<Real, D> mean;
-    for (int c = 0; c < D; ++c) mean[c] = sum_over_stops([&](int j) { return history.slot[c * N + j]; }) / N;
-    return mean;
+  // By halves, so that the order of the sum does not depend on the width of a vector register.
+  template <int n>
+  HYST_HD static Real sum(const Eigen::Array<Real, n, 1>& term) {
+    if constexpr (n == 1) {
+      return term[0];
+    } else {
+      static_assert(n % 2 == 0, "the number of stops is a power of two");
+      return sum<n / 2>(
+          Eigen::Array<Real, n / 2, 1>(term.template head<n / 2>() + term.template tail<n / 2>()));
+    }
   }
 };
 

@@ -134,7 +134,7 @@ TEST_F(RecordedMesh, IsFoundFromElsewhereAndWhereAllHasMoved) {
   fs::rename(project_, moved);
   const Outcome again = run("rerun " + (moved / "run").string() + " --out " + (moved / "again").string());
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(again.err, "");
+  EXPECT_EQ(without_warnings(again.err), "");
   const Json now = json_in(moved / "again");
   EXPECT_EQ(now["state_hash"], before["state_hash"]);
   EXPECT_EQ(now["meshes"]["cloth.file"]["hash"], before["meshes"]["cloth.file"]["hash"]);
@@ -225,8 +225,9 @@ TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
 
 // As if it had been recorded by a program that has standard gravity, 9.80665 m/s^2, in place of 9.81.
 TEST_F(Recorded, RunWithAnotherConstantDiffersThoughNoBitsAreDue) {
+  const std::string drape = "drape --quick --triangles 120 --seconds 0.4 --no-images";  // comes to rest
   const std::string swing = "swing --quick --triangles 100 --no-images";
-  for (const std::string& command : {kDrape, swing}) {
+  for (const std::string& command : {drape, swing}) {
     record(command + " --gravity '0 0 -9.80665'");
     const Json other = json_in(run());
     record(command);

@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "cantilever --triangles 32 --fps 2 --export ply",
                     "crease --crease.fold pleat --crease.recovery 0.05 --triangles 60 --fps 5"));
 
-TEST(Report, IsNotWrittenIntoARunThatIsNotOver) {
+TEST(RunThatIsNotOver, GetsNoReport) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
   const Outcome outcome = program("report " + folder.path().string());
