@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -27,6 +28,12 @@ struct Lines {
   std::vector<Eigen::Vector2d> texture;
   std::vector<int> vertex_line, face_line;
   std::string resolved;
+  // The first face that counts back beyond the beginning, which not every version of the loader takes.
+  struct BeforeFirst {
+    int line;
+    bool texture;
+  };
+  std::optional<BeforeFirst> before_first;
 };
 
 Error bad_line(const std::string& what, int line, const std::string& problem) {
@@ -57,7 +64,7 @@ double finite_number(std::string_view word, const std::string& what, int line) {
 
 // "vertex", "vertex/texture", "vertex//normal" or "vertex/texture/normal", counted from 1, or from -1
 // backwards.
-void check_corner(std::string_view corner, const std::string& what, int line) {
+void check_corner(std::string_view corner, const std::string& what, int line, Lines& lines) {
   for (std::size_t at = 0, place = 0; place < 3; ++place) {
     const std::size_t end = std::min(corner.find('/', at), corner.size());
     std::int32_t index = 0;
@@ -65,6 +72,9 @@ void check_corner(std::string_view corner, const std::string& what, int line) {
     const bool left_out = place == 1 && end == at && end < corner.size();
     const bool whole = code == std::errc() && rest == corner.data() + end && index != 0;
     if (!left_out && !whole) break;
+    const std::size_t count = place == 0 ? lines.vertex.size() : lines.texture.size();
+    if (whole && place < 2 && index < -static_cast<std::int64_t>(count) && !lines.before_first)
+      lines.before_first = {line, place == 1};
     if (end == corner.size()) return;
     at = end + 1;
   }
@@ -108,7 +118,7 @@ void scan_line(const std::vector<std::string_view>& word, const std::string& wha
       throw bad_line(what, line,
                      "a face of " + std::to_string(word.size() - 1) +
                          " corners; allowed are triangles and quads, triangulate the mesh first");
-    for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line);
+    for (std::size_t i = 1; i < word.size(); ++i) check_corner(word[i], what, line, lines);
     add_face(word, lines.resolved);
     lines.face_line.push_back(line);
   } else {
@@ -125,6 +135,10 @@ std::string text_of(const std::string& file, const std::string& what) {
   return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
+Error no_such_index(const std::string& what, int line, const std::string& which, std::size_t count) {
+  return bad_line(what, line, "the face uses " + which + "; the file has " + std::to_string(count));
+}
+
 Lines scan(const std::string& text, const std::string& what) {
   Lines lines;
   int number = 0;
@@ -134,6 +148,11 @@ Lines scan(const std::string& text, const std::string& what) {
     lines.resolved += '\n';
     at = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
+  if (const auto& before = lines.before_first)
+    throw no_such_index(
+        what, before->line,
+        before->texture ? "a texture coordinate before the first" : "a vertex before the first",
+        before->texture ? lines.texture.size() : lines.vertex.size());
   return lines;
 }
 
@@ -189,9 +208,7 @@ class Faces {
 
   void check_index(int index, std::size_t count, const std::string& of, int line) const {
     if (index >= 0 && index < static_cast<int>(count)) return;
-    const std::string which =
-        index < 0 ? "a " + of + " before the first" : of + " " + std::to_string(index + 1);
-    throw bad_line(what_, line, "the face uses " + which + "; the file has " + std::to_string(count));
+    throw no_such_index(what_, line, of + " " + std::to_string(index + 1), count);
   }
 
   const std::string& what_;
