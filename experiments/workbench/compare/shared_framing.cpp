@@ -1,8 +1,7 @@
 #include "experiments/workbench/compare/shared_framing.h"
 
-#include <fmt/core.h>
-
 #include "render/camera.h"
+#include "sim/base/number_text.h"
 
 namespace hysteron::experiments {
 
@@ -17,7 +16,7 @@ std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Vari
   }
   std::string corners;
   for (const Eigen::Vector3f& corner : {box->low, box->high})
-    for (int k = 0; k < 3; ++k) corners += fmt::format("{:.17g} ", corner[k]);
+    for (int k = 0; k < 3; ++k) corners += number_text(corner[k]) + " ";
   return {{"camera.box", corners}};
 }
 

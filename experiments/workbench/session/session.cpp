@@ -332,8 +332,9 @@ render::Box Session::framed(const Question& question) {
     return render::box_of(std::vector<float>(box.begin(), box.end()));
   const auto stage = run_->stage("framing");
   const Framing framing = framing_of(setup_, question.bounds);
-  run_->progress(fmt::format("pictures frame what a run of {} triangles passes through{}", framing.triangles,
-                             framing.stopped.empty() ? "" : ", which stopped: " + framing.stopped));
+  run_->progress(fmt::format("pictures frame what a run of {} triangles passes through", framing.triangles));
+  if (!framing.stopped.empty())
+    run_->warn("pictures frame what a coarse run passes through, which stopped: " + framing.stopped);
   return framing.box;
 }
 
