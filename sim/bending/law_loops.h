@@ -1,5 +1,5 @@
-// Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group and dimension: they
-// are the slowest to compile.
+// Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group, dimension and
+// precision: they are the slowest to compile.
 #pragma once
 
 #include "sim/bending/law_loop_of.h"
