@@ -25,8 +25,7 @@ HYST_HD inline void store_history(Real* memory, int i, int n, const History<Real
     for (int k = 0; k < Law::kHistory; ++k) memory[slot_index(i, k, Law::kHistory, n)] = h[k];
 }
 
-// Laws around other laws are long, and nvcc would compile their loops a second time for batches of cloths:
-// there each cloth launches them by itself.
+// Laws around other laws are long.
 template <class Law>
 constexpr bool is_long_law() {
   if constexpr (SettingLaw<Law> || RelaxingLaw<Law>)
@@ -37,12 +36,19 @@ constexpr bool is_long_law() {
     return false;
 }
 
+// What sweeps over fabrics run: a batch of cloths launches these loops once for all.  nvcc would compile
+// others a second time for it: there each cloth launches them by itself.
+template <class Law>
+constexpr bool runs_in_batches() {
+  return Law::kHistory == 0 || (!is_long_law<Law>() && requires(Law & law) { innermost(law).limit; });
+}
+
 template <class Law, class Device, class Body>
 void for_each_element(Device& device, const Kernel& kernel, int elements, const Body& body) {
-  if constexpr (is_long_law<Law>())
-    for_each_alone(device, kernel, elements, body);
-  else
+  if constexpr (runs_in_batches<Law>())
     for_each(device, kernel, elements, body);
+  else
+    for_each_alone(device, kernel, elements, body);
 }
 
 template <class Real, class Device, class Law>
@@ -141,8 +147,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
           const auto& own = law_of(law, op.direction, i);
           const auto after = kind == CommandKind::edit ? edited(own, k, before) : ironed(own, k, before);
           Real stored[2];
-          HYST_UNROLL(1)  // a law may be long
-          for (int end = 0; end < 2; ++end) stored[end] = own.step(k, end == 0 ? before : after).stored;
+          for (int end = 0; end < 2; ++end)
+            stored[end] = called_step(own, k, end == 0 ? before : after).stored;
           taken[i] += static_cast<double>(op.area[i] * (stored[0] - stored[1]));
           store_history<Law>(history, i, op.elements, after);
         });
@@ -155,7 +161,8 @@ class LawLoopOf : public LawLoop<Real, Device> {
     for_each_alone(
         device, "bending energy", op.elements, HYST_KERNEL(int i) {
           const Vec<Real, D> k = op.template curvature<D>(i, angle_change);
-          const auto step = law_of(law, op.direction, i).step(k, load_history<Law>(history, i, op.elements));
+          const auto& own = law_of(law, op.direction, i);
+          const auto step = called_step(own, k, load_history<Law>(history, i, op.elements));
           energy[i] = static_cast<double>(op.area[i] * step.stored);
         });
   }

@@ -65,7 +65,7 @@ struct Fatigue {
   }
   // |F|/M0 of the law at full strength.
   HYST_HD Real used(const Vec<Real, D>& curvature, const Memory& history) const {
-    return m0 > 0 ? law.step(curvature, part(history)).moment.norm() / m0 : Real(0);
+    return m0 > 0 ? called_step(law, curvature, part(history)).moment.norm() / m0 : Real(0);
   }
   HYST_HD Real largest_stiffness() const { return b2 + law.largest_stiffness(); }
 

@@ -60,6 +60,19 @@ concept MomentCurvatureLaw = (Law::kDimension == 1 || Law::kDimension == 3) && L
   { law.largest_stiffness() } -> std::convertible_to<typename Law::Scalar>;
 };
 
+// The step and its tangent for loops that are run now and then: they share one copy of a law, which may be
+// long.
+template <class Law>
+HYST_HD HYST_CALLED LawStep<typename Law::Scalar, Law::kDimension, Law::kHistory> called_step(
+    const Law& law, const CurvatureOf<Law>& curvature, const HistoryOf<Law>& history) {
+  return law.step(curvature, history);
+}
+template <class Law>
+HYST_HD HYST_CALLED Tangent<typename Law::Scalar, Law::kDimension> called_tangent(
+    const Law& law, const CurvatureOf<Law>& curvature, const HistoryOf<Law>& history) {
+  return law.tangent(curvature, history);
+}
+
 // Where not all that is lost is lost on the way to the curvature (creep, weakening): the incremental
 // potential int M dK at a fixed history [J/m^2].  Of other laws it is what is stored and what is lost.
 template <class Law>

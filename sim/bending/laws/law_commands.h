@@ -31,7 +31,7 @@ HYST_HD History<Real, N> ironed(Law law, const Vec<Real, D>& curvature, const Hi
   set_step_time(law, Real(0));
   History<Real, N> fresh;
   if constexpr (LawWithIroning<Law>) fresh = law.ironed(before);
-  return law.step(curvature, fresh).history;
+  return called_step(law, curvature, fresh).history;
 }
 
 // How far friction or plasticity is used, 0 to 1: what the law says of itself, else |M - b2 K|/M0.
@@ -41,7 +41,7 @@ HYST_HD Real share_used(const Law& law, const Vec<Real, D>& curvature, const His
   if constexpr (LawWithUse<Law>)
     return law.used(curvature, memory);
   else if (N > 0 && m0 > 0)
-    return (law.step(curvature, memory).moment - b2 * curvature).norm() / m0;
+    return (called_step(law, curvature, memory).moment - b2 * curvature).norm() / m0;
   return 0;
 }
 

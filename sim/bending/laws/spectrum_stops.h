@@ -102,7 +102,7 @@ struct SpectrumStops : StopMemory<Real, D, N> {
     return zero_moment(*this, history, mean_slip);
   }
   HYST_HD Real used(const Vec<Real, D>& curvature, const Past& history) const {  // |F|/HB along warp
-    return hb > 0 ? (step(curvature, history).moment - b2 * curvature).norm() / hb : Real(0);
+    return hb > 0 ? (called_step(*this, curvature, history).moment - b2 * curvature).norm() / hb : Real(0);
   }
   HYST_HD Real largest_stiffness() const {
     Real warp = 0, weft = 0;

@@ -38,9 +38,8 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
   Real fraction = 1, energy = 0, descent = 0;
   Real half_moment = 0;  // decides where the energy differs by rounding only
   for (int step = 0, halving = kMostHalvings; step <= kMostSteps;) {
-    // The one place where the law is called: it may be long, and is written here as often as it is called.
     const Vec<Real, D> tried = curvature + fraction * newton;
-    const LawStep<Real, D, N> here = law.step(tried, history);
+    const LawStep<Real, D, N> here = called_step(law, tried, history);
     const bool enough =
         here.stored + here.dissipated <= energy + fraction * descent || here.moment.norm() <= half_moment;
     if (!enough && ++halving < kMostHalvings) {
@@ -48,7 +47,8 @@ HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history
       continue;
     }
     curvature = tried;
-    const Tangent<Real, D> tangent = law.tangent(curvature, history) + softest * Tangent<Real, D>::Identity();
+    const Tangent<Real, D> tangent =
+        called_tangent(law, curvature, history) + softest * Tangent<Real, D>::Identity();
     newton = -solve_definite<Real, D>(tangent, here.moment);
     if (!(newton.norm() > kPrecision * curvature.norm())) break;
     energy = here.stored + here.dissipated, descent = kEnoughDescent * here.moment.dot(newton);
