@@ -84,7 +84,7 @@ constexpr int kSingleSteps = 9, kQuickSingleSteps = 3;  // that are timed by the
 
 Setup defaults() {
   Setup setup;
-  Scene& scene = setup.scene = default_scene();
+  Scene& scene = setup.scene = default_scene("cotton-broad-k50");
   scene.integrator = Integrator::semi_implicit;
   scene.step = 1e-3;
   scene.cloth.length = 0.5;

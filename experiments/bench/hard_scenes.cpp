@@ -59,7 +59,7 @@ HardScene hard_scene(const std::string& name, int triangles, const Scene& like) 
   if (name == "fold") return folding(triangles, like);
   if (name == "crease") return creasing(triangles, like);
   if (name == "drape") return draping(triangles, like);
-  Scene scene = default_scene();
+  Scene scene = default_scene("cotton-broad-k50");
   apply_scene_file(scene, name, {}, {"metric"});  // which are of the scene's own run
   scene.triangles = triangles;
   scene.device = like.device;

@@ -76,18 +76,24 @@ std::vector<Flag> matched(const CommandLine& inner, const Variant& variant, cons
   const CommandLine line = with_variant(inner, variant);
   const auto [fabric, law] = fabric_of(line);
   scale = matching_scale(law_of(fabric, line, law), law_of(fabric, line, to), match, choice.match_curvature);
-  std::vector<Flag> flags = {{"fabric.b1", number_text(scale * fabric.b1)},
-                             {"fabric.b2", number_text(scale * fabric.b2)}};
-  add_parts(stiffened(fabric.bending, scale), flags);
+  const auto scaled = [&](const char* key, double value) { return Flag{key, number_text(scale * value)}; };
+  BendingParts parts = stiffened(fabric.bending, scale);
+  std::vector<Flag> flags = {scaled("fabric.b1", fabric.b1), scaled("fabric.b2", fabric.b2)};
+  if (fabric.kes.on()) {  // the rest follows
+    flags = {scaled("fabric.kes-b", fabric.kes.read.rigidity),
+             scaled("fabric.kes-2hb", fabric.kes.read.loop_width)};
+    parts.stops = {};
+  }
+  add_parts(parts, flags);
   return flags;
 }
 
 // Colours mean the same in all columns, though fabrics have different transition curvatures.
 Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants) {
-  double k0 = 0;
+  double most = 0;
   for (const Variant& variant : variants)
-    k0 = std::max(k0, fabric_of(with_variant(inner, variant)).fabric.k0);
-  return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * k0))};
+    most = std::max(most, fabric_of(with_variant(inner, variant)).fabric.friction_curvature());
+  return {"curvature-range", last_text(inner.flags, "curvature-range", number_text(2 * most))};
 }
 
 // What the experiment is asked for beside what it would be asked for alone.

@@ -118,7 +118,7 @@ void write_histogram(Session& session) {
     for (int e = 0; e < mesh.interior_edges; ++e)
       area.push_back(mesh.face_area[mesh.edge[e].face0] + mesh.face_area[mesh.edge[e].face1]);
   }
-  const double bin = 2 * session.scene().fabric.k0 / kBins;
+  const double bin = 2 * session.scene().fabric.friction_curvature() / kBins;
   const std::vector<double> share =
       area_shares(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);
   CsvFile file(session.run().path("residual.csv"), "residual_curvature [1/m],share [%]");

@@ -4,6 +4,34 @@
 
 namespace hysteron::experiments {
 
+double specimen_radius(const std::string& standard) { return standard == "jis" ? 0.127 : 0.15; }
+
+DrapeChoice drape_by_standard(const std::string& standard) {
+  DrapeChoice choice;
+  choice.standard = standard;
+  if (standard != "jis") return choice;
+  choice.release = "shaken";
+  choice.disc = 0.0635;
+  choice.wait = 60;
+  return choice;
+}
+
+namespace {
+
+// Up and down, from when the plate has let go.
+Motion shaking(const DrapeChoice& choice) {
+  Motion motion;
+  for (int k = 0; k <= 2 * choice.shakes; ++k) {
+    Keyframe key;
+    key.time = choice.lowered() + k * choice.period / 2;
+    key.position.z() = k % 2 ? choice.stroke : 0;
+    motion.keys.push_back(key);
+  }
+  return motion;
+}
+
+}  // namespace
+
 void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& specimen) {
   // The discs press the specimen by a few times its own weight: both contacts stay closed, as in the
   // apparatus, and the plate throws nothing up when it goes down.
@@ -20,9 +48,11 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
   clamp.height = 0.01;
   clamp.center = {0, 0, 2 * shell + clamp.height / 2};
   clamp.visible = false;
+  if (choice.release == "shaken") pedestal.motion = clamp.motion = shaking(choice);
   scene.obstacle.insert(scene.obstacle.end(), {pedestal, clamp});
   if (choice.release == "dropped") return;
   Obstacle plate = clamp;
+  plate.motion = {};
   plate.radius = specimen.radius + 0.01;
   plate.center = {0, 0, -plate.height / 2};
   plate.friction = 0;
@@ -32,7 +62,7 @@ void add_apparatus(Scene& scene, const DrapeChoice& choice, const Specimen& spec
     key.position.z() = k % 2 ? -choice.plate : 0;
     plate.motion.keys.push_back(key);
   }
-  plate.until = choice.released();
+  plate.until = choice.lowered();
   scene.obstacle.push_back(plate);
 }
 

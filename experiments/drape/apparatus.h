@@ -1,4 +1,5 @@
-// Cusick's apparatus: a pedestal on which a disc holds the specimen, and the plate that lets its ring down.
+// The apparatus of drape tests (Cusick 1968; ISO 9073-9, JIS L 1096): a pedestal on which a disc holds the
+// specimen, the plate that lets its ring down, and the shaking of the Japanese test.
 #pragma once
 
 #include "experiments/drape/specimen.h"
@@ -6,16 +7,29 @@
 namespace hysteron::experiments {
 
 struct DrapeChoice {
-  std::string release = "lowered";  // lowered: a plate under the ring sinks; dropped: it is gone at once;
-                                    // relifted: lowered, lifted flat again, lowered a second time
-  double disc = 0.09;               // pedestal's radius [m]
-  double lowering = 0.6;            // time in which the plate sinks [s]
-  double still = 2e-3;              // settled when no vertex moves faster [m/s]
-  double plate = 0.12;              // how far the plate sinks [m]
+  std::string standard = "iso9073";  // whose sizes and release these are
+  std::string release = "lowered";   // lowered: a plate under the ring sinks; dropped: it is gone at once;
+                                     // relifted: lowered, lifted flat again, lowered a second time; shaken:
+                                     // lowered, then pedestal and disc go up and down
+  double disc = 0.09;                // pedestal's radius [m]
+  double lowering = 3;               // time in which the plate sinks [s]
+  int shakes = 3;                    // of these strokes:
+  double stroke = 0.03;              // how far up [m]
+  double period = 0.5;               // up and down [s]
+  double wait = 0;                   // at rest, until the shadow is read [s]
+  double still = 2e-3;               // settled when no vertex moves faster [m/s]
+  double plate = 0.12;               // how far the plate sinks [m]
 
-  int strokes() const { return release == "dropped" ? 0 : release == "lowered" ? 1 : 3; }  // of the plate
-  double released() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
+  int strokes() const { return release == "dropped" ? 0 : release == "relifted" ? 3 : 1; }  // of the plate
+  double lowered() const { return strokes() * lowering; }  // when nothing carries the ring any more [s]
+  double released() const { return lowered() + (release == "shaken" ? shakes * period : 0); }
 };
+
+// The radius of a standard's specimen [m], and its choice: `iso9073` is the default's, with a specimen of 30
+// cm on a disc of 18 cm; `jis` one of 25.4 cm on 12.7 cm, shaken three times and read after a minute (a
+// Japanese teaching page on the tester; stroke and period, which no source states, are chosen here).
+double specimen_radius(const std::string& standard);
+DrapeChoice drape_by_standard(const std::string& standard);
 
 inline constexpr double kPedestalHeight = 0.14;  // [m]
 

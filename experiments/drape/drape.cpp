@@ -1,5 +1,5 @@
-// Cusick's drape test (BS 5058, ISO 9073-9): a disc of cloth of 15 cm radius, held on a disc of 9 cm radius,
-// hangs over its rim; the drape coefficient is the share of the free ring that its shadow still covers.
+// Drape tests: a disc of cloth, held on a smaller disc, hangs over its rim; the drape coefficient is the
+// share of the free ring that its shadow still covers (Cusick 1968; BS 5058, ISO 9073-9; JIS L 1096).
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
@@ -19,9 +19,14 @@ namespace {
 using D = DrapeChoice;
 // clang-format off
 const KeyRow<DrapeChoice> kRows[] = {
-    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted", "how the overhanging ring is released: a plate below it sinks; all at once; or the plate sinks, lifts it flat again and sinks a second time"},
+    {"drape.standard", at<&D::standard>, "", any(), "iso9073 | jis", "sizes and release of a standard: a specimen of 30 cm on a disc of 18 cm, lowered; or of 25.4 cm on 12.7 cm, shaken three times and read after a minute; cloth.radius and other drape keys that are given win"},
+    {"drape.release", at<&D::release>, "", any(), "lowered | dropped | relifted | shaken", "how the overhanging ring is released: a plate below it sinks; all at once; the plate sinks, lifts it flat again and sinks a second time; or it sinks, and pedestal and disc shake the specimen"},
     {"drape.disc", at<&D::disc>, "m", positive(), "", "radius of the pedestal"},
     {"drape.lowering", at<&D::lowering>, "s", positive(), "", "time in which the plate sinks"},
+    {"drape.shakes", at<&D::shakes>, "", between(1, 100), "", "shaken: how often it goes up and down"},
+    {"drape.stroke", at<&D::stroke>, "m", positive(), "", "shaken: how far up"},
+    {"drape.period", at<&D::period>, "s", positive(), "", "shaken: time of one up and down"},
+    {"drape.wait", at<&D::wait>, "s", at_least(0), "", "time at rest until the shadow is read, in which laws relax that do"},
     {"drape.still", at<&D::still>, "m/s", positive(), "", "the motion ends when no vertex moves faster between two pictures; then the equilibrium nearby is sought"},
 };
 // clang-format on
@@ -29,6 +34,7 @@ const KeyRow<DrapeChoice> kRows[] = {
 constexpr int kDirections = 3600;     // rays of the outline
 constexpr double kProminence = 2e-3;  // a fold stands out by more than this in the outline [m]
 constexpr int kShadowPixels = 1500;
+constexpr double kQuickLowering = 0.6;  // of the plate with --quick, and at least that of free motion [s]
 
 Setup defaults() {
   Setup setup;
@@ -164,9 +170,24 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 10.0);
 }
 
+// A standard stands for the defaults of the other keys.
+Setup set_up_drape(const CommandLine& line, D& choice) {
+  const auto with = [&](D of) {
+    Setup usual = defaults();
+    usual.scene.cloth.radius = specimen_radius(of.standard);
+    choice = of;
+    return set_up(line, std::move(usual), bind(kRows, choice), [&](Setup& setup) {
+      limit_to_quick(setup);
+      choice.lowering = std::min(choice.lowering, kQuickLowering);
+    });
+  };
+  Setup setup = with({});
+  return choice.standard == "iso9073" ? setup : with(drape_by_standard(choice.standard));
+}
+
 int run_drape(const CommandLine& line) {
   DrapeChoice choice;
-  Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  Setup setup = set_up_drape(line, choice);
   keep_the_step(setup.scene);
   if (!setup.scene.origin.contains("seconds")) setup.scene.seconds += choice.released();
   Cloth cloth = make_cloth(setup.scene);
@@ -192,9 +213,10 @@ int run_drape(const CommandLine& line) {
     return {percent, static_cast<double>(outline.nodes(kProminence))};
   };
   question.settled = [&](const Snapshot& m) {
-    return m.time > choice.released() + choice.lowering && m.fastest < choice.still;
+    return m.time > choice.released() + kQuickLowering && m.fastest < choice.still;
   };
   question.to_rest = true;
+  question.wait = choice.wait;
   question.progress = [&](const Snapshot& m) {
     return fmt::format("t = {:.3f} s  drape coefficient {:.1f} %  fastest {:.4f} m/s", m.time, covered,
                        m.fastest);

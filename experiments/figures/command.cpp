@@ -38,7 +38,7 @@ std::vector<FigureCaption> captions_of(const std::vector<Figure>& figures) {
 int run_figures(const CommandLine& line) {
   Options options;
   set_keys(line, bind_output_options(options));
-  const std::string name = last_text(line.flags, "fabric", Fabric{}.name);
+  const std::string name = last_text(line.flags, "fabric", "cotton-broad-k50");
   Scene scene;
   scene.fabric = fabric_of(name, line.flags);
   const std::vector<Figure> all = chapter_figures(scene.fabric);

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "experiments/fit/from_fab.h"
+#include "experiments/fit/from_decay.h"
 #include "experiments/fit/report.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
@@ -30,6 +30,7 @@ struct FitFlags {
   std::string name = "fitted";
   double density = kNone, thickness = kNone;
   FabFlags fab;
+  DecayFlags decay;
   std::string units = "si";
   Options options;
 };
@@ -54,8 +55,12 @@ const KeyRow<FitFlags> kRows[] = {
     {"fab.directions", at<&F::fab, &FabFlags::directions>, "", any(), "", "of these loops, separated by commas: the first is warp, the second weft; none: all"},
     {"fab.tests", at<&F::fab, &FabFlags::tests>, "", any(), "", "that are fitted, separated by commas; others are predicted. U1 D1 bend, S1 stretches"},
     {"fab.cycles", at<&F::fab, &FabFlags::cycles>, "", any(), "", "that are fitted, separated by commas, the first being 1"},
-    {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of the stops, separated by commas [1/m]"},
+    {"fab.friction", at<&F::fab, &FabFlags::friction>, "", any(), "shaped | stops", "what is sought: median and spread of the curvatures at which friction slips; or a stiffness at each of fab.thresholds"},
+    {"fab.thresholds", at<&F::fab, &FabFlags::thresholds>, "", any(), "", "of stops, separated by commas [1/m]"},
     {"fab.noise", at<&F::fab, &FabFlags::noise>, "N", positive(), "", "of the measured forces, standard deviation; a fit that misses them by more than three times as much (rms) is refused"},
+    {"decay", at<&F::decay, &DecayFlags::file>, "", any(), "", "amplitudes of the free end of a hanging strip that was let go, turn by turn: CSV with `time [s]`, `amplitude [m]`; needs decay.length, fabric.density and kes.b"},
+    {"decay.length", at<&F::decay, &DecayFlags::length>, "m", at_least(0), "", "of the strip below the clamp"},
+    {"decay.noise", at<&F::decay, &DecayFlags::noise>, "m", positive(), "", "of the amplitudes, standard deviation"},
     {"units", at<&F::units>, "", any(), "si | kes | fab", "of the loop (kes: 1/cm and gf cm/cm) or of the FAB data (fab: cm and gf, columns _cm, _gf)"},
     {"virgin.b1", at<&F::virgin, &VirginNumbers::b1, &M::value>, "N m", any(), "", "M = b1 K + c1 K^2 on loading"},
     {"virgin.c1", at<&F::virgin, &VirginNumbers::c1, &M::value>, "N m^2", any(), "", "< 0"},
@@ -206,7 +211,7 @@ Answer identify(const FitFlags& flags) {
   if (asked != 1) {
     throw Error::request(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
-        "--profile FILE.csv, --fab FILE.csv" +
+        "--profile FILE.csv, --fab FILE.csv, --decay FILE.csv" +
         std::string(asked > 1 ? ", not several" : ""));
   }
   refuse_without_loop(flags);
@@ -215,11 +220,10 @@ Answer identify(const FitFlags& flags) {
 
 std::optional<double> if_given(double x) { return std::isnan(x) ? std::nullopt : std::optional(x); }
 
-// The manifest's `scene`, where the flag --fab is the file among the keys fab.*.
+// The manifest's `scene`, where the flag --fab is the file among the keys fab.*, and --decay likewise.
 Json resolved(Keys keys) {
-  const auto file = std::find_if(keys.begin(), keys.end(),
-                                 [](const BoundKey& key) { return key.description.path == "fab"; });
-  file->description.path = "fab.file";
+  for (BoundKey& key : keys)
+    if (key.description.path == "fab" || key.description.path == "decay") key.description.path += ".file";
   return to_json(keys);
 }
 
@@ -242,6 +246,20 @@ void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys
   finish(run, flags, summary(answer), notes);
 }
 
+void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
+  const double given[] = {flags.decay.length > 0 ? flags.decay.length : NAN, flags.density,
+                          flags.kes.b.value};
+  const char* const names[] = {"decay.length", "fabric.density", "kes.b"};
+  for (int i = 0; i < 3; ++i)
+    if (!(given[i] > 0)) throw Error::request(std::string("--decay needs --") + names[i]).of(names[i], "");
+  Run run(line, flags.options, resolved(keys));
+  const FabricNotes notes{flags.name, "a free vibration in " + file_name(flags.decay.file),
+                          if_given(flags.density), if_given(flags.thickness)};
+  const std::string text =
+      report_decay(run, flags.decay, flags.density, flags.kes.b.value, notes, !flags.options.no_images);
+  finish(run, flags, text, notes);
+}
+
 int run_fit(const CommandLine& line) {
   FitFlags flags;
   flags.options.out = "out/" + line.experiment;
@@ -253,6 +271,10 @@ int run_fit(const CommandLine& line) {
   if (flags.name.empty()) throw Error::request("name = \"\" must be the fabric's (--name)").of("name", "");
   if (!flags.fab.file.empty()) {
     fit_loops_of_fab(line, flags, keys);
+    return 0;
+  }
+  if (!flags.decay.file.empty()) {
+    fit_decay(line, flags, keys);
     return 0;
   }
   const Answer answer = identify(flags);

@@ -19,6 +19,7 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kThreads = 2;
+constexpr double kExcludes = 3.84;  // misfit, 95 %
 
 // Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
 // the largest force of stretch, which no law of stops follows to less than some percent.
@@ -144,7 +145,10 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
     run.metric(p + "b1_N_m", b.law.initial_stiffness());
     run.metric(p + "HB_N", b.law.friction());
     run.metric(p + "HB_N_stderr", b.friction_error);
+    add_shape(run, b, p);
     run.metric(p + "residual_over_noise", b.residual_rms);
+    for (const FabForm& form : answer.forms[i])
+      if (form.name == "k0 = 50/m") run.metric(p + "k0_50.misfit", form.misfit(b));
     run.metric(p + "iterations", b.iterations);
     run.metric(p + "converged", b.converged);
     run.metric(p + "one_stop.threshold_per_m", answer.one_stop[i].law.thresholds[0]);
@@ -165,6 +169,31 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
 
 }  // namespace
 
+void write_forms(Run& run, const FabAnswer& answer) {
+  CsvFile file(run.path("forms.csv"),
+               "direction,form,numbers,rms over noise,misfit,excluded (95 %),b2 [N m],HB [N]");
+  for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
+    const FabBending& best = answer.found.bending[i];
+    std::vector<FabForm> all = {{best.is_shaped() ? "shaped" : "stops", best}};
+    all.insert(all.end(), answer.forms[i].begin(), answer.forms[i].end());
+    for (const FabForm& form : all) {
+      const double misfit = form.misfit(best);
+      file.row({best.direction, form.name, static_cast<int>(form.found.form.size()), form.found.residual_rms,
+                misfit, misfit > kExcludes ? "yes" : "no", form.found.law.spring, form.found.law.friction()});
+    }
+  }
+  file.commit();
+}
+
+void add_shape(Run& run, const FabBending& b, const std::string& prefix) {
+  if (!b.is_shaped()) return;
+  const FrictionShape shape = shape_of(b.form);
+  run.metric(prefix + "median_per_m", shape.median);
+  run.metric(prefix + "median_per_m_stderr", b.form_errors[1] * shape.median);
+  run.metric(prefix + "spread", shape.spread);
+  run.metric(prefix + "spread_stderr", b.form_errors[2] * shape.spread);
+}
+
 FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density) {
   FabAnswer answer;
   answer.loops = read_fab(flags.file, tester_units(units), "fit");
@@ -177,16 +206,25 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
   bending.thresholds = numbers_of(flags.thresholds, "fab.thresholds");
   bending.density = density;
   bending.noise = flags.noise;
+  FabBendingQuestion main = bending;
+  if (flags.friction == "shaped") main.form = shaped_friction();
   FabTensionQuestion tension;
   tension.cycles = answer.cycles;
   tension.noise = std::max(tension.noise, flags.noise);
   std::vector<FabBending> stops(directions.size()), one(directions.size());
   std::vector<FabTension> stretched(directions.size());
+  std::vector<std::vector<FabForm>> forms(directions.size());
   in_parallel(directions.size(), kThreads, [&](std::size_t i) {
     if (const auto loops = asked(answer, directions[i], true); !loops.empty()) {
-      stops[i] = identify_fab_bending(loops, bending);
+      stops[i] = identify_fab_bending(loops, main);
       check_fit(stops[i], flags.noise);
       one[i] = identify_one_stop(loops, bending);
+      forms[i] = even_forms(loops, bending);
+      forms[i].insert(forms[i].begin(),
+                      {"one stop at " + number_text(one[i].law.thresholds[0]) + "/m", one[i]});
+      if (main.form)
+        forms[i].insert(forms[i].begin(),
+                        {free_stops(bending.thresholds).name, identify_fab_bending(loops, bending)});
     }
     if (const auto loops = asked(answer, directions[i], false); !loops.empty()) {
       stretched[i] = identify_fab_tension(loops, tension);
@@ -194,7 +232,11 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
     }
   });
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (stops[i].rows > 0) answer.found.bending.push_back(stops[i]), answer.one_stop.push_back(one[i]);
+    if (stops[i].rows > 0) {
+      answer.found.bending.push_back(stops[i]);
+      answer.one_stop.push_back(one[i]);
+      answer.forms.push_back(forms[i]);
+    }
     if (stretched[i].rows > 0) answer.found.tension.push_back(stretched[i]);
   }
   if (answer.found.bending.empty())
@@ -212,6 +254,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, boo
   write_fab_fabric(run.path("fabric.toml"), answer.found, notes);
   write_fab_fabric(run.path("one_stop.toml"), one, notes);
   write_spectrum(run, answer.found);
+  write_forms(run, answer);
   add_fab_metrics(run, answer);
   const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
   write_predictions(run, predictions);
@@ -220,14 +263,25 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, boo
 
 std::string summary(const FabAnswer& answer) {
   std::string text;
-  for (const FabBending& b : answer.found.bending) {
+  for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
+    const FabBending& b = answer.found.bending[i];
     const std::vector<std::string> open = b.undetermined();
     text += fmt::format(
         "along {}: b2 = {:.3g} +- {:.2g} N m, HB = {:.3g} +- {:.2g} N, b1 = {:.3g} N m; rms {:.2g} "
         "of the noise, {} iterations\n",
         b.direction, b.law.spring, b.spring_error, b.law.friction(), b.friction_error,
         b.law.initial_stiffness(), b.residual_rms, b.iterations);
+    if (b.is_shaped()) {
+      const FrictionShape shape = shape_of(b.form);
+      text += fmt::format(
+          "  friction slips about {:.3g}/m (a factor of {:.2g}), spread {:.3g} (a factor of {:.2g})\n",
+          shape.median, std::exp(b.form_errors[1]), shape.spread, std::exp(b.form_errors[2]));
+    }
     text += "  undetermined: " + (open.empty() ? std::string("nothing") : join(open, ", ")) + "\n";
+    for (const FabForm& form : answer.forms[i])
+      text +=
+          fmt::format("  {}: rms {:.2g} of the noise, misfit {:.3g}{}\n", form.name, form.found.residual_rms,
+                      form.misfit(b), form.misfit(b) > kExcludes ? ", excluded" : "");
   }
   for (const FabTension& t : answer.found.tension)
     text += fmt::format(

@@ -10,25 +10,32 @@
 namespace hysteron::experiments {
 
 struct FabFlags {
-  std::string file, directions, tests = "D1", cycles = "2", thresholds = "4,8,16,32,64,128,256";
+  std::string file, directions, tests = "D1", cycles = "2", friction = "shaped",
+                                thresholds = "1,2,4,8,16,32,64,128,256";
   double noise = 7.5e-4;
 };
 
 // Loops that were identified from, and all others of the file.
 struct FabAnswer {
   FabIdentification found;
-  std::vector<FabBending> one_stop;  // by direction, as found.bending
-  std::vector<FabLoops> loops;       // of the whole file
-  std::vector<std::string> tests;    // that were fitted
+  std::vector<FabBending> one_stop;         // by direction, as found.bending
+  std::vector<std::vector<FabForm>> forms;  // that friction could have as well, by direction
+  std::vector<FabLoops> loops;              // of the whole file
+  std::vector<std::string> tests;           // that were fitted
   std::vector<int> cycles;
 };
 
 // Throws Error::request for what the file does not have.
 FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density);
 
-// fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, predictions.csv,
-// plots and metrics.
+// fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, forms.csv,
+// predictions.csv, plots and metrics.
 void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, bool pictures);
+
+// forms.csv: what every form of friction leaves of the data, and how surely that excludes it.
+void write_forms(Run& run, const FabAnswer& answer);
+// Median and spread, where friction was sought in that form; names begin with `prefix`.
+void add_shape(Run& run, const FabBending& found, const std::string& prefix);
 
 // What a reader is told.
 std::string summary(const FabAnswer& answer);

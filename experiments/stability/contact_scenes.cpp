@@ -11,7 +11,7 @@ constexpr double kSheetSide = 0.2;     // of squares [m]
 
 // Newton's criteria are those of the crumpling scenes, without their limit of iterations.
 Attempt with_self_contact(int triangles) {
-  Attempt attempt{default_scene(), {}, kContactLasts};
+  Attempt attempt{default_scene("cotton-broad-k50"), {}, kContactLasts};
   Scene& scene = attempt.scene;
   scene.self_contact = true;
   scene.newton_residual = 1e-3;

@@ -38,7 +38,7 @@ const LimitCondition kConditions[] = {
 constexpr int kHeldConditions = 2;  // the first ones, in which cloth is also held
 
 Scene scene_of(const LimitCase& of) {
-  Scene scene = default_scene();
+  Scene scene = default_scene("cotton-broad-k50");
   scene.integrator = Integrator::semi_implicit;
   scene.cloth.length = kLength;
   scene.triangles = 128;

@@ -36,7 +36,7 @@ Pin pin_at(double x, double y) {
 
 // A square held level by two corners and let go: it swings down, folds and sways.
 Scene falling_square() {
-  Scene scene = default_scene();
+  Scene scene = default_scene("cotton-broad-k50");
   scene.cloth.length = kSide;
   scene.triangles = 128;
   scene.pin = {pin_at(0, kSide), pin_at(kSide, kSide)};

@@ -60,7 +60,7 @@ ClothMesh one_triangle() {
 
 // The cloth's left end is held, the rest swings down.
 Attempt cantilever(std::function<ClothMesh()> mesh) {
-  Attempt attempt{default_scene(), std::move(mesh), 0.3};
+  Attempt attempt{default_scene("cotton-broad-k50"), std::move(mesh), 0.3};
   attempt.scene.pin = {held_between(0, 1e-6)};
   return attempt;
 }
@@ -79,7 +79,7 @@ const NamedAttempt kMeshes[] = {
 constexpr double kHappens = 0.3;  // [s] in which the scenes' motions are over
 
 Attempt square(double height) {
-  Attempt attempt{default_scene(), {}, kHappens};
+  Attempt attempt{default_scene("cotton-broad-k50"), {}, kHappens};
   attempt.scene.cloth.length = 0.2;
   attempt.scene.cloth.position.z() = height;
   attempt.scene.triangles = 160;
@@ -88,7 +88,7 @@ Attempt square(double height) {
 
 // A strip of 10 cm x 3 cm between two clamps of 4 cm; the right one turns about the middle by `degrees`.
 Attempt folded(double degrees) {
-  Attempt attempt{default_scene(), {}, kHappens};
+  Attempt attempt{default_scene("cotton-broad-k50"), {}, kHappens};
   Scene& scene = attempt.scene;
   scene.cloth.shape = "strip";
   scene.cloth.length = 0.1;
@@ -176,7 +176,7 @@ Attempt hanging_with(const Change& change) {
 const NamedAttempt kScenes[] = {
     {"one triangle",
      [] {
-       Attempt attempt{default_scene(), one_triangle, kHappens};
+       Attempt attempt{default_scene("cotton-broad-k50"), one_triangle, kHappens};
        attempt.scene.pin = {held_between(0, 1e-6)};
        attempt.scene.pin[0].high.y() = 0;
        return attempt;

@@ -42,17 +42,15 @@ constexpr double kLeastTurn = 0.01;  // of the length: smaller ones are not coun
 constexpr double kSmallSwing = 0.5;
 
 constexpr const char* kDecayCaption =
-    "Amplitude of the free end from turn to turn: half of a turning point's distance to the mean of its "
-    "neighbours. On this logarithmic scale exponential decay, as by viscosity, is a straight line; "
-    "hyperbolic "
-    "decay, as by friction in bending, becomes flatter; linear decay becomes steeper; a plateau is level.";
-
-// "hyperbolic, p = 2.04 ± 0.05", "plateau".
-std::string words_of(const Decay& decay) {
-  if (!decay.exponent) return name_of(decay.shape);
-  return fmt::format("{}, p = {:.2f} ± {:.2f}", name_of(decay.shape), *decay.exponent,
-                     *decay.exponent_stderr);
-}
+    "Amplitude of the free end against time: half of a turning point's distance to the mean of its "
+    "neighbours, and "
+    "the shape that describes it best. Saturated friction in bending makes a line, friction that has not "
+    "saturated a "
+    "hyperbola, viscosity an exponential.";
+constexpr const char* kDecayLogCaption =
+    "The same on a logarithmic scale, where exponential decay is a straight line, hyperbolic decay becomes "
+    "flatter, "
+    "linear decay steeper, and a plateau is level.";
 
 // turns.csv: a row for each amplitude.
 void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
@@ -61,34 +59,61 @@ void write_turns(Run& run, const std::vector<Amplitude>& amplitudes) {
   file.finish();
 }
 
-void note_decay(Run& run, const Decay& decay) {
+// By how far amplitudes down to a fifth of the first are from the line that is nearest to them, at most and
+// over the first: cloth's swings fall along one so far (Matsudaira & Zhang 1996).  NaN for fewer than three.
+double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& decay) {
+  constexpr double kFifth = 0.2;
+  std::vector<Amplitude> large;
+  for (std::size_t i = decay.first;
+       i < amplitudes.size() && amplitudes[i].value >= kFifth * amplitudes[decay.first].value; ++i)
+    large.push_back(amplitudes[i]);
+  if (large.size() < 3) return NAN;
+  const auto [first, rate] = line_through(large);
+  double farthest = 0;
+  for (const Amplitude& a : large)
+    farthest = std::max(farthest, std::abs(a.value - first + rate * (a.time - large[0].time)));
+  return farthest / large[0].value;
+}
+
+void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   run.metric("decay_shape", name_of(decay.shape));
   run.metric("decay_amplitudes_count", decay.used);
   if (decay.used >= kLeastAmplitudes) run.metric("decay_per_turn_percent", 100 * decay.per_turn);
-  if (!decay.exponent) return;
-  run.metric("decay_exponent", *decay.exponent);
-  run.metric("decay_exponent_stderr", *decay.exponent_stderr);
+  if (decay.fits.empty()) return;
+  run.metric("decay_margin", decay.margin);
+  const double first = amplitudes[decay.first].value;
+  run.metric("decay_rms_percent", 100 * decay.best().rms / first);
+  if (decay.shape == DecayShape::two_step) {
+    run.metric("decay_step_fraction", decay.step_fraction());
+    run.metric("decay_first_rate_mm_per_s", 1e3 * decay.best().rate);
+    run.metric("decay_second_rate_mm_per_s", 1e3 * decay.best().last_rate);
+  }
+  if (const double departure = line_departure(amplitudes, decay); std::isfinite(departure))
+    run.metric("decay_line_departure_percent", 100 * departure);
 }
 
-// Amplitudes on a logarithmic scale, and the fit over those that it was made from.
+// Amplitudes against time, and the fits over those that they were made from: the best one.
 void plot_decay(Session& session, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
+  constexpr int kDrawn = 200;
   if (amplitudes.empty()) return;
-  render::Plot plot{
-      "Amplitude from turn to turn, " + session.scene().fabric.name + ", law " + session.scene().law,
-      {"turn"},
-      {"amplitude of the free end [mm]", true}};
+  render::Plot plot{"Amplitude against time, " + session.scene().fabric.name + ", law " + session.scene().law,
+                    {"time [s]"},
+                    {"amplitude of the free end [mm]"}};
   render::Series measured{"measured", {}, {}, render::Series::Style::points};
-  for (const Amplitude& a : amplitudes) measured.x.push_back(a.turn), measured.y.push_back(1e3 * a.value);
+  for (const Amplitude& a : amplitudes) measured.x.push_back(a.time), measured.y.push_back(1e3 * a.value);
   plot.series = {measured};
-  if (decay.exponent) {
-    render::Series fit{words_of(decay), {}, {}};
-    for (std::size_t i = 0; i < decay.used; ++i) {
-      fit.x.push_back(amplitudes[decay.first + i].turn);
-      fit.y.push_back(1e3 * decay.fitted(static_cast<double>(i)));
+  if (decay.shape != DecayShape::unknown && !decay.fits.empty()) {
+    render::Series fit{name_of(decay.shape), {}, {}};
+    const double from = amplitudes[decay.first].time, whole = amplitudes.back().time - from;
+    for (int i = 0; i <= kDrawn; ++i) {
+      fit.x.push_back(from + whole * i / kDrawn);
+      fit.y.push_back(1e3 * decay.best().at(whole * i / kDrawn));
     }
     plot.series.push_back(fit);
   }
   session.plot("plot_decay", plot);
+  plot.y.logarithmic = true;
+  session.plot("plot_decay_log", plot);
 }
 
 void plot(Session& session) {
@@ -107,7 +132,8 @@ void plot(Session& session) {
 std::vector<FigureCaption> captions_of(const Scene& scene) {
   const std::string what = ", " + scene.fabric.name + ", law " + scene.law;
   return {
-      {"plot_decay.png", "Amplitude from turn to turn" + what, kDecayCaption},
+      {"plot_decay.png", "Amplitude against time" + what, kDecayCaption},
+      {"plot_decay_log.png", "Amplitude against time, logarithmic" + what, kDecayLogCaption},
       {"plot_tip.png", "Height of the free end" + what,
        "Over the clamp, against time: a strip held out straight, clamped at one end and let go."},
       {"plot_energy.png", "Where the energy went" + what,
@@ -147,7 +173,7 @@ int run_swing(const CommandLine& line) {
   std::optional<Cloth> clamped = clamp(line, setup);
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
-  session.reserve({"turns.csv"}, {"plot_decay", "plot_tip", "plot_energy"});
+  session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
   const Eigen::Vector2d sides = sides_of(setup.scene, session.cloth().mesh);
   const float length = static_cast<float>(sides.x()), width = static_cast<float>(sides.y());
   if (!setup.options.no_images) session.run().path("README.md");
@@ -182,9 +208,9 @@ int run_swing(const CommandLine& line) {
       amplitudes_of(turning_points(times, swing, kLeastTurn * sides.x(), kSwingRipple));
   const Decay decay = decay_of(amplitudes, kSmallSwing * (sides.x() - kClamp));
   run.metric("turns", turns.size());
-  note_decay(run, decay);
+  note_decay(run, amplitudes, decay);
   write_turns(run, amplitudes);
-  run.manifest().curves = {{"plot_decay", "turns.csv", "turn", "amplitude [mm]", true, kDecayCaption}};
+  run.manifest().curves = {{"plot_decay", "turns.csv", "time [s]", "amplitude [mm]", false, kDecayCaption}};
   run.metric("bending_friction_J", ledger.bending_friction);
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());

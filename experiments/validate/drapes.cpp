@@ -8,6 +8,7 @@
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
+#include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 
@@ -26,20 +27,34 @@ Manifest result_of(const std::string& name, const std::vector<Flag>& own, const 
 }
 
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
-  return {
-      fabric,         split(flags.laws).front(), "lowered", "", static_cast<int>(flags.triangles), flags.step,
-      flags.tolerance};
+  const auto& published = read_fabric(fabric, "--fabrics").fabric.published;
+  const auto drape = published.find("drape-coefficient");
+  const bool named = drape != published.end() && drape->second.tester == "jis";
+  const bool shaken = flags.standard == "published" ? named : flags.standard == "jis";
+  return {fabric,
+          split(flags.laws).front(),
+          shaken ? "jis" : "iso9073",
+          shaken ? "shaken" : "lowered",
+          "",
+          static_cast<int>(flags.triangles),
+          flags.step,
+          flags.tolerance};
 }
 
 std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
   std::vector<Flag> own = {{"fabric", drape.fabric},
                            {"law", drape.law},
+                           {"drape.standard", drape.standard},
                            {"drape.release", drape.release},
                            {"triangles", std::to_string(drape.triangles)},
                            {"step", number_text(drape.step)},
                            {"tolerance", number_text(drape.tolerance)},
-                           {"seconds", number_text(flags.seconds)},
                            {"device", flags.device}};
+  if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
+  if (flags.quick_drapes) {
+    own.insert(own.end(), {{"drape.lowering", "0.3"}, {"drape.shakes", "1"}});
+    if (!(flags.seconds > 0)) own.push_back({"seconds", "1.4"});
+  }
   own.insert(own.end(), drape.further.begin(), drape.further.end());
   return own;
 }
@@ -60,28 +75,36 @@ std::vector<Drape> planned(const ValidateFlags& flags) {
   std::vector<Drape> plan;
   const int triangles = static_cast<int>(flags.triangles);
   for (const std::string& fabric : split(flags.fabrics)) {
-    for (const std::string& law : split(flags.laws))
-      for (const char* release : {"lowered", "dropped"}) {
-        plan.push_back({fabric, law, release, "", triangles, flags.step, flags.tolerance});
-        if (flags.options.quick) break;
-      }
+    const Drape nominal = nominal_drape(fabric, flags);
+    const auto add = [&](const std::string& law, const std::string& release) -> Drape& {
+      plan.push_back(nominal);
+      plan.back().law = law;
+      plan.back().release = release;
+      return plan.back();
+    };
+    for (const std::string& law : split(flags.laws)) {
+      add(law, nominal.release);
+      if (!flags.options.quick && nominal.release != "lowered") add(law, "lowered");
+    }
     if (flags.options.quick) continue;
-    const std::string law = split(flags.laws).front();
-    plan.push_back({fabric, law, "lowered", "mesh", 4 * triangles, flags.step, flags.tolerance});
-    plan.push_back({fabric, law, "lowered", "step", triangles, flags.step / 2, flags.tolerance / 8});
+    Drape& finer = add(nominal.law, nominal.release);
+    finer.varied = "mesh", finer.triangles = 4 * triangles;
+    Drape& shorter = add(nominal.law, nominal.release);
+    shorter.varied = "step", shorter.step /= 2, shorter.tolerance /= 8;
   }
   return plan;
 }
 
 void write_drapes(Run& run, const std::vector<Drape>& drapes) {
-  CsvFile file(run.path("drape.csv"),
-               "fabric,law,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
-               "coefficient [%],published nodes,sharp edges [%],computing [s]");
+  CsvFile file(
+      run.path("drape.csv"),
+      "fabric,law,standard,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
+      "coefficient [%],published nodes,sharp edges [%],computing [s]");
   for (const Drape& d : drapes)
-    file.row({d.fabric, d.law, d.release, d.triangles, d.step, d.number("drape_coefficient_percent"),
-              d.number("node_count"), d.metrics["settled"].is(true) ? "yes" : "no",
-              d.number("published_drape_coefficient_percent"), d.number("published_node_count"),
-              d.number("sharp_edges_percent"), d.seconds});
+    file.row({d.fabric, d.law, d.standard, d.release, d.triangles, d.step,
+              d.number("drape_coefficient_percent"), d.number("node_count"),
+              d.metrics["settled"].is(true) ? "yes" : "no", d.number("published_drape_coefficient_percent"),
+              d.number("published_node_count"), d.number("sharp_edges_percent"), d.seconds});
   file.commit();
 }
 

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 
 // A drape and what came of it.
 struct Drape {
-  std::string fabric, law, release, varied;  // varied: "" | mesh | step | draw-2 | sample-1
+  std::string fabric, law, standard, release, varied;  // varied: "" | mesh | step | draw-2 | sample-1
   int triangles = 0;
   double step = 0, tolerance = 0;
   std::vector<Flag> further = {};  // what else sets it apart
@@ -33,14 +33,14 @@ struct Drape {
 Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
                    Run& run, const std::string& folder);
 
-// As the flags say: with the first of their laws, lowered.
+// As the flags say: with the first of their laws, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
 // What the subcommand `drape` is told; numbers lose no bit on the way.
 std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags);
 void run_drape(Drape& drape, const ValidateFlags& flags, Run& run);
 
-// Every fabric under every law along both paths, and the first law with four times the triangles and with
-// half the step: drape.csv, plot_drape.
+// Every fabric under every law, released as on its tester and lowered alone, and the first law with four
+// times the triangles and with half the step: drape.csv, plot_drape.
 void compare_drapes(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

@@ -27,7 +27,7 @@ constexpr PublishedPair kPairs[] = {
     {"denim C", 0.227, 0.105},          {"denim D", 0.147, 0.141},       {"denim E", 0.207, 0.214},
     {"denim F", 0.148, 0.159},
 };
-constexpr double kAssumedK0 = 50;  // [1/m], as the fabrics' files assume
+constexpr FrictionShape kAssumedShape = {17, 2};  // as the fabrics' files assume
 
 }  // namespace
 
@@ -54,9 +54,14 @@ std::vector<Prediction> predict_pairs(Run& run) {
   for (const PublishedPair& pair : kPairs) {
     const double b = pair.b * kGramForceSquareCentimetrePerCentimetre,
                  two_hb = pair.two_hb * kGramForceCentimetrePerCentimetre;
-    const LawRequest law{"prandtl", {b + two_hb / kAssumedK0, b, kAssumedK0}, {}};
+    const ShapedFriction friction = friction_from_kes({b, two_hb}, kAssumedShape);
+    const LawRequest law{
+        "prandtl",
+        {friction.b2 + friction.stops.stiffness(), friction.b2, 1, {friction.stops, {}, {}, {}}},
+        {}};
     const KesReading read = read_loop(protocol, walk, run_law(law, walk.rows).moment);
-    const std::string on = "B, 2HB; k0 = 50/m assumed", fabric = std::string(" of ") + pair.fabric;
+    const std::string on = "B, 2HB; the shape of friction assumed",
+                      fabric = std::string(" of ") + pair.fabric;
     predictions.push_back({"B" + fabric, on, "N m", read.rigidity, b});
     predictions.push_back({"2HB" + fabric, on, "N", read.loop_width, two_hb});
   }

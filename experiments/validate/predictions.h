@@ -15,7 +15,7 @@ struct Prediction {
   std::string fitted_on;  // what the model had been told
   std::string unit;
   double predicted = NAN, measured = NAN;
-  double low = NAN, high = NAN;  // between which the prediction lies with what is not known; NaN: not asked
+  double low = NAN, high = NAN;  // 95 %: between which it lies with what is not known; NaN: not asked
 
   double error() const { return predicted - measured; }
   double error_percent() const { return 100 * error() / measured; }
@@ -27,7 +27,8 @@ struct Prediction {
 void write_predictions(Run& run, const std::vector<Prediction>& predictions);
 
 // B and 2HB of ten published pairs as the virtual KES-FB2 reads them off the law that was made from them with
-// k0 = 50/m: whether the fabric's numbers mean what the tester's do.
+// the shape of friction that the fabrics' files assume: whether the fabric's numbers mean what the tester's
+// do.
 std::vector<Prediction> predict_pairs(Run& run);
 
 // Areas and ranges of force of the loops in `folder`, where `fit --fab` has predicted them: with its stops,

@@ -1,5 +1,5 @@
-// How much of a drape is known: with the fabric's uncertain numbers anywhere in their ranges, and along both
-// paths on several meshes.
+// How much of a drape is known: with the fabric's uncertain numbers anywhere in their ranges, and on several
+// meshes.
 #pragma once
 
 #include <map>
@@ -15,18 +15,23 @@ namespace hysteron::experiments {
 using Sample = std::map<std::string, double>;
 
 // A Latin hypercube of the fabric's ranges (McKay, Beckman & Conover 1979): each number once in each of
-// `count` parts of its range that are equal in the logarithm, which part with which by chance.  b1 follows k0
-// such that the friction moment (b1 - b2) k0/2 stays.
+// `count` parts of its range that are equal in the logarithm, which part with which by chance.  B, 2HB or the
+// friction moment stay as published, the mean of warp and weft; the range of bias-bending is that of its
+// ratio to that mean.
 std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed);
+
+// What is published holds for a sample: the friction moment for each k0, and B and 2HB as the mean of warp
+// and weft. A range of bias-bending is that of its ratio to the mean of both.
+void keep_what_was_measured(const Fabric& fabric, Sample& sample);
 
 // As a drape is told of it, with all bits.
 std::vector<Flag> flags_of(const Sample& sample);
 
-// The first law, lowered, for each fabric with `samples` draws of its uncertain numbers, each on another
-// mesh: spread.csv, plot_spread.
+// The first law, on the fabric's tester, for each fabric with `samples` draws of its uncertain numbers, each
+// on another mesh: spread.csv, plot_spread.
 std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run);
 
-// The first law for each fabric along both paths on `draws` meshes: draws.csv.
+// Every law for each fabric, on its tester, on `draws` meshes: draws.csv.
 std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/validate/budget.h"
 #include "experiments/validate/drapes.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/pages/report.h"
@@ -20,8 +21,9 @@ namespace {
 using F = ValidateFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"parts", at<&F::parts>, "", any(), "", "separated by commas: pairs (B and 2HB of ten fabrics), drapes (laws, paths, mesh and step), lengths (bending lengths), spread (drapes with uncertain numbers), draws (drapes on several meshes)"},
+    {"parts", at<&F::parts>, "", any(), "", "separated by commas: pairs (B and 2HB of ten fabrics), drapes (laws, paths, mesh and step), lengths (bending lengths), spread (drapes with uncertain numbers), draws (drapes on several meshes), budget (what each uncertain number explains)"},
     {"loops", at<&F::loops>, "", any(), "", "folder of a `fit --fab`, whose predictions of measured loops join the table"},
+    {"standard", at<&F::standard>, "", any(), "published | iso9073 | jis", "of the drapes: the tester that the fabric's file names, or one for all"},
     {"fabrics", at<&F::fabrics>, "", any(), "", "those that publish a drape coefficient, separated by commas"},
     {"laws", at<&F::laws>, "", any(), "", "separated by commas"},
     {"device", at<&F::device>, "", any(), "cpu | cuda", "of the drapes"},
@@ -31,7 +33,7 @@ const KeyRow<F> kRows[] = {
     {"samples", at<&F::samples>, "", between(2, 1000), "", "of a fabric's uncertain numbers, from the ranges that its file states"},
     {"draws", at<&F::draws>, "", between(2, 1000), "", "meshes, for the mean and the spread of a drape"},
     {"seed", at<&F::seed>, "", any(), "", "of the samples"},
-    {"seconds", at<&F::seconds>, "s", positive(), "", "longest simulated time of a drape"},
+    {"seconds", at<&F::seconds>, "s", at_least(0), "", "longest simulated time of a drape; 0: as drape has it"},
 };
 // clang-format on
 
@@ -58,7 +60,7 @@ void measure_bending_lengths(const F& flags, Run& run) {
 }
 
 void check_parts(const F& flags) {
-  static const std::vector<std::string> kParts = {"pairs", "drapes", "lengths", "spread", "draws"};
+  static const std::vector<std::string> kParts = {"pairs", "drapes", "lengths", "spread", "draws", "budget"};
   for (const std::string& part : split(flags.parts))
     if (!std::count(kParts.begin(), kParts.end(), part))
       throw Error::request("parts = " + part + " must be " + join(kParts, " | ")).of("parts", part);
@@ -68,14 +70,14 @@ int run_validate(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags), [&] {
     flags.triangles = std::min(flags.triangles, 400.0);
-    flags.seconds = std::min(flags.seconds, 1.0);
+    flags.quick_drapes = true;
     flags.samples = flags.draws = 2;
   });
   check_parts(flags);
   const std::vector<std::string> parts = split(flags.parts);
   const auto asked = [&](const char* part) { return std::count(parts.begin(), parts.end(), part) > 0; };
   Run run(line, flags.options, to_json(bind(kRows, flags)));
-  run.reserve({"predictions.csv", "cantilever.csv", "drape.csv", "spread.csv", "draws.csv"});
+  run.reserve({"predictions.csv", "cantilever.csv", "drape.csv", "spread.csv", "draws.csv", "budget.csv"});
   std::vector<Prediction> predictions;
   const auto add = [&](std::vector<Prediction> more) {
     predictions.insert(predictions.end(), more.begin(), more.end());
@@ -85,6 +87,7 @@ int run_validate(const CommandLine& line) {
   if (asked("pairs")) add(predict_pairs(run));
   if (asked("spread")) add(predict_spread(flags, run));
   if (asked("draws")) add(predict_draws(flags, run));
+  if (asked("budget")) write_budget(flags, run);
   if (asked("drapes")) compare_drapes(flags, run);
   if (asked("lengths")) measure_bending_lengths(flags, run);
   finish_with_report(run);

@@ -11,11 +11,14 @@ struct ValidateFlags {
   std::string parts = "pairs,drapes,lengths,spread,draws";
   std::string fabrics = "cotton-broad,wool-tropical,polyester-tropical,polyester-faille";
   std::string laws = "prandtl,linear", device = "cpu";
-  std::string loops;  // folder of a `fit --fab`; empty: none
-  double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5, seconds = 4;
-  int samples = 8;    // of each fabric's uncertain numbers
-  int draws = 3;      // meshes for the statistics of a drape
-  unsigned seed = 1;  // of the samples
+  std::string standard = "published";  // whose apparatus drapes are made on
+  std::string loops;                   // folder of a `fit --fab`; empty: none
+  double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5;
+  double seconds = 0;  // longest of a drape; 0: as the drape has it
+  int samples = 8;     // of each fabric's uncertain numbers
+  int draws = 3;       // meshes for the statistics of a drape
+  unsigned seed = 1;   // of the samples
+  bool quick_drapes = false;
   Options options;
 };
 

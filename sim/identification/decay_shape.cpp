@@ -1,29 +1,100 @@
 #include "sim/identification/decay_shape.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "sim/identification/covariance.h"
-#include "sim/identification/least_squares.h"
 
 namespace hysteron {
 namespace {
 
-constexpr double kLowest = -1, kHighest = 8;  // exponents that are looked for
-constexpr double kKnownTo = 0.5;              // standard error of an exponent that names a shape
+// Shares of the largest amplitude.  A turn falls by much more than its neighbours if it takes more than this
+// and so many times as much as the turn before and the one after.
+constexpr double kFallsLess = 0.25, kOverBefore = 1.5, kOverAfter = 2, kGrowsLess = 0.05;
+constexpr std::size_t kOnALine = 3;                 // amplitudes of each of two lines
+constexpr int kPlaces = 400;                        // of the second line's beginning that are tried
+constexpr double kLowRate = 1e-3, kHighRate = 1e3;  // over the inverse of the whole time
+constexpr int kRates = 600;
 
-DecayShape shape_of(double exponent) {
-  if (exponent < 0.5) return DecayShape::linear;
-  if (exponent < 1.5) return DecayShape::exponential;
-  return exponent < 2.5 ? DecayShape::hyperbolic : DecayShape::steeper;
+struct Series {
+  Eigen::VectorXd time, amplitude;  // [s] since the first, [m]
+
+  Eigen::Index size() const { return time.size(); }
+  double least_square() const { return std::pow(kBestAccuracy * amplitude.maxCoeff(), 2); }
+};
+
+DecayFit judged(DecayFit fit, int numbers, const Series& series) {
+  double squares = 0;
+  for (int i = 0; i < series.size(); ++i)
+    squares += std::pow(series.amplitude[i] - fit.at(series.time[i]), 2);
+  const auto n = static_cast<double>(series.size());
+  fit.rms = std::sqrt(squares / n);
+  fit.criterion = n * std::log(std::max(squares / n, series.least_square())) + numbers * std::log(n);
+  return fit;
+}
+
+DecayFit line(const Series& series) {
+  Eigen::MatrixXd by(series.size(), 2);
+  by << Eigen::VectorXd::Ones(series.size()), -series.time;
+  const Eigen::Vector2d found = by.colPivHouseholderQr().solve(series.amplitude);
+  return judged({DecayShape::linear, found[0], found[1]}, 2, series);
+}
+
+// The best of many beginnings of the second line, which is the flatter one.
+DecayFit two_lines(const Series& series) {
+  DecayFit best{DecayShape::two_step};
+  best.rms = best.criterion = INFINITY;
+  const double from = series.time[kOnALine - 1], to = series.time[series.size() - kOnALine];
+  for (int place = 0; place <= kPlaces; ++place) {
+    const double step = from + (to - from) * place / kPlaces;
+    Eigen::MatrixXd by(series.size(), 3);
+    by << Eigen::VectorXd::Ones(series.size()), -series.time.cwiseMin(step),
+        -(series.time.array() - step).max(0).matrix();
+    const Eigen::Vector3d found = by.colPivHouseholderQr().solve(series.amplitude);
+    if (!(found[1] > found[2])) continue;
+    const DecayFit fit = judged({DecayShape::two_step, found[0], found[1], step, found[2]}, 4, series);
+    if (fit.rms < best.rms) best = fit;
+  }
+  return best;
+}
+
+// A shape a g(b t): the best a at each of many b, then between the neighbours of the best b.
+DecayFit curve(DecayShape shape, const Series& series) {
+  const double whole = series.time[series.size() - 1];
+  const auto with = [&](double rate) {
+    DecayFit unit{shape, 1, rate};
+    Eigen::VectorXd g(series.size());
+    for (int i = 0; i < series.size(); ++i) g[i] = unit.at(series.time[i]);
+    unit.first = g.dot(series.amplitude) / g.squaredNorm();
+    return judged(unit, 2, series);
+  };
+  double low = std::log(kLowRate / whole), high = std::log(kHighRate / whole);
+  DecayFit best = with(std::exp(low));
+  while (high - low > 1e-9) {
+    const double width = (high - low) / kRates, start = low;
+    for (int i = 0; i <= kRates; ++i) {
+      const DecayFit fit = with(std::exp(start + i * width));
+      if (i > 0 && fit.rms >= best.rms) continue;
+      best = fit;
+      low = std::max(start, start + (i - 1) * width),
+      high = std::min(start + kRates * width, start + (i + 1) * width);
+    }
+  }
+  return best;
 }
 
 // Behind the last turn that a single mode does not make.
 std::size_t first_of_one_mode(const std::vector<Amplitude>& all) {
   std::size_t first = 0;
+  double largest = 0;
+  for (const Amplitude& a : all) largest = std::max(largest, a.value);
+  const auto fall = [&](std::size_t i) { return all[i - 1].value - all[i].value; };
   for (std::size_t i = 1; i < all.size(); ++i) {
-    const double ratio = all[i].value / all[i - 1].value;
-    if (ratio < 1 - kFallsLess || ratio > 1 + kGrowsLess) first = i;
+    const bool grows = -fall(i) > kGrowsLess * largest;
+    const bool falls = fall(i) > kFallsLess * largest && (i == 1 || fall(i) > kOverBefore * fall(i - 1)) &&
+                       (i + 1 < all.size() && fall(i) > kOverAfter * fall(i + 1));
+    if (grows || falls) first = i;
   }
   return first;
 }
@@ -36,23 +107,14 @@ std::size_t first_small(const std::vector<Amplitude>& all, double largest) {
   return first;
 }
 
-// Amplitude over the first measured one, loss of all turns if each took what the first takes, exponent.
-void fit(const std::vector<Amplitude>& all, Decay& decay) {
-  const double scale = all[decay.first].value, turns = static_cast<double>(decay.used - 1);
-  const auto residuals = [&](const Eigen::VectorXd& at) {
-    Eigen::VectorXd off(decay.used);
-    for (std::size_t i = 0; i < decay.used; ++i)
-      off[i] =
-          decayed(at[0], at[1] / turns, at[2], static_cast<double>(i)) - all[decay.first + i].value / scale;
-    return off;
-  };
-  const double lost = -std::log1p(-decay.per_turn) * turns;
-  const LeastSquares found = minimize(residuals, Eigen::Vector3d(1, lost, 1), Eigen::Vector3d(0, 0, kLowest),
-                                      Eigen::Vector3d(2, turns, kHighest));
-  decay.fitted_first = scale * found.parameters[0];
-  decay.fitted_loss = found.parameters[1] / turns;
-  decay.exponent = found.parameters[2];
-  decay.exponent_stderr = std::sqrt(covariance(found.jacobian, found.residuals).matrix(2, 2));
+Series series_from(const std::vector<Amplitude>& all, std::size_t first) {
+  const auto n = static_cast<Eigen::Index>(all.size() - first);
+  Series series{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    series.time[i] = all[first + i].time - all[first].time;
+    series.amplitude[i] = all[first + i].value;
+  }
+  return series;
 }
 
 }  // namespace
@@ -96,16 +158,21 @@ std::vector<Amplitude> amplitudes_of(const std::vector<TurningPoint>& turns) {
   return result;
 }
 
+DecayLine line_through(const std::vector<Amplitude>& amplitudes) {
+  const DecayFit fit = line(series_from(amplitudes, 0));
+  return {fit.first, fit.rate};
+}
+
 std::string name_of(DecayShape shape) {
   switch (shape) {
     case DecayShape::linear:
       return "linear";
+    case DecayShape::two_step:
+      return "two-step";
     case DecayShape::exponential:
       return "exponential";
     case DecayShape::hyperbolic:
       return "hyperbolic";
-    case DecayShape::steeper:
-      return "steeper than hyperbolic";
     case DecayShape::plateau:
       return "plateau";
     default:
@@ -113,16 +180,22 @@ std::string name_of(DecayShape shape) {
   }
 }
 
-double decayed(double first, double loss, double exponent, double turns) {
-  const double bent = (exponent - 1) * loss * turns;  // 0 for p = 1
-  if (bent <= -1) return 0;
-  // log1p(x)/(p - 1) without 0/0; its series has x^2/3 next.
-  const double power =
-      std::abs(bent) > 1e-6 ? std::log1p(bent) / (exponent - 1) : loss * turns * (1 - bent / 2);
-  return first * std::exp(-power);
+double DecayFit::at(double t) const {
+  switch (shape) {
+    case DecayShape::exponential:
+      return first * std::exp(-rate * t);
+    case DecayShape::hyperbolic:
+      return first / (1 + rate * t);
+    case DecayShape::two_step:
+      return first - rate * std::min(t, step) - last_rate * std::max(t - step, 0.0);
+    default:
+      return first - rate * t;
+  }
 }
 
-double Decay::fitted(double turns) const { return decayed(fitted_first, fitted_loss, *exponent, turns); }
+const DecayFit& Decay::of(DecayShape shape) const {
+  return *std::find_if(fits.begin(), fits.end(), [&](const DecayFit& fit) { return fit.shape == shape; });
+}
 
 Decay decay_of(const std::vector<Amplitude>& all, double largest) {
   Decay decay;
@@ -136,17 +209,29 @@ Decay decay_of(const std::vector<Amplitude>& all, double largest) {
   };
   const std::size_t first = first_of_one_mode(all);
   if (!take_from(first)) return decay;
-  if (decay.per_turn < kPlateau) {
+  if (decay.per_turn < kPlateau && all.back().value > (1 - kLeastFall) * all[first].value) {
     decay.shape = DecayShape::plateau;
     return decay;
   }
   if (!take_from(std::max(first, first_small(all, largest)))) return decay;
-  if (all.back().value > (1 - kLeastFall) * all[decay.first].value) return decay;
-  fit(all, decay);
-  if (*decay.exponent_stderr <= kKnownTo)
-    decay.shape = shape_of(*decay.exponent);
-  else
-    decay.exponent.reset(), decay.exponent_stderr.reset();
+  const Series series = series_from(all, decay.first);
+  decay.fits = {line(series), two_lines(series), curve(DecayShape::exponential, series),
+                curve(DecayShape::hyperbolic, series)};
+  std::stable_sort(decay.fits.begin(), decay.fits.end(),
+                   [](const DecayFit& a, const DecayFit& b) { return a.criterion < b.criterion; });
+  // Two lines describe one line as well, at a place of their choice: they have to be clearly better, and are
+  // no rival.
+  const auto is_of = [](DecayShape shape) { return [=](const DecayFit& fit) { return fit.shape == shape; }; };
+  const auto one = std::find_if(decay.fits.begin(), decay.fits.end(), is_of(DecayShape::linear));
+  if (decay.best().shape == DecayShape::two_step && one->criterion - decay.best().criterion < kClearMargin)
+    std::rotate(decay.fits.begin(), one, one + 1);
+  const bool one_line = decay.best().shape == DecayShape::linear;
+  const auto rival = std::find_if(decay.fits.begin() + 1, decay.fits.end(), [&](const DecayFit& fit) {
+    return !(one_line && fit.shape == DecayShape::two_step);
+  });
+  decay.margin = rival->criterion - decay.best().criterion;
+  if (decay.margin >= kLeastMargin && all.back().value <= (1 - kLeastFall) * all[decay.first].value)
+    decay.shape = decay.best().shape;
   return decay;
 }
 

@@ -1,15 +1,20 @@
-// What takes the amplitude of a swing, read from how it falls: turning points, amplitudes, the exponent p of
-// dA/dn = -c A^p.
+// What takes the amplitude of a swing, read from how it falls in time: turning points, amplitudes, and the
+// one of four shapes that describes them best.
 //
-//   p = 0  A_n falls along a line: friction of constant moment
-//   p = 1  exponentially: viscosity
-//   p = 2  hyperbolically, 1/A_n along a line: friction whose small loops have areas growing as A^3, as those
-//          of Rayleigh and of every law that is a parabola up to its elastic limit (Masing 1926; here
-//          decay.h)
+//   linear       A = a - b t          friction that is saturated: its moment is constant
+//   two-step     two such lines       friction that saturates early, and what is left below: cloth
+//                                     (Matsudaira & Zhang 1996)
+//   exponential  A = a exp(-b t)      viscosity
+//   hyperbolic   A = a/(1 + b t)      dA/dn = -c A^2: friction whose small loops have areas growing as A^3,
+//   as those of
+//                                     Rayleigh and of every law that is a parabola up to its elastic limit
+//                                     (Masing 1926; here free_decay.h)
+//
+// Chosen by Schwarz's criterion n ln(s^2) + k ln n (1978), s^2 the mean square of what a shape of k numbers
+// leaves, no smaller than that of kBestAccuracy of the largest amplitude.
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,45 +43,65 @@ struct Amplitude {
 // Of every turning point between two others.
 std::vector<Amplitude> amplitudes_of(const std::vector<TurningPoint>& turns);
 
+// The line nearest to amplitudes, two at least: its value at the first one's time [m], and how fast it falls
+// [m/s].
+struct DecayLine {
+  double first, rate;
+};
+DecayLine line_through(const std::vector<Amplitude>& amplitudes);
+
 enum class DecayShape {
-  linear,       // p below 0.5
-  exponential,  // from 0.5
-  hyperbolic,   // from 1.5
-  steeper,      // from 2.5
-  plateau,      // a turn takes less than kPlateau: nothing brakes, and p has no meaning
-  unknown,  // p is not known to 0.5, or too few amplitudes are small, or they fall by less than kLeastFall
+  linear,
+  two_step,
+  exponential,
+  hyperbolic,
+  plateau,  // a turn takes less than kPlateau: nothing brakes
+  unknown,  // too few amplitudes, they fall by less than kLeastFall, or two shapes describe them alike
 };
 std::string name_of(DecayShape shape);
 
 constexpr double kPlateau = 0.01;            // of the amplitude, in a turn
-constexpr std::size_t kLeastAmplitudes = 5;  // three numbers are fitted
-// Of the first one by the last: within less, p would be that of what disturbs them.
-constexpr double kLeastFall = 0.2;
-// Between turns of one mode the amplitude falls by less and never grows by more: what comes before the last
-// turn that breaks this is several modes at once.
-constexpr double kFallsLess = 0.25, kGrowsLess = 0.05;
+constexpr std::size_t kLeastAmplitudes = 6;  // two lines of three each
+constexpr double kLeastFall = 0.2;           // of the first one by the last: of less, shapes are the same
+// Of the criterion: less is "not worth more than a bare mention", and less "positive", not "strong" (Kass &
+// Raftery 1995).
+constexpr double kLeastMargin = 2, kClearMargin = 6;
 // Of a swing: what goes back by less is a higher mode's ripple on it.
 constexpr double kSwingRipple = 0.25;
+
+// One shape, fitted by least squares of the amplitudes.  t is time since the first one [s].
+struct DecayFit {
+  DecayShape shape = DecayShape::unknown;
+  double first = 0;      // a: amplitude at t = 0 [m]
+  double rate = 0;       // b: of a line [m/s], of the other shapes [1/s]
+  double step = 0;       // of two lines: where the second begins [s] ...
+  double last_rate = 0;  // ... and its b [m/s]
+  double rms = 0;        // of what is left [m]
+  double criterion = 0;
+
+  double at(double t) const;
+};
 
 struct Decay {
   DecayShape shape = DecayShape::unknown;
   std::size_t first = 0;  // of the amplitudes: those before are of several modes or too large
   std::size_t used = 0;
   double per_turn = 0;  // mean loss over the amplitude: 1 - (A_last/A_first)^(1/turns)
-  // Fitted by least squares of the amplitudes where the shape is one with an exponent.
-  std::optional<double> exponent, exponent_stderr;
-  double fitted_first = 0;  // amplitude of `first`
-  double fitted_loss = 0;   // c A^(p-1) there: loss over the amplitude, in a turn
+  std::vector<DecayFit>
+      fits;           // of all four shapes, the best first; none of a plateau or of too few amplitudes
+  double margin = 0;  // of the criterion, from the best to the next that is another kind of shape
 
-  // Amplitude `turns` after the first by the fit; needs an exponent.
-  double fitted(double turns) const;
+  const DecayFit& best() const { return fits.front(); }
+  const DecayFit& of(DecayShape shape) const;  // that shape, which was fitted
+  // Where the second line begins, over the first amplitude.
+  double step_fraction() const {
+    return of(DecayShape::two_step).at(of(DecayShape::two_step).step) / best().first;
+  }
 };
 
-// A_n with dA/dn = -c A^p, A_0 = `first` and c A_0^(p-1) = `loss`; 0 once it has come to rest.
-double decayed(double first, double loss, double exponent, double turns);
-
-// Amplitudes turn by turn, as amplitudes_of() gives them.  Exponents are of
-// those that are not above `largest`, since the closed laws are of small swings.
+// Amplitudes in the order of time, as amplitudes_of() gives them; those above `largest` [m] are left out, and
+// what comes before the last turn that one mode alone would not make: one that grows, or that falls by much
+// more than those around it.
 Decay decay_of(const std::vector<Amplitude>& amplitudes, double largest);
 
 }  // namespace hysteron

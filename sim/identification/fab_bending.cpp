@@ -16,12 +16,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kStiffnessSpread = 1.5;  // prior standard deviations of logarithms: a factor of 4.5 ...
-constexpr double kSpringSpread = 1;       // ... and of 2.7
+constexpr double kSpringSpread = 1;  // prior standard deviation of a logarithm: a factor of 2.7
 // HB/b2 that the prior of b2 is centred on [1/m]: the KES pairs of assets/fabrics have 18 to 53.
 constexpr double kFrictionOverSpring = 50;
-constexpr double kFarthest = 9;      // of a logarithm from its prior
-constexpr double kLargestZero = 10;  // [N/m]
+constexpr double kSaturations[] = {3.125, 6.25, 12.5, 25, 50, 100};  // k0 [1/m]
+constexpr double kFarthest = 9;                                      // of a logarithm from its prior
+constexpr double kLargestZero = 10;                                  // [N/m]
 
 // Up to the turn before which a branch still goes the other way, and on the way of settling after it.
 bool is_settling(const FabLoops& loops, int branch, std::size_t index, double settling) {
@@ -45,13 +45,14 @@ double friction_of_loop(const FabLoops& loops, int cycle, double noise) {
   return work / (2 * (elastica.bend() - before));
 }
 
-// Parameters: logarithms of b2 and of the moments p_j r_j over their priors, then the zeros of force.
+// Parameters: the logarithm of b2 over its prior, those of friction, then the zeros of force.
 class BendingModel {
  public:
   BendingModel(const std::vector<FabLoops>& loops, const FabBendingQuestion& question)
       : loops_(loops),
         question_(question),
-        stops_(static_cast<int>(question.thresholds.size())),
+        form_(question.form ? *question.form : free_stops(question.thresholds)),
+        numbers_(static_cast<int>(form_.spreads.size())),
         rows_(rows_of(loops, question.cycles)) {
     double friction = 0;
     for (const FabLoops& one : loops)
@@ -66,10 +67,8 @@ class BendingModel {
   }
 
   StopsLaw law(const VectorXd& p) const {
-    StopsLaw law{std::exp(p[0]) * prior_spring(), question_.thresholds, {}};
-    for (int j = 0; j < stops_; ++j)
-      law.stiffnesses.push_back(std::exp(p[1 + j]) * prior_friction / stops_ / law.thresholds[j]);
-    return law;
+    const Spectrum stops = form_.stops(p.segment(1, numbers_), prior_friction);
+    return {std::exp(p[0]) * prior_spring(), stops.thresholds, stops.stiffnesses};
   }
 
   // Rows, then the distances of logarithms from their priors; not a number where no equilibrium is found.
@@ -86,26 +85,27 @@ class BendingModel {
     for (int i = 0; i < rows(); ++i) {
       const FabRow& row = rows_[i];
       result[i] =
-          row.weight * (force[row.loops][row.branch][row.index] + p[1 + stops_ + row.loops] - row.force);
+          row.weight * (force[row.loops][row.branch][row.index] + p[1 + numbers_ + row.loops] - row.force);
     }
     result[rows()] = p[0] / kSpringSpread;
-    result.tail(stops_) = p.segment(1, stops_) / kStiffnessSpread;
+    for (int j = 0; j < numbers_; ++j) result[rows() + 1 + j] = p[1 + j] / form_.spreads[j];
     return result;
   }
 
   VectorXd start() const {
     VectorXd p = VectorXd::Zero(parameters());
-    for (int i = 0; i < rows(); ++i) p[1 + stops_ + rows_[i].loops] += rows_[i].force;
+    for (int i = 0; i < rows(); ++i) p[1 + numbers_ + rows_[i].loops] += rows_[i].force;
     for (std::size_t l = 0; l < loops_.size(); ++l)
-      p[1 + stops_ + l] /= static_cast<double>(
+      p[1 + numbers_ + l] /= static_cast<double>(
           std::count_if(rows_.begin(), rows_.end(), [&](const FabRow& r) { return r.loops == int(l); }));
     return p;
   }
 
   int rows() const { return static_cast<int>(rows_.size()); }
-  int stops() const { return stops_; }
-  int parameters() const { return 1 + stops_ + static_cast<int>(loops_.size()); }
-  int size() const { return rows() + 1 + stops_; }
+  int numbers() const { return numbers_; }
+  const FrictionForm& form() const { return form_; }
+  int parameters() const { return 1 + numbers_ + static_cast<int>(loops_.size()); }
+  int size() const { return rows() + 1 + numbers_; }
   double prior_spring() const { return prior_friction / kFrictionOverSpring; }
 
   double prior_friction = 0;  // [N]
@@ -113,30 +113,38 @@ class BendingModel {
  private:
   const std::vector<FabLoops>& loops_;
   const FabBendingQuestion& question_;
-  int stops_;
+  FrictionForm form_;
+  int numbers_;  // of friction
   std::vector<FabRow> rows_;
 };
 
 void set_bending_errors(const BendingModel& model, const LeastSquares& best, FabBending& found) {
+  const int n = model.numbers();
   const Eigen::MatrixXd c = posterior(best, model.rows());
   const VectorXd error = c.diagonal().cwiseMax(0).cwiseSqrt();
+  const VectorXd of_stops = stop_errors(model.form(), best.parameters.segment(1, n), c.block(1, 1, n, n));
   found.spring_error = error[0] * found.law.spring;
+  found.form_errors = error.segment(1, model.numbers());
   found.determined = {is_determined(error[0])};
-  VectorXd moment = VectorXd::Zero(model.parameters());
-  for (int j = 0; j < model.stops(); ++j) {
-    found.stiffness_errors.push_back(error[1 + j] * found.law.stiffnesses[j]);
-    found.determined.push_back(is_determined(error[1 + j]));
-    moment[1 + j] = found.law.stiffnesses[j] * found.law.thresholds[j];
+  for (int j = 0; j < found.law.stops(); ++j) {
+    found.stiffness_errors.push_back(of_stops[j] * found.law.stiffnesses[j]);
+    found.determined.push_back(is_determined(of_stops[j]));
   }
-  const VectorXd zeros = error.tail(error.size() - 1 - model.stops());
+  const VectorXd zeros = error.tail(error.size() - 1 - model.numbers());
   found.zero_errors.assign(zeros.begin(), zeros.end());
-  found.friction_error = std::sqrt(std::max(0.0, moment.dot(c * moment)));
+  found.friction_error = of_stops[found.law.stops()] * found.law.friction();
 }
 
 }  // namespace
 
 std::vector<std::string> FabBending::undetermined() const {
   std::vector<std::string> names;
+  if (is_shaped()) {
+    if (!determined[0]) names.push_back("b2");
+    if (!is_determined(form_errors[1])) names.push_back("median");
+    if (!is_determined(form_errors[2])) names.push_back("spread");
+    return names;
+  }
   for (std::size_t i = 0; i < determined.size(); ++i)
     if (!determined[i]) names.push_back(i == 0 ? "b2" : "stop " + number_text(law.thresholds[i - 1]) + "/m");
   return names;
@@ -160,8 +168,11 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   found.law = model.law(best.parameters);
   const VectorXd zeros = best.parameters.tail(loops.size());
   found.zero.assign(zeros.begin(), zeros.end());
+  found.form = best.parameters.segment(1, model.numbers());
   found.rows = model.rows();
   found.residual_rms = std::sqrt(best.residuals.head(model.rows()).squaredNorm() / model.rows());
+  const VectorXd left = best.residuals.head(model.rows());
+  found.correlation = left.head(model.rows() - 1).dot(left.tail(model.rows() - 1)) / left.squaredNorm();
   found.prior_friction = model.prior_friction;
   found.prior_spring = model.prior_spring();
   found.iterations = best.iterations;
@@ -170,12 +181,38 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   return found;
 }
 
+double FabForm::misfit(const FabBending& best) const {
+  const double r = std::max(0.0, best.correlation), rows = best.rows * (1 - r) / (1 + r);
+  return 2 * rows * std::log(found.residual_rms / best.residual_rms);
+}
+
+std::vector<FabForm> even_forms_of(const std::function<FabBending(const FrictionForm&)>& identify) {
+  std::vector<FabForm> forms;
+  for (const double k0 : kSaturations) {
+    const FrictionForm form = even_friction(k0);
+    try {
+      forms.push_back({form.name, identify(form)});
+    } catch (const Error& error) {
+      if (error.exit_code() != 3) throw;
+    }
+  }
+  return forms;
+}
+
+std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
+  return even_forms_of([&](const FrictionForm& form) {
+    FabBendingQuestion one = question;
+    one.form = form;
+    return identify_fab_bending(loops, one);
+  });
+}
+
 FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question) {
   FabBending best;
   std::optional<Error> failure;
   for (const double threshold : question.thresholds) {
     FabBendingQuestion one = question;
-    one.thresholds = {threshold};
+    one.form = free_stops({threshold});
     try {
       FabBending found = identify_fab_bending(loops, one);
       if (best.rows == 0 || found.residual_rms < best.residual_rms) best = std::move(found);

@@ -1,24 +1,27 @@
 // Friction elements of bending from the loops of a FAB tester: the test is simulated with trial elements, and
 // the forces compared.
 //
-// Thresholds are a fixed grid, so that a coarse record decides about stiffnesses alone.  Their logarithms
-// have a prior, without which elements that a cycle hardly slips would go to nothing or grow without bound
-// (ridge of Hoerl & Kennard 1970 in logarithms; Tarantola 2005, section 3.2): a friction moment by the work
-// of the loop over the change of the bend, shared alike; b2 by HB/b2 of textiles.
+// Friction is sought in one of the forms of friction_form.h: stops on a fixed grid, so that a coarse record
+// decides about stiffnesses alone, or a shape of two numbers.  What is sought has a prior, without which
+// elements that a cycle hardly slips would go to nothing or grow without bound (Tarantola 2005, section 3.2):
+// a friction moment by the work of the loop over the change of the bend; b2 by HB/b2 of textiles.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/identification/friction_form.h"
 #include "sim/identification/identification.h"
 #include "sim/reference/fab_test.h"
 
 namespace hysteron {
 
 struct FabBendingQuestion {
-  std::vector<int> cycles = {2};                                  // that are fitted, the first being 1
-  std::vector<double> thresholds = {4, 8, 16, 32, 64, 128, 256};  // [1/m], rising
-  double density = 0;                                             // [kg/m^2]
+  std::vector<int> cycles = {2};                                        // that are fitted, the first being 1
+  std::vector<double> thresholds = {1, 2, 4, 8, 16, 32, 64, 128, 256};  // of free stops [1/m], rising
+  std::optional<FrictionForm> form = {};                                // in their place
+  double density = 0;                                                   // [kg/m^2]
   double noise = 7.5e-4;   // of the force of the whole strip [N]: FAB records scatter by 0.05 to 0.1 gf
   double settling = 5e-4;  // way after a reversal on which records are unreliable [m] ...
   double trust = 0.3;      // ... and their weight there
@@ -33,17 +36,34 @@ struct FabBending {
   std::vector<double> stiffness_errors;
   std::vector<bool> determined;                 // of the spring, then of each stop
   double friction_error = kNone;                // of law.friction() [N]
+  double first = kNone;                         // of a decay: its first amplitude [m]
+  Eigen::VectorXd form, form_errors;            // parameters of the friction's form and standard errors
   std::vector<double> zero, zero_errors;        // of force, by fitted loops [N/m]
   double residual_rms = 0;                      // over the noise, unreliable rows weighted
+  double correlation = 0;                       // of what is left in neighbouring rows
   double prior_friction = 0, prior_spring = 0;  // that the prior is centred on [N], [N m]
   int rows = 0, iterations = 0;
   bool converged = false;
 
-  std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...
+  bool is_shaped() const { return form.size() == 3 && law.stops() == kShapedStops; }
+  std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...; of a shape "median", "spread"
 };
 
 // From loops of one direction that bend.  Throws Error::request if a cycle is not there.
 FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
+
+// The same in another form of friction: the fit, and how much worse it meets the loops than `best` does.
+struct FabForm {
+  std::string name;
+  FabBending found;
+
+  // n ln of the ratio of mean squares, twice the fall of the logarithm of the likelihood: 3.84 exclude it
+  // with 95 % (Wilks 1938).  Rows that depend on each other count as n (1 - r)/(1 + r), r that of the best.
+  double misfit(const FabBending& best) const;
+};
+// Friction that saturates at k0 of a grid [1/m]; without those for which no equilibrium is found.
+std::vector<FabForm> even_forms(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
+std::vector<FabForm> even_forms_of(const std::function<FabBending(const FrictionForm&)>& identify);
 
 // The one element of the grid that describes the same loops best: a constant 2HB.
 FabBending identify_one_stop(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);

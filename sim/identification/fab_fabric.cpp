@@ -46,12 +46,23 @@ std::string table(const std::string& name, const StopsLaw& law, const std::strin
          "\nsource = \"" + from + "\"\nconfidence = \"fitted\"\n";
 }
 
+// "; friction slips about 18.9/m, ..."
+std::string shape_words(const FabBending& b) {
+  const FrictionShape shape = shape_of(b.form);
+  return fmt::format(
+      ";\n# of friction that slips about {:.3g}/m, known within a factor of {:.2g} (standard error), with a "
+      "spread of "
+      "{:.3g},\n# within a factor of {:.2g}; thresholds [1/m] and stiffnesses [N m] follow:\n",
+      shape.median, std::exp(b.form_errors[1]), shape.spread, std::exp(b.form_errors[2]));
+}
+
 std::string bending_tables(const FabIdentification& found) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, found.bending.size()); ++i) {
     const FabBending& b = found.bending[i];
     text += "\n# Bends along " + b.direction + ", identified from " + found.from +
-            "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n" +
+            (b.is_shaped() ? shape_words(b)
+                           : "; thresholds [1/m] are a grid that was given, stiffnesses [N m]:\n") +
             notes_of(b.law, b.stiffness_errors, b.determined, "/m", "N m") +
             table(i == 0 ? "bending.stops" : "bending.stops.weft", b.law, found.from);
   }

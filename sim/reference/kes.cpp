@@ -122,16 +122,8 @@ void check_protocol(const KesProtocol& p) {
 }
 
 KesPair kes_pair(const VirginCurve& curve, const KesProtocol& p) {
-  const Spectrum& stops = curve.parts.stops;
-  if (stops.empty()) return {curve.b2, 2 * curve.friction_moment()};
-  const auto friction = [&](double k) { return stops.friction_at(k); };
-  const double a = p.amplitude, w = p.width_at;
-  // On the virgin curve, and on the branch that it makes doubled from the amplitude.
-  const double up = friction(p.slope_to) - friction(p.slope_from);
-  const double down = 2 * (friction((a + p.slope_to) / 2) - friction((a + p.slope_from) / 2));
-  const double width =
-      (friction(w) - 3 * friction(a) + 4 * friction((a - w) / 2) + 2 * friction((a + w) / 2)) / 2;
-  return {curve.b2 + (up + down) / 2 / (p.slope_to - p.slope_from), width};
+  if (curve.parts.stops.empty()) return {curve.b2, 2 * curve.friction_moment()};
+  return kes_pair(curve.b2, curve.parts.stops, p);
 }
 
 KesWalk walk_to(const std::vector<double>& turns, const KesProtocol& p) {

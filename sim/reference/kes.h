@@ -5,16 +5,13 @@
 #include <array>
 #include <vector>
 
+#include "sim/bending/laws/friction_shape.h"
 #include "sim/bending/laws/law_run.h"
 
 namespace hysteron {
 
-struct KesProtocol {
-  double amplitude = 250;  // largest curvature [1/m]
-  double rate = 50;        // of curvature [1/(m s)], 0.5 per cm and second
-  double slope_from = 50;  // B is the slope between these two curvatures [1/m]
-  double slope_to = 150;   //
-  double width_at = 100;   // curvature at which 2HB, the loop's width, is read [1/m]
+struct KesProtocol : KesWindow {
+  double rate = 50;   // of curvature [1/(m s)], 0.5 per cm and second
   int steps = 20000;  // accepted steps to the amplitude; laws that take time need many to be exact to 1e-4
   int cycles = 3;     // the tester reads the first; the area is that of the last
   bool minor_loops = true;  // test smaller amplitudes and partial reversals as well
@@ -48,9 +45,6 @@ KesReading read_loop(const KesProtocol& protocol, const KesWalk& walk, const std
 
 // B [N m] and 2HB [N] of a fabric by closed form: of three numbers b2 and twice the friction moment; of stops
 // what the tester reads of its first loop.
-struct KesPair {
-  double rigidity, loop_width;
-};
 KesPair kes_pair(const VirginCurve& curve, const KesProtocol& protocol = {});
 
 // A smaller cycle, closed if the law closes it.

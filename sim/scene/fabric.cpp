@@ -42,6 +42,22 @@ void check_stops(const Scene& scene, const char* table, const Spectrum& of) {
 
 }  // namespace
 
+void Fabric::follow_kes() {
+  if (!kes.on()) return;
+  const ShapedFriction friction = friction_from_kes(kes.read, kes.shape);
+  const double first_slope = friction.stops.stiffness();
+  b2 = friction.b2;
+  b1 = b2 + first_slope;
+  k0 = first_slope > 0 ? 2 * friction.stops.friction_moment() / first_slope : 0;
+  bending.stops = first_slope > 0 ? friction.stops : Spectrum();
+  for (const char* key : {"b2", "bending.stops.thresholds", "bending.stops.stiffnesses"})
+    provenance[key] = {"kes-b and kes-2hb with stops-median and stops-spread", "derived"};
+  provenance["b1"] = {"b2 and the stops' stiffnesses", "derived"};
+  provenance["k0"] = {"2 HB/(b1 - b2) of the stops", "derived"};
+}
+
+double Fabric::friction_curvature() const { return kes.on() ? KesWindow().slope_from : k0; }
+
 VirginCurve Fabric::virgin_curve() const {
   VirginCurve curve{b1, b2, k0, bending};
   // The metric (curvature_operator.h) has multiplied the curvatures that laws see by its root.

@@ -15,8 +15,11 @@ namespace {
 
 const std::vector<std::string> kConfidences = {"published", "fitted", "derived", "given", "assumed"};
 const std::vector<std::string> kRequired = {"b1", "b2", "k0", "density", "thickness"};
+const std::vector<std::string> kRequiredOfShaped = {"kes-b", "kes-2hb", "stops-spread", "density",
+                                                    "thickness"};
 const std::vector<std::string> kSaidByStops = {"b1", "k0"};
 constexpr const char* kPartTables[] = {"bending", "membrane"};
+constexpr const char* kOptional[] = {"fabric.bending.", "fabric.membrane.", "fabric.kes-", "fabric.stops-"};
 
 struct Reader {
   std::string file;
@@ -81,13 +84,14 @@ struct Reader {
       throw refusal(
           node.key + " must be a table {value, unit, source, confidence}, stderr and range if known", node);
     }
-    only_known(node, {"value", "unit", "source", "confidence", "stderr", "range"});
+    only_known(node, {"value", "unit", "source", "confidence", "stderr", "range", "tester"});
     PublishedNumber number{this->number(node, "value"), "", {text(node, "source"), confidence(node, node)}};
     if (node.find("unit")) number.unit = text(node, "unit");
     if (node.find("stderr")) {
       number.provenance.standard_error = this->number(node, "stderr");
       if (*number.provenance.standard_error < 0) throw refusal(node.key + ": stderr must be >= 0", node);
     }
+    if (node.find("tester")) number.tester = text(node, "tester");
     number.provenance.source = source(sources, number.provenance.source);
     return number;
   }
@@ -189,7 +193,8 @@ void read_parts(const Reader& reader, const TomlNode& table, const TomlNode* sou
 void note_defaults(Fabric& fabric) {
   for (const KeyDescription& key : scene_keys()) {
     if (!key.path.starts_with("fabric.") || key.path == "fabric.name") continue;
-    if (key.path.starts_with("fabric.bending.") || key.path.starts_with("fabric.membrane."))
+    if (std::any_of(std::begin(kOptional), std::end(kOptional),
+                    [&](const char* prefix) { return key.path.starts_with(prefix); }))
       continue;  // the fabric has none of it
     fabric.provenance.try_emplace(key.path.substr(7), Provenance{"the program's default", "assumed"});
   }
@@ -217,10 +222,20 @@ FabricFile read_fabric(const std::string& name_or_file, const std::string& origi
   for (const TomlNode& node : parameters.children) read_parameter(reader, node, sources, result);
   for (const char* table : kPartTables)
     if (const TomlNode* parts = root.find(table)) read_parts(reader, *parts, sources, result);
-  for (const std::string& name : kRequired) {
+  const bool shaped = result.fabric.kes.on();
+  for (const std::string& name : shaped ? kRequiredOfShaped : kRequired) {
     const bool said =
         !result.fabric.bending.stops.empty() && std::count(kSaidByStops.begin(), kSaidByStops.end(), name);
     if (!said) reader.required(parameters, name);
+  }
+  if (shaped) {
+    for (const char* name : {"b1", "b2", "k0"})
+      if (const TomlNode* node = parameters.find(name))
+        throw reader.refusal(std::string(name) + " follows from kes-b, kes-2hb and stops-median", *node);
+    if (!result.fabric.bending.stops.empty())
+      throw reader.refusal("bending.stops follow from stops-median", *root.find("bending"));
+    result.fabric.follow_kes();
+    for (const char* name : {"b1", "b2", "k0"}) result.place[name] = result.place.at("kes-b");
   }
   if (const TomlNode* published = root.find("published")) {
     for (const TomlNode& node : published->children) {

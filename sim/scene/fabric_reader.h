@@ -9,6 +9,7 @@
 //   b2 = {value = 1.157e-5, unit = "N m", source = "kes", confidence = "published"}
 //                        optional: stderr = 2e-7, the standard error in the same unit
 //                        optional: range = [8e-6, 1.5e-5], between which the number may lie
+//                        kes-b, kes-2hb, stops-median and stops-spread stand for b1, b2, k0 and stops
 //   [bending.stops]      optional: friction elements; also [bending.stops.weft], [bending.branches],
 //   [bending.set] thresholds = [5, 20, 60]           1/m, ascending stiffnesses = [8e-6, 4e-6, 1e-6]   N m
 //   source = "kes"                     optional, as is confidence: of the whole table

@@ -39,6 +39,10 @@ const KeyRow<Scene> kSceneRows[] = {
     {"fabric.b1", at<&S::fabric, &F::b1>, "N m", at_least(0), "", "bending rigidity at first bending, >= fabric.b2"},
     {"fabric.b2", at<&S::fabric, &F::b2>, "N m", at_least(0), "", "bending rigidity B, slope of the straight branch of the KES-FB2 curve"},
     {"fabric.k0", at<&S::fabric, &F::k0>, "1/m", at_least(0), "", "curvature at which bending friction saturates"},
+    {"fabric.kes-b", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::rigidity>, "N m", at_least(0), "", "B of KES-FB2, where stops-median has the friction's shape: b1, b2, k0 and bending.stops then follow"},
+    {"fabric.kes-2hb", at<&S::fabric, &F::kes, &KesFriction::read, &KesPair::loop_width>, "N", at_least(0), "", "2HB of KES-FB2, likewise"},
+    {"fabric.stops-median", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::median>, "1/m", between(0, 1000), "", "curvature at which half of the friction has slipped; 0: as b1, b2 and k0 or bending.stops say"},
+    {"fabric.stops-spread", at<&S::fabric, &F::kes, &KesFriction::shape, &FrictionShape::spread>, "", between(0, 4), "", "standard deviation of the logarithm of that curvature"},
     {"fabric.weft-bending", at<&S::fabric, &F::weft_bending>, "", positive(), "", "bending rigidity along weft over that along warp"},
     {"fabric.bias-bending", at<&S::fabric, &F::bias_bending>, "", positive(), "", "bending rigidity at 45 degrees over that along warp; 4 times it >= 1 + weft-bending"},
     {"fabric.density", at<&S::fabric, &F::density>, "kg/m^2", positive(), "", "mass per area"},
@@ -163,6 +167,7 @@ Json published_json(const Fabric& fabric) {
                  {"unit", number.unit},
                  {"source", number.provenance.source},
                  {"confidence", number.provenance.confidence}};
+    if (!number.tester.empty()) all[name]["tester"] = number.tester;
   }
   return all;
 }
@@ -182,6 +187,28 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
   scene.fabric = std::move(loaded.fabric);
   for (const auto& [key, place] : loaded.place) scene.origin["fabric." + key] = place;
   scene.origin["fabric.name"] = origin;
+}
+
+// Friction is said by one of kes-b ... stops-spread, b1 with b2 and k0, or stops: by what was set last.  A
+// number that follows from what is said already, as in a scene that was written out, changes nothing.
+void keep_friction_whole(const Fabric& before, const std::string& set, Fabric& fabric) {
+  if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
+    if (before.kes.on() && !fabric.kes.on()) fabric.bending.stops = {};
+    return fabric.follow_kes();
+  }
+  const bool numbers = set == "b1" || set == "b2" || set == "k0";
+  const bool stops = set == "bending.stops.thresholds" || set == "bending.stops.stiffnesses";
+  if (!fabric.kes.on() || !(numbers || stops)) return;
+  Fabric follows = fabric;
+  follows.follow_kes();
+  if (follows.b1 == fabric.b1 && follows.b2 == fabric.b2 && follows.k0 == fabric.k0 &&
+      follows.bending.stops.thresholds == fabric.bending.stops.thresholds &&
+      follows.bending.stops.stiffnesses == fabric.bending.stops.stiffnesses) {
+    fabric = follows;
+    return;
+  }
+  fabric.kes.shape = {};
+  if (numbers) fabric.bending.stops = {};
 }
 
 // The laws are listed once, where they are written.
@@ -213,12 +240,12 @@ std::vector<KeyDescription> scene_keys() {
 
 void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin) {
   const std::string& path = key.description.path;
+  const Fabric before = scene.fabric;
   assign(key, value, origin);
-  if (path == "fabric.name") {
-    load_fabric(scene, std::string(scene.fabric.name), origin);
-  } else {
-    note_origin(scene, path, origin);
-  }
+  if (path == "fabric.name") return load_fabric(scene, std::string(scene.fabric.name), origin);
+  note_origin(scene, path, origin);
+  if (path.starts_with(kFabricPrefix))
+    keep_friction_whole(before, path.substr(kFabricPrefix.size()), scene.fabric);
 }
 
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin) {

@@ -27,6 +27,7 @@ class RecordedTree {
       : scene_(scene), file_(file), known_(bind_scene(scene)) {}
 
   void read(const Json& tree) {
+    scene_.fabric.kes = {};  // manifests of before do not know of it
     for (const auto& [name, value] : tree.items()) {
       if (name == "pin")
         read_tables(value, name, scene_.pin, bind_pin);
@@ -81,8 +82,9 @@ class RecordedTree {
       const Provenance from = provenance(entry, path);
       if (!entry.contains("value") || !entry["value"].is_number() || !entry.contains("unit"))
         throw malformed(path, "must have a value and its unit", file_);
-      scene_.fabric.published[name] = {entry["value"].get<double>(),
-                                       text_of(entry["unit"], path + ".unit", file_), from};
+      scene_.fabric.published[name] = {
+          entry["value"].get<double>(), text_of(entry["unit"], path + ".unit", file_), from,
+          entry.contains("tester") ? text_of(entry["tester"], path + ".tester", file_) : ""};
     }
   }
 

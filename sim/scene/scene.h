@@ -12,6 +12,7 @@
 
 #include "sim/bending/choices.h"
 #include "sim/bending/laws/command_kind.h"
+#include "sim/bending/laws/friction_shape.h"
 #include "sim/bending/laws/law.h"
 #include "sim/mesh/length_unit.h"
 #include "sim/scene/method.h"
@@ -34,6 +35,8 @@ struct PublishedNumber {
   double value = 0;
   std::string unit;
   Provenance provenance;
+  std::string tester =
+      "";  // of a drape: the standard whose apparatus measured it (`drape.standard`); "": not known
 };
 
 // Friction elements in the plane beside the membrane's stiffness: springs [N/m] that slip at strains, each on
@@ -42,6 +45,15 @@ struct InPlaneStops {
   Spectrum warp, weft, shear;  // of E11, E22 and 2 E12
 
   bool empty() const { return warp.empty() && weft.empty() && shear.empty(); }
+};
+
+// What KES-FB2 printed of a fabric, and the shape of friction that is assumed behind it (friction_shape.h).
+// Where it is on, b1, b2, k0 and bending.stops follow from it.
+struct KesFriction {
+  KesPair read = {};
+  FrictionShape shape = {};
+
+  bool on() const { return shape.on(); }
 };
 
 // Physics of a cloth.  Every number has its source in the fabric's file.
@@ -60,13 +72,18 @@ struct Fabric {
   double shear = 60;
   double damping = 1e-4;
   double friction = 0.3;
+  KesFriction kes = {};
   BendingParts bending = {};
   InPlaneStops in_plane = {};
 
   std::map<std::string, Provenance> provenance;      // of each parameter above that it has, by its key
   std::map<std::string, PublishedNumber> published;  // B, 2HB, drape-coefficient, node-count, ... as printed
 
+  void follow_kes();                 // b1, b2, k0 and stops from `kes`, with their provenance, where it is on
   VirginCurve virgin_curve() const;  // along warp; stops along weft as laws see them behind the metric
+  // Half of what pictures and histograms span [1/m]: k0, or of shaped friction, which has none, where the
+  // window of KES-FB2 begins.
+  double friction_curvature() const;
   bool bends_alike() const { return weft_bending == 1 && bias_bending == 1; }
 };
 

@@ -19,6 +19,14 @@ const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "fli
 
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
+  if (f.kes.on() && !(f.b2 > 0)) {
+    throw Error::request(shown(scene, "fabric.stops-median", f.kes.shape.median, "1/m") + " and " +
+                         shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") + " make friction of " +
+                         shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
+                         shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
+                         " where the tester reads: no elasticity is left beside it")
+        .of("fabric.stops-median", number_text(f.kes.shape.median));
+  }
   if (f.b1 < f.b2) {
     throw Error::request(shown(scene, "fabric.b1", f.b1, "N m") +
                          " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))

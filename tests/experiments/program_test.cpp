@@ -163,7 +163,7 @@ TEST(Program, ListsDevicesWithWhatFailsWhenTheyAreOpened) {
 }
 
 TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
-  const Outcome outcome = program("list fabrics wool-tropical");
+  const Outcome outcome = program("list fabrics wool-tropical-k50");
   EXPECT_EQ(outcome.exit_code, 0);
   std::map<std::string, std::string> row;  // by its first word
   std::istringstream lines(outcome.out);
@@ -192,7 +192,7 @@ TEST(Program, ListsAsJsonWhatItListsAsText) {
   for (const char* list : {"fabrics", "laws", "scenes", "devices"})
     EXPECT_FALSE(lists.at(list).empty()) << list;
   const auto wool =
-      nlohmann::json::parse(program("list fabrics wool-tropical --json").out).at("fabrics").at(0);
+      nlohmann::json::parse(program("list fabrics wool-tropical-k50 --json").out).at("fabrics").at(0);
   EXPECT_EQ(wool.at("numbers").at("k0").at("range"), nlohmann::json({12.5, 50}));
   EXPECT_EQ(wool.at("numbers").at("b2").at("known"), "published");
   EXPECT_EQ(wool.at("published").at("drape-coefficient").at("value"), 49.8);
@@ -322,7 +322,8 @@ TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
              help.end());
   std::replace(help.begin(), help.end(), '\n', ' ');
   for (const char* part :
-       {"radius of the pedestal [m], > 0, default 0.09", "lowered | dropped | relifted, default lowered",
+       {"radius of the pedestal [m], > 0, default 0.09",
+        "lowered | dropped | relifted | shaken, default lowered",
         "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default tr-bdf2"})
     EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
   EXPECT_NE(program("swing --help scene").out.find("default 1000"), std::string::npos)

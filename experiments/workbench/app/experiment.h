@@ -111,7 +111,7 @@ std::vector<KeyDescription> own_keys_of() {
 // the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws
 // Error::request.
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
-// --fabric, --fabric.b1, --fabric.b2, --fabric.k0, --fabric.bending.*.
+// --fabric, --fabric.b1, --fabric.b2, --fabric.k0, --fabric.kes-*, --fabric.stops-*, --fabric.bending.*.
 std::vector<KeyDescription> fabric_keys();
 // The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a
 // scene's. Throws Error::request, Error::machine.

@@ -5,7 +5,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kMilli = 1e3;
+constexpr double kMilli = 1e3, kPercent = 100;
 constexpr bool kNoErrors = false;
 
 // clang-format off
@@ -20,7 +20,7 @@ const Headlines kAll[] = {
     {.experiment = "swing",
      .all = {{"decay_shape", "decay", "", "", 1, kNoErrors},
              {"decay_per_turn_percent", "decay per turn", "%", "{:.1f}"},
-             {"decay_exponent", "exponent of decay", "", "{:.2f}"},
+             {"decay_step_fraction", "second line of decay begins at", "%", "{:.0f}", kPercent},
              {"turns", "turns", "", "{:.0f}", 1, kNoErrors},
              {"bending_friction_J", "lost to friction in bending", "mJ", "{:.4g}", kMilli},
              {"viscous_J", "lost to viscosity", "mJ", "{:.4g}", kMilli, kNoErrors}}},

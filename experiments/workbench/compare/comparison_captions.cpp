@@ -97,11 +97,12 @@ const std::vector<ShownNumber>& shown_numbers() {
       {"set_curvature_per_m", "curvature that is left without moment"},
       {"turns", "how often the free end turned"},
       {"decay_shape",
-       "how amplitudes A_n of small swings fall from turn to turn, dA/dn = -c A^p: linear (p near 0, "
-       "friction "
-       "of constant moment), exponential (1, viscosity), hyperbolic (2, friction whose loops grow as A^3), "
-       "plateau (a turn takes less than 1 %)"},
-      {"decay_exponent", "p"},
+       "how amplitudes fall in time: along a line (saturated friction), along two (friction that saturates "
+       "early and "
+       "what is left below, as of cloth), exponentially (viscosity), hyperbolically (friction whose loops "
+       "grow as A^3), "
+       "or not (plateau: a turn takes less than 1 %)"},
+      {"decay_step_fraction", "amplitude at which the second of two lines begins, over the first amplitude"},
       {"bending_friction_J", "energy that friction in bending has taken"},
       {"ridge_length_m", "length of the ridges, sharper than a threshold, that are left"},
       {"residual_curvature_rms_per_m",

@@ -66,8 +66,8 @@ render::Look base_look(const std::string& name) {
 
 // [1/m].  What stays and what differs is half of what bends.
 double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
-  const double range =
-      options.curvature_range > 0 ? options.curvature_range : kCurvatureRange * scene.fabric.k0;
+  const double range = options.curvature_range > 0 ? options.curvature_range
+                                                   : kCurvatureRange * scene.fabric.friction_curvature();
   return look == "curvature" ? range : range / 2;
 }
 

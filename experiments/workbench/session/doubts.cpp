@@ -52,6 +52,19 @@ std::string resolution_words(const Scene& scene, const Cloth& cloth, const std::
       scene.precision == Precision::fp32 ? "take precision = double" : "let it start nearer");
 }
 
+// Parameters that stand for the law's memory where the fabric has one of its own.
+std::string memory_words(const Scene& scene) {
+  if (scene.law != "prandtl" || scene.fabric.bending.stops.empty()) return "";
+  for (const char* name : {"memory", "stops", "stack"})
+    if (scene.param.count(name))
+      return fmt::format(
+          "param {} is not used: the {} stops of {} are the law's memory; fabric.stops-median = 0, or a "
+          "fabric without "
+          "stops, leaves it to the parameter",
+          name, scene.fabric.bending.stops.size(), scene.fabric.name);
+  return "";
+}
+
 std::vector<std::string> said(std::vector<std::string> texts) {
   std::erase(texts, "");
   return texts;
@@ -60,7 +73,8 @@ std::vector<std::string> said(std::vector<std::string> texts) {
 }  // namespace
 
 std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth, Simulation& simulation) {
-  return said({locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation)});
+  return said(
+      {memory_words(scene), locking_words(scene, cloth.mesh), pressed_words(scene, cloth, simulation)});
 }
 
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,

@@ -57,10 +57,20 @@ Rest seek_rest(Simulation& simulation, double thickness) {
   return rest;
 }
 
+void wait_at_rest(Simulation& simulation, double seconds, double step) {
+  constexpr double kGrowth = 0.2, kRounding = 1e-9;
+  for (double passed = 0; seconds - passed > kRounding * seconds;) {
+    const double length = std::min(std::max(step, kGrowth * passed), seconds - passed);
+    simulation.advance_by(length);
+    passed += length;
+  }
+}
+
 // What a search leads to that does not end is no state of the cloth: the last one in motion stays the run's.
 bool Session::find_rest(const Question& question, Record& series) {
   const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {
+    if (question.wait > 0) wait_at_rest(*simulation_, question.wait, setup_.scene.step);
     record(question, series, simulation_->positions(), rest.moved / setup_.scene.step, "");
     return true;
   }

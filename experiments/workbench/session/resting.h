@@ -19,5 +19,8 @@ struct Rest {
 // hundredth of the thickness [m].  Where none does, the simulation is where it was, history, losses and
 // counts included; it is only good for looking at then.
 Rest seek_rest(Simulation& simulation, double thickness);
+// From rest on for so long [s], from equilibrium to equilibrium, by steps that begin with `step` and grow to
+// a fifth of the time passed.
+void wait_at_rest(Simulation& simulation, double seconds, double step);
 
 }  // namespace hysteron::experiments

@@ -40,6 +40,7 @@ struct Question {
   // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
   std::vector<double> step_lengths;
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
+  double wait = 0;  // then, for laws that relax: so long at rest, by steps that grow with the time passed [s]
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
   std::function<std::string(const Snapshot&)> progress;
   // What the experiment has collected in measure() and its like, for checkpoints; empty: it takes none.

@@ -21,6 +21,9 @@
 //     // In place of make(), where parameters decide on the type of law: calls visit(law).
 //     template <class Real, int D, class Memory, class Visit>
 //     static void visit(const LawChoice&, const Visit& visit);
+//     // Of a law that can weaken, where the fabric's parts decide on its friction: calls visit(law).
+//     template <class Real, int D, class Memory, class Visit>
+//     static void visit_friction(const LawChoice&, const Visit& visit);
 //     // Of a law of the groups `parts` and `many`: whether what the fabric has beyond three numbers makes it
 //     // another type of law, and that type, with room for N stops.
 //     static bool takes_parts(const LawChoice&);

@@ -60,10 +60,14 @@ void visit_in_dimension(const LawChoice& c, const Visit& visit) {
 template <LawDescription Law, class Real, int D, class Memory, class Visit>
 void visit_fatigued(const LawChoice& c, const Visit& visit) {
   LawChoice friction = c;
-  friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0};
-  visit_made<Law, Real, D, Memory>(friction, [&]<class Friction>(const Friction& law) {
+  friction.curve = {c.curve.b1 - c.curve.b2, 0, c.curve.k0, {c.curve.parts.stops, {}, {}, {}}};
+  const auto weaken = [&]<class Friction>(const Friction& law) {
     visit(in_dimension<D>(Fatigue<Friction>::make(c.curve, c.fatigue, law)));
-  });
+  };
+  if constexpr (requires { Law::template visit_friction<Real, D, Memory>(friction, weaken); })
+    Law::template visit_friction<Real, D, Memory>(friction, weaken);
+  else
+    visit_made<Law, Real, D, Memory>(friction, weaken);
 }
 
 // Whether the law is another type for what its fabric has beyond b1, b2 and k0.
@@ -89,7 +93,7 @@ bool visit_laws(LawList<Laws...>, const LawChoice& c, const Visit& visit) {
 // The others, which take parts, where their stops need room for N.
 template <LawDescription Law, class Real, int D, int N, class Visit>
 bool visit_with_parts(const LawChoice& c, const Visit& visit) {
-  if (c.name != Law::kName || !takes_parts<Law>(c) || room_for_stops(c) != N) return false;
+  if (c.name != Law::kName || c.fatigue.on() || !takes_parts<Law>(c) || room_for_stops(c) != N) return false;
   Law::template visit_parts<Real, D, N>(c, visit);
   return true;
 }

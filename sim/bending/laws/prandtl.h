@@ -24,9 +24,15 @@ struct PrandtlLaw {
           }}});
   }
   static void check(const LawChoice& c, LawUse use) {
-    if (c.fatigue.on() && takes_parts(c))
-      c.refuse("fatigue.dc", "fatigue.dc goes with b1, b2 and k0, not with the stops or the set of a fabric");
-    if (!c.fatigue.on() || use != LawUse::cloth) return;
+    const BendingParts& parts = c.curve.parts;
+    if (c.fatigue.on() && (parts.set.on() || !parts.weft_stops.empty()))
+      c.refuse("fatigue.dc",
+               "fatigue.dc goes with friction along warp alone: not with stops along weft, nor with a set");
+    if (c.fatigue.on() && parts.stops.size() > kFewStops)
+      c.refuse("fatigue.dc", "fatigue.dc goes with " + std::to_string(kFewStops) +
+                                 " stops of a fabric at most, not with " +
+                                 std::to_string(parts.stops.size()));
+    if (!c.fatigue.on() || use != LawUse::cloth || !parts.stops.empty()) return;
     if (c.stack && c.depth != 8) c.refuse("stack", "stack = " + shown(c.depth) + " must be 8 with fatigue");
     if (!c.stack && c.stops != 8 && c.stops != 16)
       c.refuse("stops", "stops = " + shown(c.stops) + " must be 8 or 16 with fatigue");
@@ -39,6 +45,15 @@ struct PrandtlLaw {
   template <class Real, int D, int N, class Visit>
   static void visit_parts(const LawChoice& c, const Visit& visit) {
     visit_measured<Real, D, N>(c, {}, visit);
+  }
+
+  // Friction alone, that weakens: visit(law).
+  template <class Real, int D, class Memory, class Visit>
+  static void visit_friction(const LawChoice& c, const Visit& visit) {
+    if (c.curve.parts.stops.empty())
+      PrandtlLaw::visit<Real, D, Memory>(c, visit);
+    else
+      visit(SpectrumStops<Real, D, kFewStops>::make(0, c.curve.parts.stops, {}));
   }
 
   template <class Real, int D, class Memory, class Visit>

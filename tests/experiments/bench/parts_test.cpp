@@ -12,7 +12,7 @@ namespace {
 
 // Two squares over a ball, and all that can be left out.
 HardScene full_scene() {
-  Scene scene = default_scene();
+  Scene scene = default_scene("cotton-broad-k50");
   scene.cloth.length = 0.1;
   scene.cloth.copies = 2;
   scene.cloth.position = {-0.05, -0.05, 0.035};

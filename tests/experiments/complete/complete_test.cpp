@@ -37,10 +37,10 @@ TEST(Completion, OffersEveryOptionThatHelpLists) {
 
 TEST(Completion, OffersTheValuesOfAnOptionHoweverItIsTyped) {
   EXPECT_EQ(offered({"drape", "--fabric", ""}), list_assets("fabrics"));
-  EXPECT_EQ(offered({"drape", "--fabric", "wool"}), Words{"wool-tropical"});
-  EXPECT_EQ(offered({"drape", "--fabric", "=", "wool"}), Words{"wool-tropical"}) << "as bash has it";
+  EXPECT_EQ(offered({"drape", "--fabric", "pink"}), Words{"pink-ribbon-brown"});
+  EXPECT_EQ(offered({"drape", "--fabric", "=", "pink"}), Words{"pink-ribbon-brown"}) << "as bash has it";
   EXPECT_EQ(offered({"drape", "--fabric", "="}), list_assets("fabrics"));
-  EXPECT_EQ(offered({"drape", "--fabric=wool"}), Words{"--fabric=wool-tropical"});
+  EXPECT_EQ(offered({"drape", "--fabric=pink"}), Words{"--fabric=pink-ribbon-brown"});
   EXPECT_EQ(offered({"swing", "--element", "h"}), Words{"hinge"});
   EXPECT_EQ(offered({"swing", "--law", "prand"}), Words{"prandtl"});
   EXPECT_EQ(offered({"swing", "--quick", ""}), Words{}) << "no value";
@@ -69,8 +69,8 @@ TEST(Completion, WorksInBash) {
   };
   EXPECT_EQ(replies("dra", 1), "drape\n");
   EXPECT_EQ(replies("drape --fab", 2).substr(0, 9), "--fabric\n");
-  EXPECT_EQ(replies("drape --fabric wool", 3), "wool-tropical\n");
-  EXPECT_EQ(replies("drape --fabric = wool", 4), "wool-tropical\n");
+  EXPECT_EQ(replies("drape --fabric pink", 3), "pink-ribbon-brown\n");
+  EXPECT_EQ(replies("drape --fabric = pink", 4), "pink-ribbon-brown\n");
   EXPECT_EQ(replies("law ''", 2), "\n") << "files";
 }
 
@@ -87,7 +87,7 @@ TEST(Completion, WorksInZsh) {
     return text_of(out);
   };
   EXPECT_TRUE(offered_for("dra", 2).starts_with("drape:Cusick's drape test\\: a disc"));
-  EXPECT_EQ(offered_for("drape --fabric wool", 4), "wool-tropical\n");
+  EXPECT_EQ(offered_for("drape --fabric pink", 4), "pink-ribbon-brown\n");
   EXPECT_EQ(offered_for("law ''", 3), "files\n");
 }
 

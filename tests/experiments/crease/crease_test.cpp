@@ -87,11 +87,14 @@ TEST(Crease, OpensWithoutAnIntersectionAndKeepsWhatTheLawKeeps) {
 }
 
 CommandLine soft_fold(const char* fold, const std::filesystem::path& out) {
-  CommandLine line{
-      "crease",
-      "hysteron crease",
-      {{"crease.fold", fold}, {"triangles", "200"}, {"crease.recovery", "1"}, {"out", out.string()}},
-      {}};
+  CommandLine line{"crease",
+                   "hysteron crease",
+                   {{"crease.fold", fold},
+                    {"fabric", "cotton-broad-k50"},
+                    {"triangles", "200"},
+                    {"crease.recovery", "1"},
+                    {"out", out.string()}},
+                   {}};
   for (const char* on : {"no-images", "quiet"}) line.flags.push_back({on, "true"});
   return line;
 }

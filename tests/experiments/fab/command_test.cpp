@@ -72,7 +72,7 @@ TEST_F(FabCommand, SimulatesNoLoopsThatItWouldNotRead) {
 
 TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   const fs::path file = folder_.path() / "stops.toml";
-  std::ofstream(file) << std::ifstream(find_asset("fabrics", "cotton-broad", "test")).rdbuf()
+  std::ofstream(file) << std::ifstream(find_asset("fabrics", "cotton-broad-k50", "test")).rdbuf()
                       << "\n[bending.stops]\nthresholds = [10, 50]\nstiffnesses = [8e-6, 1e-6]\n"
                          "[bending.stops.weft]\nthresholds = [10, 50]\nstiffnesses = [4e-6, 1e-6]\n";
   const std::vector<Flag> along_warp = {{"fabric", file.string()}, {"no-images", "true"}};

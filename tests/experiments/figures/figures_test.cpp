@@ -14,7 +14,7 @@ namespace {
 constexpr double kSampling = 1e-4;  // relative to the largest moment drawn
 
 const std::vector<Figure>& cotton_figures() {
-  static const std::vector<Figure> all = chapter_figures(read_fabric("cotton-broad", "test").fabric);
+  static const std::vector<Figure> all = chapter_figures(read_fabric("cotton-broad-k50", "test").fabric);
   return all;
 }
 
@@ -68,7 +68,7 @@ TEST(ChapterFigures, HaveTheirPointsOnTheirCurves) {
 
 // Wong 4.3.2: from c to a' and from d to b' twice K0, and in moment twice Ma; a and b are the elastic limits.
 TEST(ChapterFigures, HaveTheChaptersDistancesBetweenPoints) {
-  const VirginCurve curve = read_fabric("cotton-broad", "test").fabric.virgin_curve();
+  const VirginCurve curve = read_fabric("cotton-broad-k50", "test").fabric.virgin_curve();
   const double k0 = curve.k0, ma = 1e3 * curve.elastic_limit_moment();
   for (const Figure& figure : cotton_figures()) {
     if (figure.name != "figure-4-3" && figure.name != "figure-4-4a") continue;
@@ -88,7 +88,7 @@ TEST(ChapterFigures, SayWhereTheChapterCannotHoldAsPrinted) {
 }
 
 TEST(ChapterFigures, OfAFabricWithoutFrictionAreRefused) {
-  Fabric fabric = read_fabric("cotton-broad", "test").fabric;
+  Fabric fabric = read_fabric("cotton-broad-k50", "test").fabric;
   fabric.b1 = fabric.b2;
   try {
     chapter_figures(fabric);
@@ -104,7 +104,7 @@ TEST(FiguresCommand, WritesCurvesAndCaptionsWithoutPicturesToo) {
   EXPECT_EQ(experiment_named("figures").run(
                 {"figures",
                  "hysteron figures",
-                 {{"out", folder.path().string()}, {"no-images", "true"}, {"fabric", "wool-tropical"}},
+                 {{"out", folder.path().string()}, {"no-images", "true"}, {"fabric", "wool-tropical-k50"}},
                  {}}),
             0);
   testing::internal::GetCapturedStdout();

@@ -246,12 +246,14 @@ TEST_F(FitOfFab, FarOutsideTheNoiseIsRefusedUnlessTheNoiseIsSaidToBeThatLarge) {
   const std::string file = changed([&](std::vector<std::string>& row) {
     row[4] = number_text(std::stod(row[4]) + 7.5e-3 * (sign = -sign));
   });
-  const std::string reason = refusal(flags(file));
+  std::vector<Flag> stops = flags(file);
+  stops.push_back({"fab.friction", "stops"});
+  const std::string reason = refusal(stops);
   EXPECT_NE(reason.find("along L the fit misses the forces by "), std::string::npos) << reason;
   EXPECT_NE(reason.find("times their noise of 0.00075 N (rms), at most 3 times"), std::string::npos)
       << reason;
   EXPECT_NE(reason.find("are fitted with --fab.noise 0.00"), std::string::npos) << reason;
-  std::vector<Flag> noisy = flags(file);
+  std::vector<Flag> noisy = stops;
   noisy.push_back({"fab.noise", "7.5e-3"});
   EXPECT_EQ(fit(noisy), 0);
 }

@@ -22,7 +22,7 @@ TEST(KeyTables, HaveALineForEveryKeyOfAScene) {
 
 TEST(KeyTables, SayUnitRangeChoicesDefaultAndPurpose) {
   const std::string tables = key_tables();
-  for (const char* line : {"| `fabric.b2` | number | N m | >= 0 | 1.157e-05 | bending rigidity B",
+  for (const char* line : {"| `fabric.b2` | number | N m | >= 0 | 1.11e-05 | bending rigidity B",
                            "| `element` | choice | | `shape`, `hinge` | shape | bending element |",
                            "| `self-contact` | flag | | | false | ", "| `radius` | number | m | > 0 | 0.1 | ",
                            "| `kind` | choice | | `ground`, `sphere`, ", "| `scale` | number | | > 0 | 1 | "})

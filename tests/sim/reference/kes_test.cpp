@@ -51,8 +51,8 @@ TEST_P(PublishedPair, ComesBackFromPrandtlAndWong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kes, PublishedPair,
-                         testing::Values("cotton-broad", "wool-tropical", "polyester-tropical",
-                                         "polyester-faille"),
+                         testing::Values("cotton-broad-k50", "wool-tropical-k50", "polyester-tropical-k50",
+                                         "polyester-faille-k50"),
                          law_name);
 
 class AnyLaw : public testing::TestWithParam<std::string> {};

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/scene/scene_reader.h"
+#include "tests/sim/base/refusal.h"
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {
@@ -22,6 +23,43 @@ std::string flag_text(const Json& value) {
 TEST(ResolvedScene, HoldsEveryKey) {
   const Json tree = to_json(default_scene());
   for (const KeyDescription& key : scene_keys()) EXPECT_NO_THROW(at_path(tree, key.path)) << key.path;
+}
+
+// Friction is what was said last: the shape of the fabric's file, three numbers, stops, or a shape again.
+TEST(FrictionOfAFabric, IsWhatWasSetLast) {
+  Scene scene = default_scene("cotton-broad");
+  const Fabric shaped = scene.fabric;
+  ASSERT_TRUE(shaped.kes.on());
+  EXPECT_EQ(shaped.bending.stops.size(), 8u);
+  EXPECT_DOUBLE_EQ(shaped.k0, 2 * shaped.bending.stops.friction_moment() / (shaped.b1 - shaped.b2));
+
+  set_key(scene, "fabric.k0", "20", "--fabric.k0");
+  EXPECT_FALSE(scene.fabric.kes.on());
+  EXPECT_TRUE(scene.fabric.bending.stops.empty());
+  EXPECT_EQ(scene.fabric.b1, shaped.b1);
+  set_key(scene, "fabric.stops-median", "10", "--fabric.stops-median");
+  EXPECT_TRUE(scene.fabric.kes.on());
+  EXPECT_NE(scene.fabric.k0, 20);
+  set_key(scene, "fabric.stops-median", "17", "--fabric.stops-median");
+  set_key(scene, "fabric.stops-spread", "2", "--fabric.stops-spread");
+  EXPECT_EQ(scene.fabric.b2, shaped.b2);
+  EXPECT_EQ(scene.fabric.bending.stops.thresholds, shaped.bending.stops.thresholds);
+  set_key(scene, "fabric.bending.stops.thresholds", "3 4 5 6 7 8 9 10", "--fabric.bending.stops.thresholds");
+  EXPECT_FALSE(scene.fabric.kes.on());
+  EXPECT_EQ(scene.fabric.bending.stops.thresholds.back(), 10);
+  set_key(scene, "fabric.name", "cotton-broad", "--fabric");
+  set_key(scene, "fabric.stops-median", "0", "--fabric.stops-median");
+  EXPECT_TRUE(scene.fabric.bending.stops.empty());
+  EXPECT_EQ(scene.fabric.k0, shaped.k0);
+}
+
+TEST(FrictionOfAFabric, LeavesElasticityBesideIt) {
+  Scene scene = default_scene("cotton-broad");
+  set_key(scene, "fabric.kes-2hb", "0.03", "--fabric.kes-2hb");
+  EXPECT_NE(test::refusal([&] { check_scene(scene); }).find("no elasticity is left"), std::string::npos);
+  set_key(scene, "fabric.kes-2hb", "0", "--fabric.kes-2hb");
+  EXPECT_NO_THROW(check_scene(scene));
+  EXPECT_EQ(scene.fabric.b1, scene.fabric.b2);
 }
 
 TEST(ResolvedScene, ReadBackAsFlagsGivesTheSameScene) {
@@ -46,7 +84,8 @@ TEST(ResolvedScene, TellsWhereEachFabricNumberComesFrom) {
   set_key(scene, "fabric.friction", "0.5", "--fabric.friction");
   const Json fabric = to_json(scene).at("fabric");
   EXPECT_EQ(fabric.at("provenance").at("friction").at("confidence"), "given");
-  EXPECT_EQ(fabric.at("provenance").at("b2").at("confidence"), "published");
+  EXPECT_EQ(fabric.at("provenance").at("kes-b").at("confidence"), "published");
+  EXPECT_EQ(fabric.at("provenance").at("b2").at("confidence"), "derived");
   EXPECT_EQ(fabric.at("published").at("B").at("unit"), "gf cm^2/cm");
 }
 

@@ -94,7 +94,7 @@ TEST(SceneText, TellsTheOriginOfEachValue) {
   const std::string text = toml_of(unusual());
   for (const char* line : {"fabric.b1 = 3.3e-05  # [N m] --fabric.b1\n", "seed = 7  # --seed\n",
                            "element = \"shape\"  # assets/scenes/strip-over-sphere.toml:",
-                           "fabric.b2 = 6.5704555e-06  # [N m] assets/fabrics/wool-tropical.toml:",
+                           "fabric.density = 0.1629  # [kg/m^2] assets/fabrics/wool-tropical.toml:",
                            "air-drag = 0.0  # [kg/(m^2 s)] default\n"})
     EXPECT_NE(text.find(line), text.npos) << line << text;
 }
@@ -138,6 +138,8 @@ Scene with_all_bits() {
     if (const auto* vector = std::get_if<Eigen::Vector3d*>(&key.field)) **vector = {x, -x, x / 7};
     if (const auto* numbers = std::get_if<Numbers*>(&key.field)) **numbers = {x / 7, x};
   }
+  scene.fabric.follow_kes();
+  scene.fabric.bending.weft_stops = scene.fabric.bending.stops;  // as many
   return scene;
 }
 

@@ -33,7 +33,7 @@ TEST(Precedence, NamingAFabricStartsItAfresh) {
   Scene scene = default_scene();
   apply_scene_file(scene, file.path());
   EXPECT_EQ(scene.fabric.k0, 20);
-  apply_flags(scene, {{"fabric", "wool-tropical"}});
+  apply_flags(scene, {{"fabric", "wool-tropical-k50"}});
   EXPECT_EQ(scene.fabric.k0, 50);
   EXPECT_EQ(scene.origin.at("fabric.name"), "--fabric");
 }

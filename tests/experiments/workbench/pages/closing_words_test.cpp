@@ -49,8 +49,8 @@ TEST(ResultWords, ShowErrorsInTheUnitOfTheirNumber) {
 
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
-      manifest_with("swing", {{"decay_exponent", 2.0412}, {"decay_exponent_stderr", 0.0523}});
-  expect_in(result_words(manifest), "exponent of decay             2.04 ± 0.05\n");
+      manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
+  expect_in(result_words(manifest), "decay per turn                2.04 % ± 0.05\n");
 }
 
 TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {

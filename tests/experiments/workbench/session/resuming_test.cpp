@@ -240,7 +240,7 @@ class RefusedCheckpoint : public testing::Test {
 
 TEST_F(RefusedCheckpoint, NamesWhatIsWrong) {
   ASSERT_GT(good_.size(), 100000u) << text_of(folder_.path() / "err");
-  expect_refusal("other values of fabric.b2", " --fabric.b2 2e-6");
+  expect_refusal("other values of fabric.density", " --fabric.density 0.2");
   expect_refusal("other values of fps", " --fps 60");
   put("");
   expect_refusal("it is cut off");

@@ -1,0 +1,191 @@
+#include "sim/identification/decay_friction.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+#include "sim/base/csv.h"
+#include "sim/base/error.h"
+#include "sim/identification/covariance.h"
+#include "sim/identification/fab_cycles.h"
+#include "sim/identification/least_squares.h"
+#include "sim/reference/fab_test.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kElements = 24;          // of the beam, cubic: its first mode to 1e-6
+constexpr int kParts = 8;              // of a turn
+constexpr double kFarthestNumber = 9;  // of a logarithm from its prior
+constexpr std::size_t kFewest = 6;
+
+// The first mode of a hanging beam: |phi''| and weights at two points of each element, and int phi^2 ds.
+struct Mode {
+  VectorXd curvature, weight;  // [1/m^2], [m]
+  double square = 0;           // [m]
+};
+
+// Shape functions of a cubic element of length h at x in [0, 1]: value, slope, second derivative.
+void hermite(double x, double h, Eigen::Vector4d& f, Eigen::Vector4d& f1, Eigen::Vector4d& f2) {
+  f << 1 - 3 * x * x + 2 * x * x * x, h * x * (1 - x) * (1 - x), x * x * (3 - 2 * x), h * x * x * (x - 1);
+  f1 << (-6 * x + 6 * x * x) / h, 1 - 4 * x + 3 * x * x, (6 * x - 6 * x * x) / h, x * (3 * x - 2);
+  f2 << (-6 + 12 * x) / (h * h), (-4 + 6 * x) / h, (6 - 12 * x) / (h * h), (6 * x - 2) / h;
+}
+
+Mode first_mode(const DecayQuestion& q) {
+  const double h = q.length / kElements, load = q.density * kStandardGravity;
+  const int n = 2 * (kElements + 1);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n), mass = stiffness;
+  const double gauss[] = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
+  const double share[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+  Eigen::Vector4d f, f1, f2;
+  for (int e = 0; e < kElements; ++e)
+    for (int g = 0; g < 4; ++g) {
+      hermite(gauss[g], h, f, f1, f2);
+      const double tension = load * (q.length - (e + gauss[g]) * h);
+      stiffness.block<4, 4>(2 * e, 2 * e) +=
+          share[g] * h * (q.rigidity * f2 * f2.transpose() + tension * f1 * f1.transpose());
+      mass.block<4, 4>(2 * e, 2 * e) += share[g] * h * f * f.transpose();
+    }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      stiffness.bottomRightCorner(n - 2, n - 2), mass.bottomRightCorner(n - 2, n - 2));
+  VectorXd phi = VectorXd::Zero(n);
+  phi.tail(n - 2) = modes.eigenvectors().col(0);
+  phi /= phi[n - 2];
+  Mode mode{VectorXd(2 * kElements), VectorXd::Constant(2 * kElements, h / 2), phi.dot(mass * phi)};
+  for (int e = 0; e < kElements; ++e)
+    for (int g = 0; g < 2; ++g) {
+      hermite(0.5 + (g - 0.5) / std::sqrt(3.0), h, f, f1, f2);
+      mode.curvature[2 * e + g] = std::abs(f2.dot(phi.segment<4>(2 * e)));
+    }
+  return mode;
+}
+
+class DecayModel {
+ public:
+  DecayModel(const DecaySeries& series, const DecayQuestion& question)
+      : series_(series),
+        question_(question),
+        form_(question.form ? *question.form : shaped_friction()),
+        mode_(first_mode(question)) {
+    double fall = 0;
+    for (std::size_t i = 1; i < series.amplitude.size(); ++i)
+      fall = std::max(fall, stiffness(i - 1) * (series.amplitude[i - 1] - series.amplitude[i]));
+    prior_friction = std::max(fall, question.noise * stiffness(0)) / (2 * mode_.curvature.dot(mode_.weight));
+  }
+
+  int numbers() const { return static_cast<int>(form_.spreads.size()); }
+  int rows() const { return static_cast<int>(series_.amplitude.size()); }
+  const FrictionForm& form() const { return form_; }
+  Spectrum stops(const VectorXd& p) const { return form_.stops(p.head(numbers()), prior_friction); }
+
+  std::vector<double> amplitudes(const Spectrum& stops, double first) const {
+    std::vector<double> all = {first};
+    for (int i = 0; i + 1 < rows(); ++i) {
+      double a = all.back();
+      const double stiff = stiffness(i), h = 1.0 / kParts;
+      const auto slope = [&](double at) { return at > 0 ? -lost(stops, at) / (2 * stiff * at) : 0.0; };
+      for (int part = 0; part < kParts; ++part) {
+        const double middle = a + h / 2 * slope(a);
+        a = std::max(0.0, a + h * slope(middle));
+      }
+      all.push_back(a);
+    }
+    return all;
+  }
+
+  VectorXd residuals(const VectorXd& p) const {
+    const std::vector<double> all = amplitudes(stops(p), series_.amplitude[0] * std::exp(p[numbers()]));
+    VectorXd result(rows() + numbers());
+    for (int i = 0; i < rows(); ++i) result[i] = (all[i] - series_.amplitude[i]) / question_.noise;
+    for (int j = 0; j < numbers(); ++j) result[rows() + j] = p[j] / form_.spreads[j];
+    return result;
+  }
+
+  double prior_friction = 0;  // [N]
+
+ private:
+  // K of the turn after amplitude i [N/m^2 m].
+  double stiffness(std::size_t i) const {
+    const double omega = std::numbers::pi / (series_.time[i + 1] - series_.time[i]);
+    return question_.density * omega * omega * mode_.square;
+  }
+  double lost(const Spectrum& stops, double amplitude) const {
+    double sum = 0;
+    for (int g = 0; g < mode_.curvature.size(); ++g)
+      sum += mode_.weight[g] * stops.loop_area(amplitude * mode_.curvature[g]);
+    return sum;
+  }
+
+  const DecaySeries& series_;
+  const DecayQuestion& question_;
+  FrictionForm form_;
+  Mode mode_;
+};
+
+}  // namespace
+
+DecaySeries read_decay(const std::filesystem::path& file, const std::string& reader) {
+  const Table table = read_csv(file, {"time [s]", "amplitude [m]"}, {}, reader);
+  DecaySeries series{table.find("time [s]")->values, table.find("amplitude [m]")->values};
+  if (series.time.size() < kFewest)
+    throw Error::request(reader + ": " + file.string() + " has " + std::to_string(series.time.size()) +
+                         " amplitudes and must have at least " + std::to_string(kFewest));
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    if (i > 0 && !(series.time[i] > series.time[i - 1]))
+      throw table.refusal(i, "time must rise from turn to turn");
+    if (!(series.amplitude[i] > 0)) throw table.refusal(i, "amplitude must be > 0");
+  }
+  return series;
+}
+
+std::vector<double> decay_by(const DecaySeries& series, const DecayQuestion& question, const Spectrum& stops,
+                             double first) {
+  return DecayModel(series, question).amplitudes(stops, first);
+}
+
+FabBending identify_decay(const DecaySeries& series, const DecayQuestion& question) {
+  const DecayModel model(series, question);
+  const int n = model.numbers();
+  VectorXd low = VectorXd::Constant(n + 1, -kFarthestNumber), high = -low;
+  low[n] = -0.5, high[n] = 0.5;
+  const LeastSquares best =
+      minimize([&](const VectorXd& p) { return model.residuals(p); }, VectorXd::Zero(n + 1), low, high);
+  const Eigen::MatrixXd c = posterior(best, model.rows());
+  const VectorXd left = best.residuals.head(model.rows());
+  const VectorXd of_stops = stop_errors(model.form(), best.parameters.head(n), c.topLeftCorner(n, n));
+
+  FabBending found;
+  found.direction = "the strip";
+  const Spectrum stops = model.stops(best.parameters);
+  found.law = {question.rigidity - kes_pair(0, stops).rigidity, stops.thresholds, stops.stiffnesses};
+  found.form = best.parameters.head(n);
+  found.first = series.amplitude[0] * std::exp(best.parameters[n]);
+  found.form_errors = c.diagonal().head(n).cwiseMax(0).cwiseSqrt();
+  found.spring_error = 0;
+  found.determined = {true};
+  for (int j = 0; j < found.law.stops(); ++j) {
+    found.stiffness_errors.push_back(of_stops[j] * found.law.stiffnesses[j]);
+    found.determined.push_back(is_determined(of_stops[j]));
+  }
+  found.friction_error = of_stops[found.law.stops()] * found.law.friction();
+  found.rows = model.rows();
+  found.residual_rms = std::sqrt(left.squaredNorm() / model.rows());
+  found.correlation = left.head(left.size() - 1).dot(left.tail(left.size() - 1)) / left.squaredNorm();
+  found.prior_friction = model.prior_friction;
+  found.iterations = best.iterations;
+  found.converged = best.converged;
+  return found;
+}
+
+std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question) {
+  return even_forms_of([&](const FrictionForm& form) {
+    DecayQuestion one = question;
+    one.form = form;
+    return identify_decay(series, one);
+  });
+}
+
+}  // namespace hysteron

@@ -1,0 +1,44 @@
+// Friction of bending from a free vibration: a strip hangs from a clamp, is let go, and the amplitudes of its
+// free end are written down turn by turn.
+//
+// The strip moves in its first mode phi(s), that of a beam of rigidity B under its own weight, phi = 1 at the
+// free end.  Between two turns it loses half of what its friction elements enclose in a cycle of amplitude A
+// phi'',
+//
+//   K A dA/dn = -1/2 D(A),   D(A) = int sum_j 4 p_j r_j (A |phi''| - r_j)+ ds,   K = sigma omega^2 int phi^2
+//   ds,
+//
+// with omega = pi over the time of the turn, as it was measured.  Chosen here; exact for small amplitudes,
+// and for friction that is small beside K A.
+#pragma once
+
+#include "sim/identification/fab_bending.h"
+
+namespace hysteron {
+
+struct DecaySeries {
+  std::vector<double> time, amplitude;  // of each turn, all on one side or on both [s], [m]
+};
+// Columns `time [s]`, `amplitude [m]`.  Throws Error::machine, Error::request: too few rows, times that do
+// not rise, amplitudes <= 0.
+DecaySeries read_decay(const std::filesystem::path& file, const std::string& reader);
+
+struct DecayQuestion {
+  double length = 0;                      // of the strip below the clamp [m]
+  double density = 0;                     // [kg/m^2]
+  double rigidity = 0;                    // B [N m]
+  double noise = 5e-4;                    // of the amplitudes [m]
+  std::optional<FrictionForm> form = {};  // none: shaped_friction()
+};
+
+// The friction; `spring` is B without what KES-FB2 reads of the friction in it, and `rows` the amplitudes.
+FabBending identify_decay(const DecaySeries& series, const DecayQuestion& question);
+// Other forms: friction that saturates at k0 of a grid [1/m].
+std::vector<FabForm> even_forms(const DecaySeries& series, const DecayQuestion& question);
+
+// Amplitudes [m] at the times of the series that friction beside that rigidity gives a strip which begins
+// with `first`.
+std::vector<double> decay_by(const DecaySeries& series, const DecayQuestion& question, const Spectrum& stops,
+                             double first);
+
+}  // namespace hysteron

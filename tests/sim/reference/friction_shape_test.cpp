@@ -1,0 +1,118 @@
+// Friction of two numbers: what the virtual KES-FB2 reads of it, its loops against closed forms, its losses.
+#include "sim/bending/laws/friction_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sim/bending/laws/law_run.h"
+#include "sim/reference/kes.h"
+
+namespace hysteron {
+namespace {
+
+LawRequest law_of(const ShapedFriction& friction, const std::string& name = "prandtl") {
+  return {name, {friction.b2 + friction.stops.stiffness(), friction.b2, 1, {friction.stops, {}, {}, {}}}, {}};
+}
+
+ShapedFriction cotton() { return friction_from_kes({1.157e-5, 1.216e-3}, {17, 2}); }
+
+KesReading read(const LawRequest& law) {
+  KesProtocol protocol;
+  protocol.cycles = 1;
+  protocol.minor_loops = false;
+  const KesWalk walk = walk_to({protocol.amplitude, -protocol.amplitude, protocol.amplitude}, protocol);
+  return read_loop(protocol, walk, run_law(law, walk.rows).moment);
+}
+
+// Fabrics as they are measured: B of 1 to 50 uN m, HB/B of 5 to 60 per m (the pairs of validation.md: 18 to
+// 53).
+TEST(FrictionShape, IsReadByTheTesterAsItWasMade) {
+  std::mt19937 random(3);
+  const auto log_uniform = [&](double low, double high) {
+    return low * std::exp(std::uniform_real_distribution<double>(0, std::log(high / low))(random));
+  };
+  int made = 0;
+  for (int draw = 0; draw < 50; ++draw) {
+    const double b = log_uniform(1e-6, 5e-5), hb = b * log_uniform(5, 60);
+    const FrictionShape shape{log_uniform(3, 80), log_uniform(0.3, 3)};
+    const ShapedFriction friction = friction_from_kes({b, 2 * hb}, shape);
+    if (!(friction.b2 > 0)) continue;
+    ++made;
+    const KesReading reading = read(law_of(friction));
+    EXPECT_NEAR(reading.rigidity / b, 1, 5e-3) << shape.median << " " << shape.spread;
+    EXPECT_NEAR(reading.loop_width / (2 * hb), 1, 5e-3) << shape.median << " " << shape.spread;
+    const KesPair closed = kes_pair(friction.b2, friction.stops);
+    EXPECT_NEAR(closed.rigidity / b, 1, 1e-12);
+    EXPECT_NEAR(closed.loop_width / (2 * hb), 1, 1e-12);
+  }
+  EXPECT_GT(made, 40);
+}
+
+TEST(FrictionShape, HasHalfOfItsMomentBelowTheMedianAndItsSpread) {
+  const Spectrum stops = shaped_stops({17, 2}, 6e-4);
+  double below = 0, mean = 0, square = 0;
+  for (std::size_t j = 0; j < stops.size(); ++j) {
+    const double moment = stops.thresholds[j] * stops.stiffnesses[j],
+                 z = std::log(stops.thresholds[j] / 17) / 2;
+    EXPECT_NEAR(moment, 6e-4 / 8, 1e-18);
+    below += stops.thresholds[j] < 17 ? moment : 0;
+    mean += z / 8, square += z * z / 8;
+  }
+  EXPECT_NEAR(below, 3e-4, 1e-18);
+  EXPECT_NEAR(stops.friction_moment(), 6e-4, 1e-18);
+  EXPECT_NEAR(mean, 0, 1e-15);
+  EXPECT_NEAR(square, 1, 0.15) << "eight quantiles have less than the whole distribution's variance";
+  EXPECT_TRUE(std::is_sorted(stops.thresholds.begin(), stops.thresholds.end()));
+}
+
+TEST(FrictionShape, WithoutSpreadIsOneStop) {
+  const Spectrum stops = shaped_stops({20, 0}, 1e-4);
+  for (const double r : stops.thresholds) EXPECT_DOUBLE_EQ(r, 20);
+  EXPECT_NEAR(stops.stiffness(), 1e-4 / 20, 1e-18);
+}
+
+// From virgin cloth b2 K + sum p min(K, r); a branch after a reversal is that curve doubled (Masing 1926).
+TEST(FrictionShape, LoopsAreMasingsOfItsVirginCurve) {
+  const ShapedFriction f = cotton();
+  std::vector<LawRow> rows = {{0, 0}};
+  for (const double turn : {90.0, -90.0, 90.0})
+    for (int i = 1; i <= 60; ++i)
+      rows.push_back({turn > 0 && rows.size() < 62 ? turn * i / 60 : turn * (i - 30) / 30, 1});
+  const LawRun run = run_law(law_of(f), rows);
+  for (std::size_t i = 1; i <= 60; ++i)
+    EXPECT_NEAR(run.moment[i], f.b2 * rows[i].curvature + f.stops.friction_at(rows[i].curvature), 1e-15);
+  const double top = f.stops.friction_at(90);
+  for (std::size_t i = 61; i <= 120; ++i) {
+    const double since = 90 - rows[i].curvature;
+    EXPECT_NEAR(run.moment[i], f.b2 * rows[i].curvature + top - 2 * f.stops.friction_at(since / 2), 1e-15)
+        << i;
+  }
+  EXPECT_NEAR(run.moment.back(), run.moment[60], 1e-15) << "the loop closes";
+}
+
+TEST(FrictionShape, NeverGivesEnergyAway) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> anywhere(-300, 300);
+  std::vector<LawRow> rows = {{0, 0}};
+  for (int i = 0; i < 500; ++i) rows.push_back({anywhere(random), 1});
+  const LawRun run = run_law(law_of(cotton()), rows);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_GE(run.dissipated[i], run.dissipated[i - 1]);
+    EXPECT_GE(run.stored[i], 0);
+  }
+}
+
+// Friction that wears off keeps the shape: it starts with the tester's pair.
+TEST(FrictionShape, CanWeaken) {
+  LawRequest law = law_of(cotton());
+  law.curve.k0 = 2 * cotton().stops.friction_moment() / cotton().stops.stiffness();
+  law.parameters = {{"fatigue.dc", "1e9"}, {"fatigue.m-inf", "1e-4"}};
+  EXPECT_NEAR(read(law).loop_width / 1.216e-3, 1, 5e-3);
+  law.parameters["fatigue.dc"] = "1e-3";
+  EXPECT_LT(read(law).loop_width / 1.216e-3, 0.5);
+}
+
+}  // namespace
+}  // namespace hysteron
