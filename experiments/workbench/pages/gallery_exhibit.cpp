@@ -15,7 +15,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 20, kMostColumns = 16;  // of a table that is shown; larger ones are linked
+constexpr std::size_t kMostRows = 16, kMostColumns = 12;  // of a table that is shown; larger ones are linked
 constexpr std::size_t kOpenRows = 24;                     // longer ones are folded away
 constexpr std::size_t kMostCards = 8;
 

@@ -1,0 +1,78 @@
+// Friction from the amplitudes of a free vibration: closed laws of decay, and numbers that come back.
+#include "sim/identification/decay_friction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/sim/base/folder.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron {
+namespace {
+
+// A strip of cotton of 8 cm whose turns take 0.15 s.
+DecayQuestion question() { return {0.08, 0.1238, 1.16e-5, 2e-4}; }
+
+DecaySeries turns(int count) {
+  DecaySeries series;
+  for (int i = 0; i < count; ++i) series.time.push_back(0.15 * i);
+  series.amplitude.assign(count, 0.02);
+  return series;
+}
+
+std::vector<double> falls(const std::vector<double>& amplitude) {
+  std::vector<double> all;
+  for (std::size_t i = 1; i < amplitude.size(); ++i) all.push_back(amplitude[i - 1] - amplitude[i]);
+  return all;
+}
+
+// dA/dt is constant where all friction has saturated, and nothing is lost where none has slipped.
+TEST(DecayFriction, OfSaturatedFrictionFallsAlongALine) {
+  const std::vector<double> fall = falls(decay_by(turns(8), question(), {{1e-3}, {0.05}}, 0.02));
+  for (const double one : fall) EXPECT_NEAR(one / fall[0], 1, 1e-3);
+  for (const double one : falls(decay_by(turns(8), question(), {{1e3}, {1e-6}}, 0.02))) EXPECT_EQ(one, 0);
+}
+
+// dA/dn = -c A^2 where friction is a parabola that has not saturated.
+TEST(DecayFriction, OfAParabolaFallsHyperbolically) {
+  const Spectrum stops = even_friction(400).stops(Eigen::VectorXd::Zero(1), 2e-3);
+  const std::vector<double> a = decay_by(turns(12), question(), stops, 0.02);
+  const double rate = (1 / a[11] - 1 / a[0]) / 11;
+  for (int i = 0; i < 12; ++i) EXPECT_NEAR(1 / a[i], 1 / a[0] + rate * i, 0.02 / a[0]) << i;
+}
+
+TEST(DecayFriction, ComesBackFromNoisyAmplitudesAndExcludesLateSaturation) {
+  const Spectrum stops = friction_from_kes({1.16e-5, 4e-4}, {12, 1.6}).stops;
+  DecaySeries series = turns(30);
+  series.amplitude = decay_by(series, question(), stops, 0.03);
+  std::mt19937 random(2);
+  std::normal_distribution<double> noise(0, 1e-4);
+  for (double& a : series.amplitude) a = std::max(1e-5, a + noise(random));
+  const FabBending found = identify_decay(series, question());
+  EXPECT_TRUE(found.converged);
+  EXPECT_TRUE(found.is_shaped());
+  EXPECT_LT(found.residual_rms, 1);
+  // Along the moments that the strip has bent to, which is what an amplitude tells.
+  const Spectrum sought{found.law.thresholds, found.law.stiffnesses};
+  for (const double curvature : {5.0, 10.0, 20.0})
+    EXPECT_NEAR(sought.loop_area(curvature) / stops.loop_area(curvature), 1, 0.15) << curvature;
+  const std::vector<FabForm> forms = even_forms(series, question());
+  EXPECT_GT(forms.back().misfit(found), 10) << forms.back().name;
+}
+
+TEST(DecayFriction, IsRefusedOfSeriesThatCannotBeOne) {
+  const test::Folder folder;
+  const auto reason = [&](const std::string& rows) {
+    const std::string file = folder.write("decay.csv", "time [s],amplitude [m]\n" + rows);
+    return test::refusal([&] { read_decay(file, "fit"); });
+  };
+  EXPECT_NE(reason("0,1\n1,0.9\n").find("at least 6"), std::string::npos);
+  EXPECT_NE(reason("0,1\n1,0.9\n2,0.8\n2,0.7\n3,0.6\n4,0.5\n").find("time must rise"), std::string::npos);
+  EXPECT_NE(reason("0,1\n1,0.9\n2,0.8\n3,0\n4,0.6\n5,0.5\n").find("amplitude must be > 0"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace hysteron
