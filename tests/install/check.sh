@@ -9,10 +9,11 @@ prefix=$folder/prefix
 
 cmake --install "$build" --prefix "$prefix" >"$folder/install.log"
 
-# The binary finds the assets that were installed with it, not those of its source tree.
+# The binary finds the assets that were installed with it, not those of its source tree.  (grep reads all of it: with -q it
+# would end first, and the binary could not write.)
 fabrics=$prefix/share/hysteron/assets/fabrics
 sed 's/^name = .*/name = "installed"/' "$fabrics/cotton-broad.toml" >"$fabrics/installed.toml"
-env -u HYSTERON_ASSETS "$prefix/bin/hysteron" list fabrics | grep -q '^installed'
+env -u HYSTERON_ASSETS "$prefix/bin/hysteron" list fabrics | grep '^installed' >/dev/null
 
 # Manual and completion.
 grep -q '^\.TH HYSTERON 1' "$prefix/share/man/man1/hysteron.1"
