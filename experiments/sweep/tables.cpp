@@ -146,7 +146,9 @@ TextTable table_of_means(const Study& study, const std::vector<SweepColumn>& run
   }
   for (const auto& [values, which] : points_of(study)) {
     std::vector<std::string>& row = table.rows.emplace_back(values);
-    row.push_back(std::to_string(which.size()));
+    const auto done =
+        std::count_if(which.begin(), which.end(), [&](std::size_t r) { return runs[r].exit_code == 0; });
+    row.push_back(std::to_string(done));
     for (const std::vector<double>& of_metric : numbers) {
       const Mean mean = mean_of(of_metric, which);
       row.push_back(std::isnan(mean.value) ? "" : number_text(mean.value));
