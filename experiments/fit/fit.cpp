@@ -38,7 +38,6 @@ struct FitFlags {
 constexpr double kSameResidual = 1e-4;  // relative: what numerical differences leave
 constexpr double kNoResidual = 1e-9;    // residuals below this share of the largest moment are none
 constexpr double kMisses = 0.25;  // of the largest moment: a law farther from the data (rms) is another's
-constexpr double kLikelihoodFall = 3.84;  // twice the logarithm of the likelihood, 95 % (Wilks 1938)
 
 using F = FitFlags;
 using M = Measured;

@@ -19,7 +19,6 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kThreads = 2;
-constexpr double kExcludes = 3.84;  // misfit, 95 %
 
 // Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
 // the largest force of stretch, which no law of stops follows to less than some percent.
@@ -179,7 +178,8 @@ void write_forms(Run& run, const FabAnswer& answer) {
     for (const FabForm& form : all) {
       const double misfit = form.misfit(best);
       file.row({best.direction, form.name, static_cast<int>(form.found.form.size()), form.found.residual_rms,
-                misfit, misfit > kExcludes ? "yes" : "no", form.found.law.spring, form.found.law.friction()});
+                misfit, misfit > kLikelihoodFall ? "yes" : "no", form.found.law.spring,
+                form.found.law.friction()});
     }
   }
   file.commit();
@@ -281,7 +281,7 @@ std::string summary(const FabAnswer& answer) {
     for (const FabForm& form : answer.forms[i])
       text +=
           fmt::format("  {}: rms {:.2g} of the noise, misfit {:.3g}{}\n", form.name, form.found.residual_rms,
-                      form.misfit(b), form.misfit(b) > kExcludes ? ", excluded" : "");
+                      form.misfit(b), form.misfit(b) > kLikelihoodFall ? ", excluded" : "");
   }
   for (const FabTension& t : answer.found.tension)
     text += fmt::format(

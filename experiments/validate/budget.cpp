@@ -1,9 +1,9 @@
-#include "experiments/validate/budget.h"
+// What each unknown of a fabric explains of a drape: one at a time at both ends of its range.
+#include "experiments/validate/spread.h"
 
 #include <cmath>
 
 #include "experiments/validate/drapes.h"
-#include "experiments/validate/spread.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -40,7 +40,7 @@ std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags)
 }
 
 void run_trial(Trial& trial, int number, const ValidateFlags& flags, Run& run) {
-  double sum = 0, squares = 0;
+  std::vector<double> coefficients;
   for (int draw = 1; draw <= flags.draws; ++draw) {
     Drape drape = trial.drape;
     drape.varied = "budget-" + std::to_string(number) + "-" + std::to_string(draw);
@@ -48,11 +48,10 @@ void run_trial(Trial& trial, int number, const ValidateFlags& flags, Run& run) {
     drape.further.push_back({"no-images", "true"});
     run_drape(drape, flags, run);
     trial.drape.metrics = drape.metrics;
-    sum += drape.coefficient(), squares += drape.coefficient() * drape.coefficient();
+    coefficients.push_back(drape.coefficient());
   }
-  const double n = flags.draws;
-  trial.coefficient = sum / n;
-  trial.error = std::sqrt(std::max(0.0, squares / n - trial.coefficient * trial.coefficient) / (n - 1));
+  trial.coefficient = mean_of(coefficients);
+  trial.error = spread_of(coefficients) / std::sqrt(flags.draws);
 }
 
 void draw_budget(Run& run, const std::string& fabric, const std::vector<Trial>& trials) {

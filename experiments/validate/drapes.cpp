@@ -51,7 +51,7 @@ std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
                            {"tolerance", number_text(drape.tolerance)},
                            {"device", flags.device}};
   if (flags.seconds > 0) own.push_back({"seconds", number_text(flags.seconds)});
-  if (flags.quick_drapes) {
+  if (flags.options.quick) {
     own.insert(own.end(), {{"drape.lowering", "0.3"}, {"drape.shakes", "1"}});
     if (!(flags.seconds > 0)) own.push_back({"seconds", "1.4"});
   }

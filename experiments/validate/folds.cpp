@@ -1,4 +1,6 @@
-#include "experiments/validate/folds.h"
+// Fold counts of drapes against those of real cloth: a coefficient alone does not tell whether a drape looks
+// like one.
+#include "experiments/validate/drapes.h"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +8,16 @@
 #include "render/plot.h"
 
 namespace hysteron::experiments {
+namespace {
 
+// What was counted on real drapes of one fabric.
+struct RealDrapes {
+  double coefficient, deviation;  // mean and standard deviation [%]
+  int fewest, most;               // folds
+};
+
+// Of ten fabrics, 300 mm on 180 mm: Gong, Mao, Wang 2024, a public set of meshes of 584 drapes of 25 fabrics,
+// outlines counted with a prominence of 3 mm.  By rising coefficient.
 const std::vector<RealDrapes>& real_drapes() {
   static const std::vector<RealDrapes> kAll = {
       {16.4, 1.0, 10, 14}, {20.4, 0.5, 10, 11}, {30.3, 1.0, 8, 9}, {48.3, 3.3, 7, 10}, {57.4, 6.2, 6, 8},
@@ -15,6 +26,11 @@ const std::vector<RealDrapes>& real_drapes() {
   return kAll;
 }
 
+// The range of folds that real drapes of this coefficient [%] have: between those of the two fabrics around
+// it.
+struct FoldRange {
+  double fewest, most;
+};
 FoldRange real_folds(double coefficient) {
   const std::vector<RealDrapes>& all = real_drapes();
   const auto above =
@@ -24,6 +40,8 @@ FoldRange real_folds(double coefficient) {
   return {static_cast<double>(std::min(low.fewest, high.fewest)),
           static_cast<double>(std::max(low.most, high.most))};
 }
+
+}  // namespace
 
 void compare_folds(Run& run, const std::vector<Drape>& drapes, bool pictures) {
   render::Plot plot{"Folds of drapes, simulated and real", {"drape coefficient [%]"}, {"folds"}};

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "experiments/validate/folds.h"
+#include "experiments/validate/drapes.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -23,18 +23,6 @@ std::vector<int> shuffled(int count, Uniform& uniform) {
   std::iota(order.begin(), order.end(), 0);
   for (int i = count - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(0, i + 1))]);
   return order;
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Standard deviation of one, of at least two.
-double spread_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double squares = 0;
-  for (const double x : values) squares += (x - mean) * (x - mean);
-  return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
 // Half of the interval in which one more of n values lies with 95 %, over their standard deviation: Student's
@@ -112,6 +100,17 @@ void draw_spread(Run& run, const DrapesOf& all) {
 }
 
 }  // namespace
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double spread_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double squares = 0;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
 
 void keep_what_was_measured(const Fabric& fabric, Sample& sample) {
   const double weft = sample.count("weft-bending") ? sample["weft-bending"] : fabric.weft_bending;

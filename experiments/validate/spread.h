@@ -24,6 +24,10 @@ std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed)
 // and weft. A range of bias-bending is that of its ratio to the mean of both.
 void keep_what_was_measured(const Fabric& fabric, Sample& sample);
 
+double mean_of(const std::vector<double>& values);
+// Standard deviation of one, of at least two.
+double spread_of(const std::vector<double>& values);
+
 // As a drape is told of it, with all bits.
 std::vector<Flag> flags_of(const Sample& sample);
 
@@ -33,5 +37,10 @@ std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run);
 
 // Every law for each fabric, on its tester, on `draws` meshes: draws.csv.
 std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run);
+
+// What each unknown explains.  For each fabric under the first law: as its file says, with each number that
+// states a range at its ends, on the other tester, and with four times the triangles; each on `draws` meshes.
+// budget.csv, plot_budget_<fabric>.
+void write_budget(const ValidateFlags& flags, Run& run);
 
 }  // namespace hysteron::experiments

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/validate/budget.h"
 #include "experiments/validate/drapes.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/pages/report.h"
@@ -70,7 +69,6 @@ int run_validate(const CommandLine& line) {
   F flags;
   set_keys(line, keys_of(flags), [&] {
     flags.triangles = std::min(flags.triangles, 400.0);
-    flags.quick_drapes = true;
     flags.samples = flags.draws = 2;
   });
   check_parts(flags);

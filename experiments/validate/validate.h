@@ -18,7 +18,6 @@ struct ValidateFlags {
   int samples = 8;     // of each fabric's uncertain numbers
   int draws = 3;       // meshes for the statistics of a drape
   unsigned seed = 1;   // of the samples
-  bool quick_drapes = false;
   Options options;
 };
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kNormal95 = 1.96;   // half width of a 95 % interval over the standard deviation
 constexpr double kWidestKnown = 10;  // factor beyond which the prior, of 19, decides
-constexpr int kEvenStops = 32;       // virgin moments to M0/(4 N^2)
 
 std::string list(const std::vector<double>& values) {
   std::string text;
@@ -134,13 +133,9 @@ std::string further_parameters(const FabIdentification& found) {
 
 // Friction uniform on [0, k0] as even stops.
 StopsLaw of_three_numbers(const VirginCurve& curve) {
-  StopsLaw law{curve.b2, {}, {}};
-  if (!(curve.b1 > curve.b2)) return law;
-  for (int j = 0; j < kEvenStops; ++j) {
-    law.thresholds.push_back((j + 0.5) * curve.k0 / kEvenStops);
-    law.stiffnesses.push_back((curve.b1 - curve.b2) / kEvenStops);
-  }
-  return law;
+  if (!(curve.b1 > curve.b2)) return {curve.b2, {}, {}};
+  const Spectrum stops = even_stops(curve.b1 - curve.b2, curve.k0);
+  return {curve.b2, stops.thresholds, stops.stiffnesses};
 }
 
 // M = sqrt(q) M_law(sqrt(q) K): the metric by which cloth bends along weft and bias.

@@ -36,15 +36,18 @@ FrictionForm shaped_friction() {
           }};
 }
 
+Spectrum even_stops(double stiffness, double k0) {
+  Spectrum stops;
+  for (int j = 0; j < kEvenStops; ++j) {
+    stops.thresholds.push_back((j + 0.5) * k0 / kEvenStops);
+    stops.stiffnesses.push_back(stiffness / kEvenStops);
+  }
+  return stops;
+}
+
 FrictionForm even_friction(double k0) {
   return {"k0 = " + number_text(k0) + "/m", {kMomentSpread}, [=](const VectorXd& p, double moment) {
-            Spectrum stops;
-            for (int j = 0; j < kEvenStops; ++j) {
-              stops.thresholds.push_back((j + 0.5) * k0 / kEvenStops);
-              // HB = sum p r = p N k0/2
-              stops.stiffnesses.push_back(2 * std::exp(p[0]) * moment / k0 / kEvenStops);
-            }
-            return stops;
+            return even_stops(2 * std::exp(p[0]) * moment / k0, k0);
           }};
 }
 

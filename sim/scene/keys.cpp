@@ -191,9 +191,9 @@ void load_fabric(Scene& scene, const std::string& name, const std::string& origi
 
 // Friction is said by one of kes-b ... stops-spread, b1 with b2 and k0, or stops: by what was set last.  A
 // number that follows from what is said already, as in a scene that was written out, changes nothing.
-void keep_friction_whole(const Fabric& before, const std::string& set, Fabric& fabric) {
+void keep_friction_whole(bool was_shaped, const std::string& set, Fabric& fabric) {
   if (set.starts_with("kes-") || set == "stops-median" || set == "stops-spread") {
-    if (before.kes.on() && !fabric.kes.on()) fabric.bending.stops = {};
+    if (was_shaped && !fabric.kes.on()) fabric.bending.stops = {};
     return fabric.follow_kes();
   }
   const bool numbers = set == "b1" || set == "b2" || set == "k0";
@@ -240,12 +240,12 @@ std::vector<KeyDescription> scene_keys() {
 
 void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin) {
   const std::string& path = key.description.path;
-  const Fabric before = scene.fabric;
+  const bool was_shaped = scene.fabric.kes.on();
   assign(key, value, origin);
   if (path == "fabric.name") return load_fabric(scene, std::string(scene.fabric.name), origin);
   note_origin(scene, path, origin);
   if (path.starts_with(kFabricPrefix))
-    keep_friction_whole(before, path.substr(kFabricPrefix.size()), scene.fabric);
+    keep_friction_whole(was_shaped, path.substr(kFabricPrefix.size()), scene.fabric);
 }
 
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin) {
