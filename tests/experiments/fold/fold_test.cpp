@@ -238,7 +238,8 @@ TEST(Fold, RefusesWhatCannotBeFolded) {
                                    {"element", "hinge"},   {"param", "stops=4"},   {"fold.tension", "1"}};
   for (const Flag& flag : wrong) {
     try {
-      experiment_named("fold").run(fold_line(folder.path() / "run", {flag}));
+      // The law's own stops: the parameter says nothing of a fabric's.
+      experiment_named("fold").run(fold_line(folder.path() / "run", {{"fabric", "cotton-broad-k50"}, flag}));
       ADD_FAILURE() << flag.path << " = " << flag.text << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), 2) << error.what();
