@@ -11,6 +11,16 @@
 
 namespace hysteron {
 
+// Vertices that share a triangle, row by row.
+inline Adjacency neighbours_in(const ClothMesh& mesh) {
+  std::vector<std::vector<int>> neighbours(mesh.vertices());
+  for (const auto& f : mesh.face)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        if (k != l) neighbours[f[k]].push_back(f[l]);
+  return compressed(neighbours);
+}
+
 // A number for every block of a BlockRowsView: that multiple of the identity.
 template <class Real>
 struct ScalarRowsView {
@@ -45,20 +55,16 @@ struct BlockRowsView {
 template <class Real, class Device>
 class BlockRows {
  public:
-  // Pattern: one off-diagonal block for each pair of vertices that share a triangle.
-  BlockRows(Device& device, const ClothMesh& mesh) {
-    std::vector<std::vector<int>> neighbours(mesh.vertices());
-    for (const auto& f : mesh.face)
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l)
-          if (k != l) neighbours[f[k]].push_back(f[l]);
-    Adjacency pattern = compressed(neighbours);
+  // One off-diagonal block for each pair of vertices that share a triangle.
+  BlockRows(Device& device, const ClothMesh& mesh) : BlockRows(device, neighbours_in(mesh)) {}
+  // Off-diagonal blocks of each row, columns ascending.
+  BlockRows(Device& device, Adjacency pattern) {
     row_ptr_host_ = std::move(pattern.start);
     col_host_ = std::move(pattern.item);
     row_ptr_ = Buffer<int, Device>(device, row_ptr_host_);
     col_ = Buffer<int, Device>(device, col_host_);
     off_diagonal_ = Buffer<Mat3<Real>, Device>(device, col_host_.size());
-    diagonal_ = Buffer<Mat3<Real>, Device>(device, mesh.vertices());
+    diagonal_ = Buffer<Mat3<Real>, Device>(device, row_ptr_host_.size() - 1);
   }
 
   BlockRowsView<Real> view() {

@@ -264,10 +264,14 @@ void couple(const Interpolation& a, const Interpolation& b, std::vector<std::vec
     }
 }
 
-// First level: what a matrix of edges and the plate's hinges couple.
-Adjacency first_pattern(const ClothMesh& mesh, const RestLevel& level) {
+// First level: what the vertices' matrix and the plate's hinges couple.
+Adjacency first_pattern(const ClothMesh& mesh, const Adjacency& couplings, const RestLevel& level) {
   std::vector<std::vector<int>> rows(level.nodes);
-  for (int v = 0; v < mesh.vertices(); ++v) couple(level.finer[v], level.finer[v], rows);
+  for (int v = 0; v < mesh.vertices(); ++v) {
+    couple(level.finer[v], level.finer[v], rows);
+    for (int j = couplings.start[v]; j < couplings.start[v + 1]; ++j)
+      couple(level.finer[v], level.finer[couplings.item[j]], rows);
+  }
   for (const Edge& e : mesh.edge) {
     const int corner[4] = {e.p2, e.p3, e.p0, e.interior() ? e.p1 : e.p0};
     for (int k = 0; k < 4; ++k)
@@ -360,7 +364,8 @@ void next_plate(const RestLevel& finer, RestLevel& level) {
 
 }  // namespace
 
-RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const std::vector<char>& held) {
+RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& couplings,
+                                  const std::vector<char>& held) {
   RestHierarchy hierarchy;
   Surface surface = surface_of(mesh);
   while (surface.size() > kCoarsestNodes) {
@@ -372,7 +377,8 @@ RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const std::vector<char>
     level.nodes = coarse.size();
     level.finer = interpolations(surface, root, cell, coarse);
     const bool first = hierarchy.empty();
-    level.pattern = first ? first_pattern(mesh, level) : next_pattern(hierarchy.back().pattern, level);
+    level.pattern =
+        first ? first_pattern(mesh, couplings, level) : next_pattern(hierarchy.back().pattern, level);
     level.plate_diagonal.assign(level.nodes, 0);
     level.plate_off_diagonal.assign(level.pattern.item.size(), 0);
     if (first)

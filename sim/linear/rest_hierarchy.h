@@ -27,7 +27,8 @@ struct RestLevel {
 using RestHierarchy = std::vector<RestLevel>;
 
 // Fields are interpolated linearly over triangles of coarse nodes in the rest shape.  They vanish on `held`
-// vertices, where plate counts that.
-RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const std::vector<char>& held);
+// vertices, where plate counts that.  `couplings`: off-diagonal blocks of the vertices' matrix.
+RestHierarchy make_rest_hierarchy(const ClothMesh& mesh, const Adjacency& couplings,
+                                  const std::vector<char>& held);
 
 }  // namespace hysteron

@@ -20,94 +20,93 @@ HYST_HD MembraneStress<Real> sum_of(const MembraneStress<Real>& a, const Vec3<Re
   return {a.s11 + b[0], a.s22 + b[1], a.s12 + b[2]};
 }
 
-template <class Real>
-HYST_HD Vec3<Real> strain_at(const MembraneRest<Real>& rest, const Eigen::Vector3i& t, const Vec3<Real>* x) {
-  return green_strain(deformation(rest, x[t[0]], x[t[1]], x[t[2]]));
-}
-
 }  // namespace
 
-template <class Real, class Device>
-InPlaneFriction<Real, Device>::InPlaneFriction(Device& device, const InPlaneStops& stops, int faces)
+template <class Strains, class Device>
+InPlaneFriction<Strains, Device>::InPlaneFriction(Device& device, const InPlaneStops& stops, int sites)
     : device_(device),
-      faces_(faces),
+      sites_(sites),
       end_{static_cast<int>(stops.warp.size()), static_cast<int>(stops.warp.size() + stops.weft.size()),
            static_cast<int>(stops.warp.size() + stops.weft.size() + stops.shear.size())},
       stop_(device, all_stops<Real>(stops)),
-      slip_(device, static_cast<std::size_t>(faces) * end_[2]),
-      tangent_(device, any() ? faces : 0),
-      lost_(device, any() ? faces : 0) {}
+      slip_(device, static_cast<std::size_t>(sites) * end_[2]),
+      tangent_(device, any() ? sites : 0),
+      lost_(device, any() ? sites : 0) {}
 
-template <class Real, class Device>
-void InPlaneFriction<Real, Device>::add(const MembraneStiffness<Real>& elastic,
-                                        const StressedFaces<Real>& faces) {
+template <class Strains, class Device>
+void InPlaneFriction<Strains, Device>::add(const Strains& strains, const SiteStresses<Real>& to) {
   const StrainStops<Real> stops = view();
-  const MembraneStiffness<Real> c = elastic;
-  const StressedFaces<Real> of = faces;
+  const Strains of = strains;
+  const SiteStresses<Real> sites = to;
   Vec3<Real>* tangent = tangent_.data();
   for_each(
-      device_, {"membrane friction", bytes_of(slip_, tangent_)}, faces_, HYST_KERNEL(int f) {
-        const Vec3<Real> strain = green_strain(of.deformation[f]);
-        const StopsReply<Real> now = stops.reply(f, strain);
-        of.stress[f] = sum_of(of.stress[f], now.stress);
-        of.tension[f] = tensile_part(sum_of(membrane_stress(c, strain), now.stress));
-        tangent[f] = now.tangent;
+      device_, {"membrane friction", bytes_of(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
+        const StopsReply<Real> now = stops.reply(i, of.evaluated(i));
+        sites.stress[i] = sum_of(sites.stress[i], now.stress);
+        const MembraneStress<Real> tension = sum_of(sites.tension[i], now.stress);
+        sites.tension[i] = sites.projects ? tensile_part(tension) : tension;
+        tangent[i] = now.tangent;
       });
 }
 
-template <class Real, class Device>
-void InPlaneFriction<Real, Device>::add_to_trial(const StressedFaces<Real>& faces, double* energy) {
+template <class Strains, class Device>
+void InPlaneFriction<Strains, Device>::add_to_trial(const Strains& strains, const SiteStresses<Real>& to,
+                                                    double* energy) {
   const StrainStops<Real> stops = view();
-  const StressedFaces<Real> of = faces;
+  const Strains of = strains;
+  const SiteStresses<Real> sites = to;
   Vec3<Real>* tangent = tangent_.data();
   for_each(
-      device_, {"membrane friction, tried", bytes_of(slip_, tangent_)}, faces_, HYST_KERNEL(int f) {
-        const StopsReply<Real> now = stops.reply(f, green_strain(of.deformation[f]));
-        of.stress[f] = sum_of(of.stress[f], now.stress);
-        of.tension[f] = tensile_part(of.stress[f]);
-        energy[f] += static_cast<double>(of.rest[f].area * (now.stored + now.lost));
-        tangent[f] = now.tangent;
+      device_, {"membrane friction, tried", bytes_of(slip_, tangent_)}, sites_, HYST_KERNEL(int i) {
+        const StopsReply<Real> now = stops.reply(i, of.evaluated(i));
+        const MembraneStress<Real> stress = sum_of(sites.stress[i], now.stress);
+        sites.stress[i] = stress;
+        if (sites.projects) sites.tension[i] = tensile_part(stress);
+        energy[i] += static_cast<double>(of.area(i) * (now.stored + now.lost));
+        tangent[i] = now.tangent;
       });
 }
 
-template <class Real, class Device>
-void InPlaneFriction<Real, Device>::add_stored(const MembraneRest<Real>* rest, const Eigen::Vector3i* corner,
-                                               const Vec3<Real>* x, double* energy) {
+template <class Strains, class Device>
+void InPlaneFriction<Strains, Device>::add_stored(const Strains& strains, const Vec3<Real>* x,
+                                                  double* energy) {
   const StrainStops<Real> stops = view();
+  const Strains of = strains;
   for_each(
-      device_, "membrane friction energy", faces_, HYST_KERNEL(int f) {
-        const Real stored = stops.reply(f, strain_at(rest[f], corner[f], x)).stored;
-        energy[f] += static_cast<double>(rest[f].area * stored);
+      device_, "membrane friction energy", sites_, HYST_KERNEL(int i) {
+        energy[i] += static_cast<double>(of.area(i) * stops.reply(i, of.at(i, x)).stored);
       });
 }
 
-template <class Real, class Device>
-void InPlaneFriction<Real, Device>::commit(const MembraneRest<Real>* rest, const Eigen::Vector3i* corner,
-                                           const Vec3<Real>* x, bool is_start) {
+template <class Strains, class Device>
+void InPlaneFriction<Strains, Device>::commit(const Strains& strains, const Vec3<Real>* x, bool is_start) {
   const StrainStops<Real> stops = view();
+  const Strains of = strains;
   double* lost = lost_.data();
   for_each(
-      device_, {"membrane history", bytes_of(slip_, lost_)}, faces_, HYST_KERNEL(int f) {
-        const Vec3<Real> strain = strain_at(rest[f], corner[f], x);
-        if (!is_start) lost[f] += static_cast<double>(rest[f].area * stops.reply(f, strain).lost);
-        stops.accept(f, strain);
+      device_, {"membrane history", bytes_of(slip_, lost_)}, sites_, HYST_KERNEL(int i) {
+        const Vec3<Real> strain = of.at(i, x);
+        if (!is_start) lost[i] += static_cast<double>(of.area(i) * stops.reply(i, strain).lost);
+        stops.accept(i, strain);
       });
 }
 
-template <class Real, class Device>
-double InPlaneFriction<Real, Device>::loss() const {
+template <class Strains, class Device>
+double InPlaneFriction<Strains, Device>::loss() const {
   const std::vector<double> values = lost_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-template <class Real, class Device>
-void InPlaneFriction<Real, Device>::visit(Archive& archive) {
+template <class Strains, class Device>
+void InPlaneFriction<Strains, Device>::visit(Archive& archive) {
   if (!any()) return;
   hysteron::visit(archive, device_, slip_);
   hysteron::visit(archive, device_, lost_);
 }
 
-template class InPlaneFriction<double, ThisDevice>;
-template class InPlaneFriction<float, ThisDevice>;
+template class InPlaneFriction<FaceStrains<double>, ThisDevice>;
+template class InPlaneFriction<FaceStrains<float>, ThisDevice>;
+template class InPlaneFriction<NodeStrains<double>, ThisDevice>;
+template class InPlaneFriction<NodeStrains<float>, ThisDevice>;
 
 }  // namespace hysteron

@@ -36,135 +36,195 @@ std::vector<Eigen::Vector2i> block_terms(const ClothMesh& mesh, const BlockRows<
   return terms;
 }
 
+// Of each node's triangles A_f/(3 A_v).
+template <class Real>
+std::vector<Real> weights_of(const ClothMesh& mesh, const MembraneNodes& nodes) {
+  std::vector<Real> weight;
+  for (int n = 0; n < nodes.count(); ++n)
+    for (int j = nodes.faces.start[n]; j < nodes.faces.start[n + 1]; ++j)
+      weight.push_back(static_cast<Real>(mesh.face_area[nodes.faces.item[j] / 3] / (3 * nodes.area[n])));
+  return weight;
+}
+
+template <class Real>
+HYST_HD void add_share(MembraneStress<Real>& to, const MembraneStress<Real>* of_nodes,
+                       const Eigen::Vector3i& nodes) {
+  const MembraneStress<Real>&a = of_nodes[nodes[0]], &b = of_nodes[nodes[1]], &c = of_nodes[nodes[2]];
+  to.s11 += (a.s11 + b.s11 + c.s11) / 3;
+  to.s22 += (a.s22 + b.s22 + c.s22) / 3;
+}
+
+// Squares of the deformation of warp and weft, and their product: of a triangle, or means at a node.
+template <class Strains, class Real>
+HYST_HD Real principal_stretch(const Strains& strains, int i, const Vec3<Real>* x) {
+  const Vec3<Real> squares = strains.squares(i, x);
+  const Real a = squares[0], b = squares[1], s = squares[2];
+  return sqrt((a + b) / 2 + sqrt((a - b) * (a - b) / 4 + s * s)) - 1;
+}
+
+template <class Strains, class Device, class Real>
+void find_stretches(Device& device, const Strains& strains, int sites, const Vec3<Real>* x, double* stretch) {
+  const Strains of = strains;
+  for_each(
+      device, "stretch", sites,
+      HYST_KERNEL(int i) { stretch[i] = static_cast<double>(principal_stretch(of, i, x)); });
+}
+
 }  // namespace
 
 template <class Real, class Device>
+Membrane<Real, Device>::Nodes::Nodes(Device& device, const ClothMesh& mesh, const Fabric& fabric,
+                                     const MembraneSplit& split, const MembraneNodes& nodes,
+                                     const Faces& faces, const BlockRows<Real, Device>& rows)
+    : start(device, nodes.faces.start),
+      item(device, nodes.faces.item),
+      weight(device, weights_of<Real>(mesh, nodes)),
+      area(device, std::vector<Real>(nodes.area.begin(), nodes.area.end())),
+      of_face(device, nodes.of_face),
+      strains{faces, start.data(), item.data(), weight.data(), area.data()},
+      sites(device, strains, nodes.count(), split.nodes, fabric.damping, stops_of_nodes(fabric, split), false,
+            {mesh.faces() * sizeof(Deformation<Real>) + bytes_of(start, item, weight, area),
+             mesh.vertices() * sizeof(Vec3<Real>)}),
+      stiffness(device, nodes, rows) {}
+
+template <class Real, class Device>
 Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric,
-                                 const BlockRows<Real, Device>& rows)
+                                 MembraneElement element, const BlockRows<Real, Device>& rows)
     : device_(device),
-      faces_(mesh.faces()),
       vertices_(mesh.vertices()),
-      stiffness_{static_cast<Real>(fabric.warp), static_cast<Real>(fabric.weft),
-                 static_cast<Real>(fabric.coupling), static_cast<Real>(fabric.shear)},
       damping_(static_cast<Real>(fabric.damping)),
       rest_(device, rest_as<Real>(mesh)),
       corner_(device, mesh.face),
       vertex_start_(device, mesh.vertex_faces.start),
       vertex_item_(device, mesh.vertex_faces.item),
       block_sum_(device, block_terms(mesh, rows)),
-      deformation_(device, faces_),
-      stress_(device, faces_),
-      tension_(device, faces_),
-      measure_(device, faces_),
-      viscous_(device, damping_ > 0 ? faces_ : 0),
-      friction_(device, fabric.in_plane, faces_) {}
+      deformation_(device, mesh.faces()),
+      faces_(device, face_strains(), mesh.faces(), split_membrane(fabric, element).faces, fabric.damping,
+             stops_of_faces(fabric, split_membrane(fabric, element)),
+             !split_membrane(fabric, element).averages,
+             {bytes_of(rest_, corner_, deformation_) + vertices_ * sizeof(Vec3<Real>),
+              vertices_ * sizeof(Vec3<Real>)}) {
+  const MembraneSplit split = split_membrane(fabric, element);
+  if (split.averages) {
+    const MembraneNodes nodes = membrane_nodes(mesh);
+    nodes_.emplace(device, mesh, fabric, split, nodes, face_strains(), rows);
+  }
+  energy_ = Buffer<double, Device>(device, faces_.count() + (nodes_ ? nodes_->sites.count() : 0));
+}
 
 template <class Real, class Device>
 void Membrane<Real, Device>::update(const Vec3<Real>* x, const Vec3<Real>* v) {
-  const MembraneStiffness<Real> c = stiffness_;
-  const Real damping = damping_;
-  const MembraneRest<Real>* rest = rest_.data();
-  const Eigen::Vector3i* corner = corner_.data();
-  Deformation<Real>* deformed = deformation_.data();
-  MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  faces_.update(x, v);
+  if (!nodes_) return;
+  nodes_->sites.update(x, v);
+  add_nodes(true);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::evaluate(const Vec3<Real>* x) {
+  faces_.evaluate(x, energy_.data());
+  if (!nodes_) return;
+  nodes_->sites.evaluate(x, energy_.data() + faces_.count());
+  add_nodes(false);
+}
+
+// The stresses of nodes on those of their triangles, of which the tension is then known; where it is apart,
+// it is not that of the whole stress.
+template <class Real, class Device>
+void Membrane<Real, Device>::add_nodes(bool tension_is_apart) {
+  const bool apart = tension_is_apart;
+  const Eigen::Vector3i* node = nodes_->of_face.data();
+  const MembraneStress<Real>*of_nodes = nodes_->sites.stress(), *tension_of_nodes = nodes_->sites.tension();
+  MembraneStress<Real>*stress = faces_.stress(), *tension = faces_.tension();
   for_each(
       device_,
-      {"membrane stress",
-       bytes_of(rest_, corner_, deformation_, stress_, tension_) + (damping > 0 ? 2 : 1) * vertex_bytes()},
-      faces_, HYST_KERNEL(int f) {
-        const Eigen::Vector3i t = corner[f];
-        const Deformation<Real> d = deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]);
-        Vec3<Real> strain = green_strain(d);
-        tension[f] = tensile_part(membrane_stress(c, strain));
-        if (damping > 0)
-          strain += damping * green_strain_rate(d, deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]));
-        deformed[f] = d;
-        stress[f] = membrane_stress(c, strain);
+      {"nodal stress", nodes_->of_face.bytes() + nodes_->sites.stress_bytes() + 2 * faces_.stress_bytes() +
+                           faces_.tension_bytes()},
+      faces_.count(), HYST_KERNEL(int f) {
+        MembraneStress<Real> all = stress[f], pulls = tension[f];
+        add_share(all, of_nodes, node[f]);
+        if (apart) add_share(pulls, tension_of_nodes, node[f]);
+        stress[f] = all;
+        tension[f] = tensile_part(apart ? pulls : all);
       });
-  if (friction_.any()) friction_.add(c, stressed());
 }
 
 template <class Real, class Device>
 MembraneForceView<Real> Membrane<Real, Device>::forces() const {
-  return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), stress_.data()};
+  return {vertex_start_.data(), vertex_item_.data(), rest_.data(), deformation_.data(), faces_.stress()};
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::begin_step(const StepFormula& formula, const Vec3<Real>* now,
+                                        const Vec3<Real>* before) {
+  faces_.begin_step(formula, now, before);
+  if (nodes_) nodes_->sites.begin_step(formula, now, before);
 }
 
 template <class Real, class Device>
 double Membrane<Real, Device>::stored_energy(const Vec3<Real>* x) {
-  const MembraneStiffness<Real> c = stiffness_;
-  const MembraneRest<Real>* rest = rest_.data();
-  const Eigen::Vector3i* corner = corner_.data();
-  double* energy = measure_.data();
-  for_each(
-      device_, "membrane energy", faces_, HYST_KERNEL(int f) {
-        const Eigen::Vector3i t = corner[f];
-        const Vec3<Real> strain = green_strain(deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]));
-        energy[f] = static_cast<double>(rest[f].area * membrane_energy(c, strain));
-      });
-  if (friction_.any()) friction_.add_stored(rest, corner, x, energy);
-  const std::vector<double> values = measure_.download();
+  faces_.find_stored(x, energy_.data());
+  if (nodes_) nodes_->sites.find_stored(x, energy_.data() + faces_.count());
+  const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 template <class Real, class Device>
 void Membrane<Real, Device>::add_viscous_loss(const Vec3<Real>* v, Real step) {
-  if (damping_ <= 0) return;
-  const MembraneStiffness<Real> c = stiffness_;
-  const Real factor = 2 * step * damping_;  // the rate form e'Ce' is twice membrane_energy(e')
-  const MembraneRest<Real>* rest = rest_.data();
-  const Eigen::Vector3i* corner = corner_.data();
-  const Deformation<Real>* deformed = deformation_.data();
-  double* lost = viscous_.data();
-  for_each(
-      device_, {"viscous loss", bytes_of(rest_, corner_, deformation_, viscous_, viscous_) + vertex_bytes()},
-      faces_, HYST_KERNEL(int f) {
-        const Eigen::Vector3i t = corner[f];
-        const Vec3<Real> rate =
-            green_strain_rate(deformed[f], deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]));
-        lost[f] += static_cast<double>(factor * rest[f].area * membrane_energy(c, rate));
-      });
+  faces_.add_viscous_loss(v, step);
+  if (nodes_) nodes_->sites.add_viscous_loss(v, step);
 }
 
 template <class Real, class Device>
-void Membrane<Real, Device>::start_friction(const Vec3<Real>* x) {
-  if (friction_.any()) friction_.commit(rest_.data(), corner_.data(), x, true);
-}
-
-template <class Real, class Device>
-void Membrane<Real, Device>::commit_friction(const Vec3<Real>* x) {
-  if (friction_.any()) friction_.commit(rest_.data(), corner_.data(), x, false);
+void Membrane<Real, Device>::add_viscous_loss() {
+  faces_.add_viscous_loss();
+  if (nodes_) nodes_->sites.add_viscous_loss();
 }
 
 template <class Real, class Device>
 double Membrane<Real, Device>::viscous_loss() const {
-  const std::vector<double> values = viscous_.download();
-  return std::accumulate(values.begin(), values.end(), 0.0);
+  return faces_.viscous_loss() + (nodes_ ? nodes_->sites.viscous_loss() : 0);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::accept(const Vec3<Real>* x, bool is_start) {
+  faces_.commit_friction(x, is_start);
+  if (nodes_) nodes_->sites.commit_friction(x, is_start);
+}
+
+template <class Real, class Device>
+double Membrane<Real, Device>::friction_loss() const {
+  return faces_.friction_loss() + (nodes_ ? nodes_->sites.friction_loss() : 0);
+}
+
+template <class Real, class Device>
+void Membrane<Real, Device>::visit(Archive& archive) {
+  faces_.visit(archive);
+  if (nodes_) nodes_->sites.visit(archive);
 }
 
 template <class Real, class Device>
 double Membrane<Real, Device>::largest_stretch(const Vec3<Real>* x) {
-  const MembraneRest<Real>* rest = rest_.data();
-  const Eigen::Vector3i* corner = corner_.data();
-  double* stretch = measure_.data();
-  for_each(
-      device_, "stretch", faces_, HYST_KERNEL(int f) {
-        const Eigen::Vector3i t = corner[f];
-        const Deformation<Real> d = deformation(rest[f], x[t[0]], x[t[1]], x[t[2]]);
-        const Real a = d.f1.squaredNorm(), b = d.f2.squaredNorm(), s = d.f1.dot(d.f2);
-        const Real largest = (a + b) / 2 + sqrt((a - b) * (a - b) / 4 + s * s);
-        stretch[f] = static_cast<double>(sqrt(largest) - 1);
-      });
-  const std::vector<double> values = measure_.download();
+  const int sites = nodes_ ? nodes_->sites.count() : faces_.count();
+  if (nodes_)
+    find_stretches(device_, nodes_->strains, sites, x, energy_.data());
+  else
+    find_stretches(device_, face_strains(), sites, x, energy_.data());
+  const std::vector<double> values = energy_.download();
   double largest = 0;
-  for (double value : values) largest = value > largest || value != value ? value : largest;
+  for (int i = 0; i < sites; ++i)
+    largest = values[i] > largest || values[i] != values[i] ? values[i] : largest;
   return largest;
 }
 
 template <class Real, class Device>
 std::size_t Membrane<Real, Device>::bytes() const {
-  return bytes_of(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, stress_, tension_,
-                  measure_, viscous_, reference_) +
-         friction_.bytes();
+  std::size_t sum = bytes_of(rest_, corner_, vertex_start_, vertex_item_, block_sum_, deformation_, energy_) +
+                    faces_.bytes();
+  if (nodes_)
+    sum += bytes_of(nodes_->start, nodes_->item, nodes_->weight, nodes_->area, nodes_->of_face) +
+           nodes_->sites.bytes() + nodes_->stiffness.bytes();
+  return sum;
 }
 
 template class Membrane<double, ThisDevice>;

@@ -1,13 +1,11 @@
-// The membrane of a whole cloth on one device: stresses by face, forces and implicit matrix by vertex.
+// The membrane of a whole cloth on one device: stresses by triangle and node, forces and implicit matrix by
+// vertex.
 #pragma once
 
-#include "sim/base/step_formula.h"
-#include "sim/device/archive_buffer.h"
-#include "sim/linear/block_rows.h"
-#include "sim/membrane/green_lagrange.h"
-#include "sim/membrane/in_plane_friction.h"
-#include "sim/mesh/cloth_mesh.h"
-#include "sim/scene/scene.h"
+#include <optional>
+
+#include "sim/membrane/membrane_sites.h"
+#include "sim/membrane/nodal_stiffness.h"
 
 namespace hysteron {
 
@@ -15,8 +13,8 @@ namespace hysteron {
 std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh);
 
 // Largest eigenvalue of M^-1 K of the unstretched membrane, whose stops hold [1/s^2]; damping left out.
-double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, const std::vector<double>& mass,
-                                const std::vector<char>& held);
+double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
+                                const std::vector<double>& mass, const std::vector<char>& held);
 
 template <class Real>
 struct MembraneForceView {
@@ -62,7 +60,9 @@ struct MembraneBlocks {
 template <class Real, class Device>
 class Membrane {
  public:
-  Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, const BlockRows<Real, Device>& rows);
+  // `rows` couple what membrane_couplings() says.
+  Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
+           const BlockRows<Real, Device>& rows);
 
   // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
   // gathers them.
@@ -80,6 +80,7 @@ class Membrane {
   void gather_blocks(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
   template <class Stiffness>
   void gather_columns(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
+  void add_nodes(bool tension_is_apart);
   Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
@@ -87,59 +88,68 @@ class Membrane {
   // frictional and viscous stress, and what assemble() needs, at `position`.
   void begin_step(const StepFormula& formula, const Vec3<Real>* now, const Vec3<Real>* before);
   void evaluate(const Vec3<Real>* position);
-  const double* energies() const { return measure_.data(); }  // per face [J]
+  const double* energies() const { return energy_.data(); }  // of triangles, then of nodes [J]
+  int energies_count() const { return static_cast<int>(energy_.size()); }
   // Viscous over elastic stiffness of a step: the factor of assemble() is 1 + this.
-  Real viscous_factor() const;
+  Real viscous_factor() const { return faces_.viscous_factor(); }
   void add_viscous_loss();  // of the step that evaluate() saw last
 
   // Friction in the plane: accepts positions, of the start without a loss.  Nothing without stops.
-  bool has_friction() const { return friction_.any(); }
-  void start_friction(const Vec3<Real>* position);
-  void commit_friction(const Vec3<Real>* position);
-  double friction_loss() const { return friction_.loss(); }  // since the start [J]
+  bool has_friction() const { return faces_.has_friction() || (nodes_ && nodes_->sites.has_friction()); }
+  void start_friction(const Vec3<Real>* position) { accept(position, true); }
+  void commit_friction(const Vec3<Real>* position) { accept(position, false); }
+  double friction_loss() const;  // since the start [J]
 
   // What outlives a step: losses, and what friction remembers; stresses follow from positions.
-  void visit(Archive& archive) {
-    hysteron::visit(archive, device_, viscous_);
-    friction_.visit(archive);
-  }
+  void visit(Archive& archive);
 
   double stored_energy(const Vec3<Real>* position);              // [J]
   void add_viscous_loss(const Vec3<Real>* velocity, Real step);  // of the last update's geometry
   double viscous_loss() const;                                   // since the start [J]
-  double largest_stretch(const Vec3<Real>* position);            // largest principal stretch minus 1
-  int faces() const { return faces_; }
+  // Largest principal stretch minus 1, of a triangle or of the means at a node.
+  double largest_stretch(const Vec3<Real>* position);
   std::size_t force_bytes() const {  // of forces()
-    return bytes_of(vertex_start_, vertex_item_, rest_, deformation_, stress_);
+    return bytes_of(vertex_start_, vertex_item_, rest_, deformation_) + faces_.stress_bytes();
   }
   std::size_t bytes() const;  // without friction's history
-  std::size_t history_bytes() const { return friction_.history_bytes(); }
+  std::size_t history_bytes() const {
+    return faces_.history_bytes() + (nodes_ ? nodes_->sites.history_bytes() : 0);
+  }
 
  private:
-  StressedFaces<Real> stressed() {
-    return {rest_.data(), deformation_.data(), stress_.data(), tension_.data()};
-  }
+  using Faces = FaceStrains<Real>;
+  // What is there with nodes alone.
+  struct Nodes {
+    Nodes(Device& device, const ClothMesh& mesh, const Fabric& fabric, const MembraneSplit& split,
+          const MembraneNodes& nodes, const Faces& faces, const BlockRows<Real, Device>& rows);
+
+    Buffer<int, Device> start, item;
+    Buffer<Real, Device> weight, area;
+    Buffer<Eigen::Vector3i, Device> of_face;
+    NodeStrains<Real> strains;
+    MembraneSites<NodeStrains<Real>, Device> sites;
+    NodalStiffness<Real, Device> stiffness;
+  };
+
+  Faces face_strains() { return {rest_.data(), corner_.data(), deformation_.data()}; }
   MembraneBlocks<Real> blocks() const {
     return {static_cast<int>(block_sum_.size()), block_sum_.data(), vertex_start_.data(), vertex_item_.data(),
             rest_.data()};
   }
-  std::size_t vertex_bytes() const { return vertices_ * sizeof(Vec3<Real>); }
   int all_blocks() const { return static_cast<int>(block_sum_.size()) + vertices_; }
+  void accept(const Vec3<Real>* position, bool is_start);
 
   Device& device_;
-  int faces_, vertices_;
-  MembraneStiffness<Real> stiffness_;
+  int vertices_;
   Real damping_;
   Buffer<MembraneRest<Real>, Device> rest_;
   Buffer<Eigen::Vector3i, Device> corner_;
   Buffer<int, Device> vertex_start_, vertex_item_;
   Buffer<Eigen::Vector2i, Device> block_sum_;  // MembraneBlocks::sum
   Buffer<Deformation<Real>, Device> deformation_;
-  Buffer<MembraneStress<Real>, Device> stress_, tension_;
-  Buffer<double, Device> measure_, viscous_;
-  InPlaneFriction<Real, Device> friction_;
-  StepFormula formula_;                   // of implicit steps
-  Buffer<Vec3<Real>, Device> reference_;  // strain from which rates are measured; empty without damping
+  MembraneSites<Faces, Device> faces_;
+  std::optional<Nodes> nodes_;
+  Buffer<double, Device> energy_;
 };
 
 }  // namespace hysteron

@@ -10,7 +10,7 @@ HYST_HD MembraneStress<Real> scaled(Real factor, const MembraneStress<Real>& s) 
   return {factor * s.s11, factor * s.s22, factor * s.s12};
 }
 
-// Of each triangle, what the factor multiplies: C, and with stops what those that hold add to it.
+// Of each triangle, what the factor multiplies: its C, and with stops what those that hold add to it.
 template <class Real>
 struct ElasticStiffness {
   MembraneStiffness<Real> c;
@@ -36,25 +36,31 @@ void Membrane<Real, Device>::assemble(Real factor, Real geometric, BlockRowsView
     assemble_columns(factor, geometric, matrix);
   else
     assemble_blocks(factor, geometric, matrix);
+  if (nodes_)
+    nodes_->stiffness.add(nodes_->strains, nodes_->sites.stiffness(), factor,
+                          nodes_->sites.has_friction() ? nodes_->sites.friction_tangents() : nullptr,
+                          geometric, matrix);
   if (softening.off_diagonal) assemble_softening(softening);
 }
 
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_blocks(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  if (friction_.any())
-    gather_blocks(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
-                  geometric, matrix);
+  if (faces_.has_friction())
+    gather_blocks(
+        StiffnessWithStops<Real>{faces_.stiffness(), geometric / factor, faces_.friction_tangents()}, factor,
+        geometric, matrix);
   else
-    gather_blocks(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
+    gather_blocks(ElasticStiffness<Real>{faces_.stiffness()}, factor, geometric, matrix);
 }
 
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_columns(Real factor, Real geometric, BlockRowsView<Real> matrix) {
-  if (friction_.any())
-    gather_columns(StiffnessWithStops<Real>{stiffness_, geometric / factor, friction_.tangents()}, factor,
-                   geometric, matrix);
+  if (faces_.has_friction())
+    gather_columns(
+        StiffnessWithStops<Real>{faces_.stiffness(), geometric / factor, faces_.friction_tangents()}, factor,
+        geometric, matrix);
   else
-    gather_columns(ElasticStiffness<Real>{stiffness_}, factor, geometric, matrix);
+    gather_columns(ElasticStiffness<Real>{faces_.stiffness()}, factor, geometric, matrix);
 }
 
 // A CPU computes what the entries of a block have in common once.
@@ -65,12 +71,12 @@ void Membrane<Real, Device>::gather_blocks(const Stiffness& stiffness, Real fact
   const Stiffness c = stiffness;
   const MembraneBlocks<Real> blocks = this->blocks();
   const Deformation<Real>* deformed = deformation_.data();
-  const MembraneStress<Real>* tension = tension_.data();
+  const MembraneStress<Real>* tension = faces_.tension();
   const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
   for_each(
       device_,
-      {"membrane matrix",
-       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
+      {"membrane matrix", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
+                              faces_.tension_bytes()},
       all_blocks(), HYST_KERNEL(int b) {
         const Mat3<Real> block = blocks.gather(b, Mat3<Real>(Mat3<Real>::Zero()), [&](int f, int i, int j) {
           return membrane_block(blocks.rest[f], c.of(f), factor, deformed[f], scaled(geometric, tension[f]),
@@ -89,12 +95,12 @@ void Membrane<Real, Device>::gather_columns(const Stiffness& stiffness, Real fac
   const Stiffness c = stiffness;
   const MembraneBlocks<Real> blocks = this->blocks();
   const Deformation<Real>* deformed = deformation_.data();
-  const MembraneStress<Real>* tension = tension_.data();
+  const MembraneStress<Real>* tension = faces_.tension();
   const std::size_t bytes = all_blocks() * sizeof(Mat3<Real>);
   for_each(
       device_,
-      {"membrane matrix",
-       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_, tension_)},
+      {"membrane matrix", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, deformation_) +
+                              faces_.tension_bytes()},
       3 * all_blocks(), HYST_KERNEL(int e) {
         const int b = e / 3, col = e % 3;
         const Vec3<Real> column = blocks.gather(b, Vec3<Real>(Vec3<Real>::Zero()), [&](int f, int i, int j) {
@@ -110,12 +116,12 @@ void Membrane<Real, Device>::gather_columns(const Stiffness& stiffness, Real fac
 template <class Real, class Device>
 void Membrane<Real, Device>::assemble_softening(ScalarRowsView<Real> softening) {
   const MembraneBlocks<Real> blocks = this->blocks();
-  const MembraneStress<Real>*stress = stress_.data(), *tension = tension_.data();
+  const MembraneStress<Real>*stress = faces_.stress(), *tension = faces_.tension();
   const std::size_t bytes = all_blocks() * sizeof(Real);
   for_each(
       device_,
-      {"membrane softening",
-       bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_, stress_, tension_)},
+      {"membrane softening", bytes + bytes_of(block_sum_, vertex_start_, vertex_item_, rest_) +
+                                 faces_.stress_bytes() + faces_.tension_bytes()},
       all_blocks(), HYST_KERNEL(int b) {
         const Real sum = blocks.gather(b, Real(0), [&](int f, int i, int j) {
           const MembraneStress<Real> s = stress[f], t = tension[f];

@@ -25,22 +25,57 @@ std::vector<MembraneRest<double>> membrane_rest(const ClothMesh& mesh) {
   return rest;
 }
 
-double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, const std::vector<double>& mass,
-                                const std::vector<char>& held) {
+namespace {
+
+// What the triangles' stress becomes by the means of their strain rates at nodes.
+void add_nodal_stress(const ClothMesh& mesh, const MembraneNodes& nodes, const MembraneStiffness<double>& c,
+                      const std::vector<Eigen::Vector3d>& strain,
+                      std::vector<MembraneStress<double>>& stress) {
+  std::vector<Eigen::Vector3d> mean(nodes.count(), Eigen::Vector3d::Zero());
+  const auto each = [&](const auto& visit) {
+    for (int f = 0; f < mesh.faces(); ++f)
+      for (int k = 0; k < 3; ++k) visit(f, nodes.of_face[f][k]);
+  };
+  each([&](int f, int n) { mean[n] += mesh.face_area[f] / (3 * nodes.area[n]) * strain[f]; });
+  each([&](int f, int n) {
+    const auto s = membrane_stress(c, mean[n]);
+    stress[f].s11 += s.s11 / 3;
+    stress[f].s22 += s.s22 / 3;
+  });
+}
+
+void add_stops(const InPlaneStops& stops, MembraneStiffness<double>& c) {
+  c.warp += stops.warp.stiffness();
+  c.weft += stops.weft.stiffness();
+  c.shear += stops.shear.stiffness();
+}
+
+}  // namespace
+
+double membrane_spectral_radius(const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
+                                const std::vector<double>& mass, const std::vector<char>& held) {
   const auto rest = membrane_rest(mesh);
-  const InPlaneStops& stops = fabric.in_plane;  // none slips
-  const MembraneStiffness<double> c{fabric.warp + stops.warp.stiffness(),
-                                    fabric.weft + stops.weft.stiffness(), fabric.coupling,
-                                    fabric.shear + stops.shear.stiffness()};
+  MembraneSplit c = split_membrane(fabric, element);
+  add_stops(stops_of_faces(fabric, c), c.faces);  // none slips
+  add_stops(stops_of_nodes(fabric, c), c.nodes);
+  const MembraneNodes nodes = c.averages ? membrane_nodes(mesh) : MembraneNodes{};
+  std::vector<Eigen::Vector3d> strain(mesh.faces());
+  std::vector<MembraneStress<double>> stress(mesh.faces());
+  std::vector<Deformation<double>> deformed;
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto& t = mesh.face[f];
+    deformed.push_back(deformation(rest[f], mesh.rest[t[0]], mesh.rest[t[1]], mesh.rest[t[2]]));
+  }
   return largest_eigenvalue(mass, held, [&](const auto& v, auto& w) {
-    std::fill(w.begin(), w.end(), Eigen::Vector3d::Zero());
     for (int f = 0; f < mesh.faces(); ++f) {
       const auto& t = mesh.face[f];
-      const auto x = deformation(rest[f], mesh.rest[t[0]], mesh.rest[t[1]], mesh.rest[t[2]]);
-      const auto g = deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]);
-      const auto s = membrane_stress(c, green_strain_rate(x, g));
-      for (int k = 0; k < 3; ++k) w[t[k]] -= membrane_force(rest[f], x, s, k);
+      strain[f] = green_strain_rate(deformed[f], deformation(rest[f], v[t[0]], v[t[1]], v[t[2]]));
+      stress[f] = membrane_stress(c.faces, strain[f]);
     }
+    if (c.averages) add_nodal_stress(mesh, nodes, c.nodes, strain, stress);
+    std::fill(w.begin(), w.end(), Eigen::Vector3d::Zero());
+    for (int f = 0; f < mesh.faces(); ++f)
+      for (int k = 0; k < 3; ++k) w[mesh.face[f][k]] -= membrane_force(rest[f], deformed[f], stress[f], k);
   });
 }
 

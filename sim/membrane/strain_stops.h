@@ -1,5 +1,5 @@
-// Friction elements on the components of Green's strain E = (E11, E22, 2 E12) of a triangle: springs p that
-// slip at strains r, as in bending (laws/spectrum_stops.h) but on each component by itself.
+// Friction elements on the components of Green's strain E = (E11, E22, 2 E12) of a triangle or node: springs
+// p that slip at strains r, as in bending (laws/spectrum_stops.h) but on each component by itself.
 //
 //   stress_c = sum_j p_j clip(E_c - S_j, r_j),   accepted: S_j = E_c - clip(E_c - S_j, r_j)
 //
@@ -20,19 +20,19 @@ struct StrainStop {
   Real stiffness;  // p [N/m]
 };
 
-// Of all stops of a triangle at a strain.
+// Of all stops of a triangle or node at a strain.
 template <class Real>
 struct StopsReply {
   Vec3<Real> stress{0, 0, 0}, tangent{0, 0, 0};  // by component: second Piola-Kirchhoff, its derivative [N/m]
   Real stored = 0, lost = 0;                     // now, and on the way from the accepted state [J/m^2]
 };
 
-// The stops of every triangle: of E11, then of E22, then of 2 E12; and what each remembers.
+// The stops of every triangle or node: of E11, then of E22, then of 2 E12; and what each remembers.
 template <class Real>
 struct StrainStops {
   const StrainStop<Real>* stop;
   int begin[4];  // of each component's
-  Real* slip;    // S: begin[3] for each triangle
+  Real* slip;    // S: begin[3] for each
   int faces;
 
   HYST_HD Real& slip_of(int face, int j) const { return slip[slot_index(face, j, begin[3], faces)]; }

@@ -70,6 +70,7 @@ const KeyRow<Scene> kSceneRows[] = {
     {"law", at<&S::law>, "", any(), "", "moment-curvature law"},
     {"param", at<&S::param>, "", any(), "", "parameters of the law by name; the table [param] of a file"},
     {"element", at<&S::element>, "", any(), "", "bending element"},
+    {"membrane.element", at<&S::membrane_element>, "", any(), "", "where strains along warp and weft are taken: constant, of each triangle, which locks if they are stiff; nodal, beyond 1 kN/m their means at nodes"},
     {"force", at<&S::force>, "", any(), "", "bending force convention (chapter: hinge only)"},
     {"mesh", at<&S::mesh>, "", any(), "", "family: aligned, aligned-45, flipped, unionjack, equilateral or random; or an OBJ of the rest shape, FILE.obj"},
     {"triangles", at<&S::triangles>, "", between(1, 1e8), "", "about this many triangles"},

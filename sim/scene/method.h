@@ -27,6 +27,11 @@ constexpr std::array<const char*, 4> names(Preconditioning) {
   return {"auto", "multigrid", "cholesky", "block-jacobi"};
 }
 
+// Where the membrane takes its strains along warp and weft: constant, of each triangle; nodal, what of the
+// stiffness is beyond 1 kN/m of their means at nodes (membrane/membrane_nodes.h).
+enum class MembraneElement { constant, nodal };
+constexpr std::array<const char*, 2> names(MembraneElement) { return {"constant", "nodal"}; }
+
 enum class DeviceChoice { automatic, cpu, cuda };
 constexpr std::array<const char*, 3> names(DeviceChoice) { return {"auto", "cpu", "cuda"}; }
 

@@ -174,6 +174,7 @@ struct Scene {
   std::string law = "prandtl";
   std::map<std::string, std::string> param;
   BendingElement element = BendingElement::shape;
+  MembraneElement membrane_element = MembraneElement::nodal;
   ForceConvention force = ForceConvention::energy;
   std::string mesh = "random";
   int triangles = 5000;

@@ -114,7 +114,7 @@ typename IncrementalPotential<Real, Device>::Energies IncrementalPotential<Real,
     result.count[1] = self_contact_->pairs();
   }
   result.list[2] = membrane_.energies();
-  result.count[2] = membrane_.faces();
+  result.count[2] = membrane_.energies_count();
   if (!bending_lags_) {
     result.list[3] = bending_.energies();
     result.count[3] = bending_.elements();

@@ -19,7 +19,8 @@ struct MethodChoice {
 // `gpus`: how many there are.  Error::request where a GPU is asked for what it cannot do.
 MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus);
 
-// Multiplications of a Cholesky factorisation of the matrix with bending.
-double factorisation_work(const ClothMesh& mesh, const CurvatureOperator& op);
+// Multiplications of a Cholesky factorisation of the matrix, whose off-diagonal blocks beside bending's are
+// `couplings`.
+double factorisation_work(const ClothMesh& mesh, const Adjacency& couplings, const CurvatureOperator& op);
 
 }  // namespace hysteron

@@ -61,7 +61,7 @@ StepLimits stable_steps(const Scene& scene, const Cloth& cloth, const CurvatureO
   StepLimits limits;
   limits.bending_step = stable_step(bending, viscous);
   if (scene.integrator != Integrator::explicit_euler) return limits;
-  double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, mass, held);
+  double stiff = membrane_spectral_radius(cloth.mesh, scene.fabric, scene.membrane_element, mass, held);
   const double viscous_membrane = scene.fabric.damping * stiff;
   if (!scene.obstacle.empty()) stiff += obstacle_shell(scene).stiffest() / scene.fabric.density;
   limits.membrane_step = stable_step(stiff + bending, viscous_membrane + viscous);

@@ -28,8 +28,8 @@ class LinearSolvesOn : public LinearSolves {
     std::unique_ptr<LinearSolver<double, Device>> solver =
         std::make_unique<BlockJacobiSolver<double, Device>>(device_, n);
     if (multigrid)
-      solver = std::make_unique<MultigridSolver<double, Device>>(device_, mesh,
-                                                                 make_rest_hierarchy(mesh, held), 0.0);
+      solver = std::make_unique<MultigridSolver<double, Device>>(
+          device_, mesh, make_rest_hierarchy(mesh, neighbours_in(mesh), held), 0.0);
     LinearSystem<double, Device> system{rows.view()};
     if (by_batches)  // whose loops may change
       system.self_contact = [](const Vec3<double>*) { return GatheredForces<double>{}; };

@@ -66,7 +66,7 @@ struct ImplicitMatrix {
     for (int i = 0; i < mesh.vertices(); ++i)
       held[i] = mesh.rest[i].y() > kSide - 1e-6 && std::abs(mesh.rest[i].x() - kSide / 2) > kSide / 2 - 1e-6;
     const Field x = flat ? mesh.rest : folded(mesh, kSide), rest(mesh.vertices(), Vector3d::Zero());
-    Membrane<double, Cpu> membrane(cpu, mesh, fabric, rows);
+    Membrane<double, Cpu> membrane(cpu, mesh, fabric, MembraneElement::constant, rows);
     membrane.update(x.data(), rest.data());
     membrane.assemble(kStep * kStep, kStep * kStep, rows.view());
     std::mt19937 generator(7);
@@ -169,7 +169,7 @@ struct Preconditioned {
   Multigrid<Real, Cpu> multigrid;
 
   explicit Preconditioned(ImplicitMatrix& a, int threads = 1)
-      : cpu(threads), multigrid(cpu, a.mesh, make_rest_hierarchy(a.mesh, a.held)) {
+      : cpu(threads), multigrid(cpu, a.mesh, make_rest_hierarchy(a.mesh, neighbours_in(a.mesh), a.held)) {
     const BlockRowsView<double> view = a.rows.view();
     for (int i = 0; i < view.rows; ++i) {
       diagonal.push_back(view.diagonal[i].cast<Real>());

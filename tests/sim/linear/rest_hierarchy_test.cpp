@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "sim/linear/block_rows.h"
+
 namespace hysteron {
 namespace {
 
@@ -34,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, EveryFamily,
 
 TEST_P(EveryFamily, LevelsShrinkToSomeDozenNodes) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 20000, GetParam(), 1);
-  const RestHierarchy hierarchy = make_rest_hierarchy(mesh, none(mesh));
+  const RestHierarchy hierarchy = make_rest_hierarchy(mesh, neighbours_in(mesh), none(mesh));
   ASSERT_GE(hierarchy.size(), 2u);
   int finer = mesh.vertices();
   for (const RestLevel& level : hierarchy) {
@@ -50,7 +52,7 @@ TEST_P(EveryFamily, FlatClothInterpolatesLinearFieldsExactly) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 5000, GetParam(), 1);
   constexpr double kRounding = 1e-10;  // a vertex outside by less than 1e-9 of a triangle counts as inside
   std::vector<Vector3d> finer = mesh.rest;
-  for (const RestLevel& level : make_rest_hierarchy(mesh, none(mesh))) {
+  for (const RestLevel& level : make_rest_hierarchy(mesh, neighbours_in(mesh), none(mesh))) {
     const std::vector<Vector3d> coarse = positions(level, finer);
     for (std::size_t i = 0; i < finer.size(); ++i) {
       EXPECT_LT((interpolated(level.finer[i], coarse) - finer[i]).norm(), kRounding) << i;
@@ -68,7 +70,7 @@ TEST(RestHierarchy, FollowsCurvedCloth) {
   for (Vector3d& x : mesh.rest)
     x = {kRadius * std::sin(x.x() / kRadius), x.y(), -kRadius * std::cos(x.x() / kRadius)};
   build_topology(mesh, "cylinder");
-  const RestHierarchy hierarchy = make_rest_hierarchy(mesh, none(mesh));
+  const RestHierarchy hierarchy = make_rest_hierarchy(mesh, neighbours_in(mesh), none(mesh));
   const std::vector<Vector3d> coarse = positions(hierarchy[0], mesh.rest);
   const double spacing = 5 * edge;  // no coarse triangle's side is longer
   for (int i = 0; i < mesh.vertices(); ++i)
@@ -81,7 +83,7 @@ TEST(RestHierarchy, FollowsCurvedCloth) {
 TEST(Plate, ResistsBendingAndNothingElse) {
   const ClothMesh mesh = make_rectangle(0.5, 0.3, 5000, MeshFamily::random, 1);
   std::vector<Vector3d> node = mesh.rest;
-  for (const RestLevel& level : make_rest_hierarchy(mesh, none(mesh))) {
+  for (const RestLevel& level : make_rest_hierarchy(mesh, neighbours_in(mesh), none(mesh))) {
     node = positions(level, node);
     const auto energy = [&](const auto& w) {
       double sum = 0;
@@ -102,7 +104,7 @@ TEST(Plate, ResistsBendingAndNothingElse) {
 
 TEST(RestHierarchy, LeavesSmallClothAlone) {
   const ClothMesh mesh = make_rectangle(0.1, 0.1, 18, MeshFamily::aligned, 1);
-  EXPECT_TRUE(make_rest_hierarchy(mesh, none(mesh)).empty());
+  EXPECT_TRUE(make_rest_hierarchy(mesh, neighbours_in(mesh), none(mesh)).empty());
 }
 
 }  // namespace

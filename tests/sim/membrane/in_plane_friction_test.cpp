@@ -34,7 +34,7 @@ struct Square {
   ClothMesh mesh = make_grid(kSide, kSide, 1, 1, MeshFamily::aligned, 1);
   Cpu cpu{1};
   BlockRows<double, Cpu> rows{cpu, mesh};
-  Membrane<double, Cpu> membrane{cpu, mesh, fabric, rows};
+  Membrane<double, Cpu> membrane{cpu, mesh, fabric, MembraneElement::constant, rows};
 
   // Images under the plane map (warp, weft) -> m, turned into space.
   Positions mapped(const Matrix2d& m, double turn = 0) const {
@@ -238,8 +238,8 @@ TEST(InPlaneFriction, StiffensTheHighestFrequencyAsSpringsDo) {
   const ClothMesh mesh = make_grid(kSide, kSide, 3, 3, MeshFamily::aligned, 1);
   const std::vector<double> mass(mesh.vertices(), 1e-4);
   const std::vector<char> held(mesh.vertices());
-  EXPECT_EQ(membrane_spectral_radius(mesh, fabric, mass, held),
-            membrane_spectral_radius(mesh, springs, mass, held));
+  EXPECT_EQ(membrane_spectral_radius(mesh, fabric, MembraneElement::constant, mass, held),
+            membrane_spectral_radius(mesh, springs, MembraneElement::constant, mass, held));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Crumpled {
   test::Trial trial{test::hanging_square(300)};
   Cpu cpu{1};
   BlockRows<double, Cpu> rows{cpu, trial.cloth.mesh};
-  Membrane<double, Cpu> membrane{cpu, trial.cloth.mesh, trial.scene.fabric, rows};
+  Membrane<double, Cpu> membrane{cpu, trial.cloth.mesh, trial.scene.fabric, MembraneElement::constant, rows};
   test::Positions x = trial.cloth.mesh.rest;
 
   Crumpled() {

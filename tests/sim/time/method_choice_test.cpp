@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/base/error.h"
+#include "sim/linear/block_rows.h"
 
 namespace hysteron {
 namespace {
@@ -28,6 +29,13 @@ TEST(MethodChoice, FactorisesSmallClothsAndStripsOnTheCpu) {
   EXPECT_EQ(choice_for(sheet(0.2, 0.2, 300), 0).linear_solver, Preconditioning::cholesky);
   EXPECT_EQ(choice_for(sheet(1, 0.025, 4000), 0).linear_solver, Preconditioning::cholesky);
   EXPECT_EQ(choice_for(sheet(0.5, 0.5, 30000), 0).linear_solver, Preconditioning::multigrid);
+}
+
+TEST(MethodChoice, FactorisesLargerClothsOfStiffThreads) {
+  Scene scene = sheet(0.2, 0.2, 1200);
+  EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::multigrid);
+  scene.fabric.weft = 1e5;
+  EXPECT_EQ(choice_for(scene, 0).linear_solver, Preconditioning::cholesky);
 }
 
 TEST(MethodChoice, TakesTheCpuForAStripAndSaysSoButAGpuForASquareOfAsManyTriangles) {
@@ -104,7 +112,7 @@ TEST(MethodChoice, HasNothingToDoInFloatWhereAllIsOrNewtonsMethodIsNotUsed) {
 TEST(MethodChoice, CountsWorkThatGrowsWithTheLengthOfAStripButWithTheSquareOfASheet) {
   const auto work = [](const Scene& scene) {
     const Cloth cloth = make_cloth(scene);
-    return factorisation_work(cloth.mesh,
+    return factorisation_work(cloth.mesh, neighbours_in(cloth.mesh),
                               make_curvature_operator(scene.element, cloth.mesh, cloth.held(scene, 0)));
   };
   EXPECT_LT(work(sheet(2, 0.02, 2000)), 2.3 * work(sheet(1, 0.02, 1000)));

@@ -38,6 +38,11 @@ Positions moved(const Positions& x, double share, const Positions& d) {
   return result;
 }
 
+struct Case {
+  std::string law, element;
+  bool stiff = false;  // with strains averaged at nodes
+};
+
 // A cloth on an inclined ground with everything a step can have: history, viscosity, drag, friction.
 struct Step {
   Trial trial;
@@ -52,10 +57,11 @@ struct Step {
   IncrementalPotential<double, Cpu> potential;
   Positions reference, predicted;
 
-  static Scene scene(const std::string& law, const std::string& element, double friction) {
+  static Scene scene(const Case& of, double friction) {
     Scene s = test::hanging_square(150);
-    s.law = law;
-    s.element = value_named<BendingElement>(element);
+    s.law = of.law;
+    s.element = value_named<BendingElement>(of.element);
+    if (of.stiff) s.fabric = stiff(s.fabric);
     s.air_drag = 0.1;
     s.fabric.friction = friction;
     Obstacle ground;
@@ -65,15 +71,23 @@ struct Step {
     return s;
   }
 
-  Step(const std::string& law, const std::string& element, double friction = 0.3, bool bending_lags = false)
-      : trial(scene(law, element, friction)),
-        op(make_curvature_operator(value_named<BendingElement>(element), trial.cloth.mesh,
+  static Fabric stiff(Fabric fabric) {
+    fabric.warp = 3e4;
+    fabric.weft = 5e3;
+    fabric.coupling = 2e3;
+    fabric.in_plane = {{{0.003}, {900}}, {}, {{0.01}, {20}}};
+    return fabric;
+  }
+
+  explicit Step(const Case& of, double friction = 0.3, bool bending_lags = false)
+      : trial(scene(of, friction)),
+        op(make_curvature_operator(value_named<BendingElement>(of.element), trial.cloth.mesh,
                                    trial.cloth.held(trial.scene, 0))),
         held(trial.cloth.held(trial.scene, 0)),
-        rows(cpu, trial.cloth.mesh),
-        membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows),
+        rows(cpu, membrane_couplings(trial.cloth.mesh, trial.scene.fabric, trial.scene.membrane_element)),
+        membrane(cpu, trial.cloth.mesh, trial.scene.fabric, trial.scene.membrane_element, rows),
         bending(cpu, trial.cloth.mesh, op,
-                make_law_loop<double>(cpu, choose_law(law, trial.scene.fabric.virgin_curve(), {}),
+                make_law_loop<double>(cpu, choose_law(of.law, trial.scene.fabric.virgin_curve(), {}),
                                       op.dimension, op.elements()),
                 ForceConvention::energy, trial.scene.fabric.damping * trial.scene.fabric.b1),
         contact(cpu, trial.cloth.mesh, trial.scene),
@@ -133,15 +147,15 @@ struct Step {
   }
 };
 
-struct Case {
-  std::string law, element;
-};
 class OfACloth : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Laws, OfACloth,
                          testing::Values(Case{"linear", "hinge"}, Case{"prandtl", "hinge"},
                                          Case{"prandtl", "shape"}, Case{"wong", "shape"},
-                                         Case{"kim", "shape"}, Case{"terzopoulos", "hinge"}),
-                         [](const auto& c) { return c.param.law + "_" + c.param.element; });
+                                         Case{"kim", "shape"}, Case{"terzopoulos", "hinge"},
+                                         Case{"prandtl", "shape", true}, Case{"linear", "hinge", true}),
+                         [](const auto& c) {
+                           return c.param.law + "_" + c.param.element + (c.param.stiff ? "_stiff" : "");
+                         });
 
 void expect_gradient_of_second_order(Step& step) {
   step.give_it_a_past();
@@ -160,19 +174,19 @@ void expect_gradient_of_second_order(Step& step) {
 }
 
 TEST_P(OfACloth, GradientIsTheDerivativeOfThePotentialToSecondOrder) {
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   expect_gradient_of_second_order(step);
 }
 
 // Bending is then a given force, which a past has left.
 TEST_P(OfACloth, GradientIsThePotentialsWhereBendingLags) {
-  Step step(GetParam().law, GetParam().element, 0.3, true);
+  Step step(GetParam(), 0.3, true);
   expect_gradient_of_second_order(step);
 }
 
 // Without stress the Gauss-Newton stiffness is the whole Hessian.
 TEST_P(OfACloth, StiffnessIsTheDerivativeOfTheGradientWhereNothingIsStressed) {
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   step.begin();
   const Positions x = step.reference, p = step.free_direction(7);
   step.potential.lag_friction(x.data());
@@ -193,7 +207,7 @@ constexpr double kLifted = 0.1;  // [m], out of the obstacle
 
 // So is the full one of a flat cloth under compression, which it would leave for either side.
 TEST_P(OfACloth, FullStiffnessIsTheDerivativeOfTheGradientOfAPressedSheet) {
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   step.begin(kLong);
   Positions x = step.reference;
   for (Vector3d& v : x) v = Vector3d(0.9 * v.x(), v.y(), v.z() + kLifted);
@@ -216,7 +230,7 @@ TEST_P(OfACloth, FullStiffnessIsTheDerivativeOfTheGradientOfAPressedSheet) {
 
 // Limits of friction change Phi where the cloth touches; membrane and bending are not asked again.
 TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   step.give_it_a_past();
   step.begin();
   const Positions x = moved(step.reference, 1e-3, random_vectors(step.reference.size(), 1, 5));
@@ -231,15 +245,18 @@ TEST_P(OfACloth, TheAssembledStiffnessIsThatOfTheParts) {
     for (const Vector3d& force : parts) largest = std::max(largest, force.norm());
     EXPECT_GT(largest, 0);
     for (int i = 0; i < whole.rows; ++i)
-      if (!step.held[i])
+      if (!step.held[i]) {
         EXPECT_LT((whole.times(i, d.data()) - parts[i]).norm(), 1e-12 * largest) << i << " " << full;
+      }
+    // Nodes couple no more than elements of shape do, and more than hinges.
     EXPECT_EQ(whole.row_ptr[whole.rows],
-              static_cast<int>(test::coupled_pairs(step.trial.cloth.mesh, step.op)));
+              std::max(static_cast<int>(test::coupled_pairs(step.trial.cloth.mesh, step.op)),
+                       static_cast<int>(step.rows.col().size())));
   }
 }
 
 TEST_P(OfACloth, RenewedFrictionIsThatOfANewEvaluation) {
-  Step renewed(GetParam().law, GetParam().element), anew(GetParam().law, GetParam().element);
+  Step renewed(GetParam()), anew(GetParam());
   PotentialValue before, values[2];
   const Positions x = moved(anew.reference, 1e-4, random_vectors(anew.reference.size(), 1, 15));
   for (Step* step : {&renewed, &anew}) {
@@ -267,7 +284,7 @@ Positions pressed_almost_flat(const Step& step) {
 }
 
 TEST_P(OfACloth, SolvingWithAnIndefiniteStiffnessLeadsDownhill) {
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   step.begin(kLong);
   const Positions x = pressed_almost_flat(step);
   step.potential.lag_friction(x.data());
@@ -287,7 +304,7 @@ TEST_P(OfACloth, SolvingWithAnIndefiniteStiffnessLeadsDownhill) {
 
 TEST_P(OfACloth, StiffnessIsPositiveAndSymmetricAlsoUnderCompression) {
   constexpr double kSymmetric = 1e-11;  // rounding of sums of some hundred terms
-  Step step(GetParam().law, GetParam().element);
+  Step step(GetParam());
   step.give_it_a_past();
   step.begin();
   Positions x = moved(step.reference, 5e-4, random_vectors(step.reference.size(), 1, 8));
@@ -308,12 +325,13 @@ TEST_P(OfACloth, LineSearchNeverAcceptsAnIncrease) {
   double last = 1e30;
   int decreases = 0;
   for (int iterations = 0; iterations <= 8; ++iterations) {
-    Step step(GetParam().law, GetParam().element, 0);  // friction's limits change from iterate to iterate
+    Step step(GetParam(), 0);  // friction's limits change from iterate to iterate
     step.give_it_a_past();
     step.begin();
-    MultigridSolver<double, Cpu> solver(step.cpu, step.trial.cloth.mesh,
-                                        make_rest_hierarchy(step.trial.cloth.mesh, step.held),
-                                        step.trial.scene.fabric.b1);
+    MultigridSolver<double, Cpu> solver(
+        step.cpu, step.trial.cloth.mesh,
+        make_rest_hierarchy(step.trial.cloth.mesh, neighbours_in(step.trial.cloth.mesh), step.held),
+        step.trial.scene.fabric.b1);
     NewtonLimits limits;
     limits.iterations = iterations;
     Newton<double, Cpu> newton(step.cpu, step.mass.size(), step.potential, solver, limits);

@@ -32,7 +32,8 @@ struct ImplicitSystem {
       p = 1.05 * p + 2e-3 * Vector3d(uniform(generator), uniform(generator), uniform(generator));
       load.emplace_back(uniform(generator), uniform(generator), uniform(generator));
     }
-    Membrane<double, Cpu> membrane(cpu, trial.cloth.mesh, trial.scene.fabric, rows);
+    Membrane<double, Cpu> membrane(cpu, trial.cloth.mesh, trial.scene.fabric, MembraneElement::constant,
+                                   rows);
     const std::vector<Vector3d> still(x.size(), Vector3d::Zero());
     membrane.update(x.data(), still.data());
     membrane.assemble(kStep * kStep + kStep * membrane.damping(), kStep * kStep, rows.view());

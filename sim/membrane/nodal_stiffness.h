@@ -1,0 +1,40 @@
+// What nodes (membrane_nodes.h) add to the membrane's matrix: A_v B^T (C - c) B with B the derivative of a
+// node's mean strains by the vertices of its ring.
+#pragma once
+
+#include "sim/linear/block_rows.h"
+#include "sim/membrane/membrane_nodes.h"
+#include "sim/membrane/strains.h"
+
+namespace hysteron {
+
+// How a node's mean strains along warp and weft change with a vertex [1/m].
+template <class Real>
+struct NodeRates {
+  Vec3<Real> warp, weft;
+};
+
+template <class Real, class Device>
+class NodalStiffness {
+ public:
+  NodalStiffness(Device& device, const MembraneNodes& nodes, const BlockRows<Real, Device>& rows);
+
+  // matrix += factor * that of `elastic` + of_stops * that of `tangents`, what stops add to warp and weft, by
+  // node; null without stops.  Where the triangles were evaluated last.
+  void add(const NodeStrains<Real>& strains, const MembraneStiffness<Real>& elastic, Real factor,
+           const Vec3<Real>* tangents, Real of_stops, BlockRowsView<Real> matrix);
+  std::size_t bytes() const { return bytes_of(node_, corner_start_, corner_, rate_, pair_start_, pair_); }
+
+  // The parts of add(); public because nvcc allows no device lambda in a private member function.
+  void find_rates(const NodeStrains<Real>& strains);
+
+ private:
+  Device& device_;
+  Buffer<int, Device> node_, corner_start_, corner_;  // of each item of the rings
+  Buffer<NodeRates<Real>, Device> rate_;
+  // For each block, those off the diagonal first, the pairs of items that add to it.
+  Buffer<int, Device> pair_start_;
+  Buffer<Eigen::Vector2i, Device> pair_;
+};
+
+}  // namespace hysteron

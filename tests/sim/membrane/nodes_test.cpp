@@ -1,0 +1,241 @@
+// Strains averaged at nodes.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numeric>
+#include <random>
+
+#include "sim/membrane/membrane.h"
+#include "sim/mesh/garment.h"
+#include "tests/sim/mesh/panel_tube.h"
+#include "tests/sim/scene/scene_file.h"
+
+namespace hysteron {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::PanelTube;
+using Positions = std::vector<Vector3d>;
+
+constexpr double kRounding = 1e-12;  // of sums of some hundred terms, relative
+
+Fabric stiff_fabric() {
+  Fabric fabric;
+  fabric.warp = 5e4;
+  fabric.weft = 8e3;
+  fabric.coupling = 3e3;
+  fabric.shear = 60;
+  fabric.damping = 0;
+  return fabric;
+}
+
+struct Sheet {
+  ClothMesh mesh;
+  Fabric fabric;
+  Cpu cpu{1};
+  BlockRows<double, Cpu> rows;
+  Membrane<double, Cpu> membrane;
+
+  Sheet(const ClothMesh& of, const Fabric& with, MembraneElement element = MembraneElement::nodal)
+      : mesh(of),
+        fabric(with),
+        rows(cpu, membrane_couplings(mesh, fabric, element)),
+        membrane(cpu, mesh, fabric, element, rows) {}
+
+  void try_at(const Positions& x) {
+    membrane.begin_step(StepFormula::statics(1), x.data(), nullptr);
+    membrane.evaluate(x.data());
+  }
+  double energy() const {
+    return std::accumulate(membrane.energies(), membrane.energies() + membrane.energies_count(), 0.0);
+  }
+  Positions forces() const {
+    Positions f;
+    for (int i = 0; i < mesh.vertices(); ++i) f.push_back(membrane.forces().at(i));
+    return f;
+  }
+  MatrixXd matrix() {
+    membrane.assemble(1, 0, rows.view());
+    const int n = mesh.vertices();
+    MatrixXd all = MatrixXd::Zero(3 * n, 3 * n);
+    for (int i = 0; i < n; ++i) {
+      all.block<3, 3>(3 * i, 3 * i) = rows.view().diagonal[i];
+      for (int j = rows.row_ptr()[i]; j < rows.row_ptr()[i + 1]; ++j)
+        all.block<3, 3>(3 * i, 3 * rows.col()[j]) = rows.view().off_diagonal[j];
+    }
+    return all;
+  }
+};
+
+ClothMesh random_square(int triangles = 120) {
+  return make_rectangle(0.1, 0.1, triangles, MeshFamily::random, 3);
+}
+
+Positions mapped(const ClothMesh& mesh, const Matrix2d& m) {
+  Positions x;
+  for (const Vector3d& p : mesh.rest) {
+    const Vector2d q = m * p.head<2>();
+    x.emplace_back(q.x(), 0.6 * q.y(), 0.8 * q.y());
+  }
+  return x;
+}
+
+std::vector<char> on_boundary(const ClothMesh& mesh) {
+  std::vector<char> is(mesh.vertices(), 0);
+  for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
+    is[mesh.edge[e].p2] = is[mesh.edge[e].p3] = 1;
+  return is;
+}
+
+TEST(MembraneNodes, AreTheVerticesOfClothWithoutSeams) {
+  const ClothMesh mesh = random_square();
+  const MembraneNodes nodes = membrane_nodes(mesh);
+  ASSERT_EQ(nodes.count(), mesh.vertices());
+  for (int v = 0; v < mesh.vertices(); ++v) EXPECT_NEAR(nodes.area[v], mesh.vertex_area[v], kRounding);
+  for (int f = 0; f < mesh.faces(); ++f) EXPECT_EQ(nodes.of_face[f], mesh.face[f]);
+}
+
+// Vertices of both seams have one in each panel.
+TEST(MembraneNodes, OfPanelsEndAtTheirSeams) {
+  const PanelTube panels{.second = [](const Vector2d& at) { return Vector2d(at + Vector2d(2, -1)); }};
+  const TextFile file(panels.obj(), ".obj");
+  const ClothMesh mesh = read_pattern(file.path(), 0, 1);
+  const MembraneNodes nodes = membrane_nodes(mesh);
+  EXPECT_EQ(nodes.count(), mesh.vertices() + 2 * (PanelTube::kAlong + 1));
+  EXPECT_NEAR(std::accumulate(nodes.area.begin(), nodes.area.end(), 0.0), PanelTube::area(), kRounding);
+}
+
+TEST(MembraneNodes, OfTrianglesThatTouchAtAVertexAreTwo) {
+  ClothMesh mesh;
+  mesh.rest = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+  mesh.face = {{0, 1, 2}, {0, 3, 4}};
+  build_topology(mesh, "two triangles");
+  EXPECT_EQ(membrane_nodes(mesh).count(), 6);
+}
+
+TEST(MembraneSplit, IsOfTwoPositiveParts) {
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> decades(2, 6), share(-0.999, 0.999);
+  for (int trial = 0; trial < 1000; ++trial) {
+    Fabric fabric;
+    fabric.warp = std::pow(10, decades(generator));
+    fabric.weft = std::pow(10, decades(generator));
+    fabric.coupling = share(generator) * std::sqrt(fabric.warp * fabric.weft);
+    const MembraneSplit split = split_membrane(fabric, MembraneElement::nodal);
+    EXPECT_EQ(split.averages, std::max(fabric.warp, fabric.weft) > 1000);
+    const auto &a = split.faces, &b = split.nodes;
+    EXPECT_NEAR(a.warp + b.warp, fabric.warp, kRounding * fabric.warp);
+    EXPECT_NEAR(a.weft + b.weft, fabric.weft, kRounding * fabric.weft);
+    EXPECT_NEAR(a.coupling + b.coupling, fabric.coupling, kRounding * std::abs(fabric.coupling));
+    EXPECT_EQ(a.shear, fabric.shear);
+    EXPECT_EQ(b.shear, 0);
+    for (const auto& part : {a, b})
+      EXPECT_GE(part.warp * part.weft * (1 + kRounding), part.coupling * part.coupling);
+    if (split.averages) {
+      EXPECT_LE(std::max(a.warp, a.weft), 1000 * (1 + kRounding));
+    }
+  }
+}
+
+TEST(NodalMembrane, PaysNothingUpToAKilonewtonAMetre) {
+  Fabric fabric = stiff_fabric();
+  fabric.warp = 1000;
+  fabric.weft = 900;
+  fabric.coupling = 100;
+  const ClothMesh mesh = random_square();
+  Sheet nodal(mesh, fabric), constant(mesh, fabric, MembraneElement::constant);
+  EXPECT_EQ(nodal.membrane.bytes(), constant.membrane.bytes());
+  EXPECT_EQ(nodal.rows.col(), constant.rows.col());
+}
+
+// Patch test: what deforms alike everywhere is in balance inside, with the energy of its strain.
+TEST(NodalMembrane, PassesThePatchTest) {
+  const ClothMesh mesh = random_square();
+  Sheet sheet(mesh, stiff_fabric());
+  const Matrix2d m = (Matrix2d() << 1.03, 0.2, -0.1, 0.98).finished();
+  sheet.try_at(mapped(mesh, m));
+  const Matrix2d c = m.transpose() * m;
+  const Vector3d strain((c(0, 0) - 1) / 2, (c(1, 1) - 1) / 2, c(0, 1));
+  const MembraneStiffness<double> of{sheet.fabric.warp, sheet.fabric.weft, sheet.fabric.coupling,
+                                     sheet.fabric.shear};
+  const double area = std::accumulate(mesh.face_area.begin(), mesh.face_area.end(), 0.0);
+  EXPECT_NEAR(sheet.energy(), area * membrane_energy(of, strain), kRounding * sheet.energy());
+  const Positions f = sheet.forces();
+  const std::vector<char> boundary = on_boundary(mesh);
+  double inside = 0, outside = 0;
+  for (int i = 0; i < mesh.vertices(); ++i)
+    (boundary[i] ? outside : inside) = std::max(boundary[i] ? outside : inside, f[i].norm());
+  EXPECT_GT(outside, 0.1);
+  EXPECT_LT(inside, kRounding * outside);
+}
+
+// Means alone would leave triangles free: the only motions without force are rigid ones.
+TEST(NodalMembrane, LetsNoTriangleStretchFreely) {
+  const ClothMesh mesh = random_square(40);
+  Sheet sheet(mesh, stiff_fabric());
+  sheet.try_at(mesh.rest);
+  const MatrixXd all = sheet.matrix();
+  const int n = mesh.vertices();
+  MatrixXd plane(2 * n, 2 * n);
+  for (int i = 0; i < 2 * n; ++i)
+    for (int j = 0; j < 2 * n; ++j) plane(i, j) = all(3 * (i / 2) + i % 2, 3 * (j / 2) + j % 2);
+  EXPECT_LT((all - all.transpose()).norm(), kRounding * all.norm());
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(plane).eigenvalues();
+  EXPECT_NEAR(values[2], 0, kRounding * values[2 * n - 1]);
+  EXPECT_GT(values[3], 0.1 * stiff_fabric().shear);
+}
+
+TEST(NodalMembrane, HasTheSpectralRadiusOfItsMatrix) {
+  const ClothMesh mesh = random_square(40);
+  Fabric fabric = stiff_fabric();
+  fabric.in_plane.warp = {{0.01}, {4000}};
+  Sheet sheet(mesh, fabric);
+  sheet.membrane.start_friction(mesh.rest.data());
+  sheet.try_at(mesh.rest);
+  const int n = mesh.vertices();
+  sheet.membrane.assemble(1, 1, sheet.rows.view());
+  MatrixXd all = MatrixXd::Zero(3 * n, 3 * n);
+  for (int i = 0; i < n; ++i) {
+    all.block<3, 3>(3 * i, 3 * i) = sheet.rows.view().diagonal[i];
+    for (int j = sheet.rows.row_ptr()[i]; j < sheet.rows.row_ptr()[i + 1]; ++j)
+      all.block<3, 3>(3 * i, 3 * sheet.rows.col()[j]) = sheet.rows.view().off_diagonal[j];
+  }
+  const std::vector<double> mass(n, 2.0);
+  const std::vector<char> held(n, 0);
+  const double largest = Eigen::SelfAdjointEigenSolver<MatrixXd>(all).eigenvalues()[3 * n - 1] / 2;
+  const double radius = membrane_spectral_radius(mesh, fabric, MembraneElement::nodal, mass, held);
+  constexpr double kPowerIteration = 0.05;
+  EXPECT_NEAR(radius, largest, kPowerIteration * largest);
+  EXPECT_LT(radius, membrane_spectral_radius(mesh, fabric, MembraneElement::constant, mass, held));
+}
+
+// Threads that are pulled to and fro lose what their stops lose, wherever the mesh takes their strain.
+TEST(NodalMembrane, LosesInACycleWhatOneElementOfItsStopsLoses) {
+  Fabric fabric = stiff_fabric();
+  fabric.in_plane = {{{0.002, 0.01}, {900, 300}}, {{0.004}, {500}}, {{0.02}, {40}}};
+  const ClothMesh mesh = random_square();
+  const auto loss = [&](const ClothMesh& of) {
+    Sheet sheet(of, fabric);
+    sheet.membrane.start_friction(of.rest.data());
+    for (int step = 0; step <= 200; ++step) {
+      const double s = 0.03 * std::sin(step * 2 * M_PI / 100);
+      const Positions x = mapped(of, (Matrix2d() << 1 + s, 2 * s, 0, 1 - s / 2).finished());
+      sheet.try_at(x);
+      sheet.membrane.commit_friction(x.data());
+    }
+    const double area = std::accumulate(of.face_area.begin(), of.face_area.end(), 0.0);
+    return sheet.membrane.friction_loss() / area;
+  };
+  ClothMesh one;
+  one.rest = {{0, 0, 0}, {0.11, 0.02, 0}, {0.03, 0.09, 0}};
+  one.face = {{0, 1, 2}};
+  build_topology(one, "one triangle");
+  EXPECT_GT(loss(one), 0);
+  EXPECT_NEAR(loss(mesh), loss(one), 1e-10 * loss(one));
+}
+
+}  // namespace
+}  // namespace hysteron
