@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/validate/budget.h"
 #include "experiments/validate/drapes.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/pages/report.h"
