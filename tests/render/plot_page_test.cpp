@@ -17,7 +17,7 @@ using test::ScratchFolder;
 
 PlotPage two_plots() {
   Plot rising{"rising", {"x [m]"}, {"force [N]"}}, falling{"falling", {"t [s]", false, 0, 400}, {"y [mm]"}};
-  rising.series = {{{0, 1}, {0, 1}, Series::Style::line, "#FF0000"}};
+  rising.series = {{"a_1", {0, 1}, {0, 1}, Series::Style::line, "#FF0000"}};
   rising.marks = {{"here", 0.5, 0.5}};
   falling.series = {{"b", {0, 400}, {7, 1}, Series::Style::rings, "#0000FF"}};
   return {"Page", "what it shows", {{rising, "top left"}, {falling, "bottom left"}}, 2, 200, 150};
