@@ -10,7 +10,7 @@
 namespace hysteron::experiments {
 namespace {
 
-// In the order of budget.csv, and there is a reader for each.
+// Columns of budget.csv.
 constexpr const char* kMean = "mean drape coefficient [%]";
 constexpr const char* kError = "standard error [%]";
 constexpr const char* kChange = "change [%]";

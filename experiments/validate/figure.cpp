@@ -58,6 +58,8 @@ std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
     amplitudes.push_back({static_cast<int>(turns.columns[0].values[r]), turns.columns[1].values[r],
                           turns.columns[2].values[r] / 1e3});
   const double used = read_manifest(swing / "manifest.json").metrics.number("decay_amplitudes_count");
+  if (!(used >= kLeastAmplitudes))
+    throw Error::request("validate: " + swing.string() + " has too few amplitudes for two lines");
   const auto count = std::min(amplitudes.size(), static_cast<std::size_t>(used));
   return {amplitudes.end() - static_cast<std::ptrdiff_t>(count), amplitudes.end()};
 }
@@ -72,7 +74,9 @@ render::Series decay_line(const DecayFit& fit, double start, double from, double
 render::PagePlot decay_plot(const fs::path& swing) {
   constexpr double kFifth = 0.2;
   const std::vector<Amplitude> amplitudes = read_amplitudes(swing);
-  const DecayFit two = decay_of(amplitudes, INFINITY).of(DecayShape::two_step);
+  const Decay decay = decay_of(amplitudes, INFINITY);
+  if (decay.fits.empty()) throw Error::request("validate: the swing in " + swing.string() + " does not fall");
+  const DecayFit two = decay.of(DecayShape::two_step);
   render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
   render::Series points{"amplitudes", {}, {}, Style::points, kMeasuredColor};
   for (const Amplitude& a : amplitudes) points.x.push_back(a.time), points.y.push_back(1e3 * a.value);
