@@ -36,6 +36,8 @@ std::string style_words(const Series& series, const std::string& color) {
   switch (series.style) {
     case Series::Style::points:
       return "points" + dots + " lc rgb '" + color + "'";
+    case Series::Style::rings:
+      return "points pt 6 ps 1.3 lw 2 lc rgb '" + color + "'";
     case Series::Style::line_and_points:
       return "linespoints" + lines + dots;
     case Series::Style::dashed:
@@ -112,8 +114,11 @@ std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
   std::string script;
   for (size_t i = 0; i < series.size(); ++i) {
     script += "$series" + std::to_string(first + i) + " << END\n";
-    for (size_t k = 0; k < series[i].x.size(); ++k)
-      script += number(series[i].x[k]) + " " + number(series[i].y[k]) + "\n";
+    for (size_t k = 0; k < series[i].x.size(); ++k) {
+      const double x = series[i].x[k], y = series[i].y[k];
+      if (std::isfinite(x) && std::isfinite(y)) script += number(x) + " " + number(y);
+      script += "\n";  // a line ends before an empty one: gnuplot draws on through what is called missing
+    }
     script += "END\n";
   }
   return script;

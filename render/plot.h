@@ -10,7 +10,7 @@ namespace hysteron::render {
 struct Series {
   std::string label;  // empty: not in the key
   std::vector<double> x, y;
-  enum class Style { line, points, line_and_points, dashed, bars } style = Style::line;
+  enum class Style { line, points, line_and_points, dashed, bars, rings } style = Style::line;
   std::string color{};  // "#RRGGBB"; empty: the next of a palette that colour-blind eyes can tell apart
   double line_width = 2.2;
 };

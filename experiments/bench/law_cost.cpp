@@ -20,11 +20,7 @@ struct Variant {
 BendingParts parts_of(const std::string& words, const VirginCurve& curve) {
   BendingParts parts;
   const auto has = [&](const char* word) { return words.find(word) != std::string::npos; };
-  const int count = has("32") ? 32 : 8;
-  for (int j = 0; has("stops") && j < count; ++j) {
-    parts.stops.thresholds.push_back((j + 0.5) * curve.k0 / count);
-    parts.stops.stiffnesses.push_back((curve.b1 - curve.b2) / count);
-  }
+  if (has("stops")) parts.stops = even_stops(curve.b1 - curve.b2, curve.k0, has("32") ? 32 : 8);
   if (has("weft")) parts.weft_stops = parts.stops;
   if (has("branches")) parts.branches = {{1, 100}, {curve.b2 / 2, curve.b2 / 2}};
   if (has("set")) parts.set = {3 * curve.k0, curve.b2 / 2};

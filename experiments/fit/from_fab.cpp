@@ -258,6 +258,7 @@ void report_fab(Run& run, const FabAnswer& answer, const FabricNotes& notes, boo
   add_fab_metrics(run, answer);
   const std::vector<FabPrediction> predictions = predict(answer, notes.density.value_or(0));
   write_predictions(run, predictions);
+  write_compared_loops(run, predictions);
   if (pictures) draw_predictions(run, notes.name, predictions);
 }
 

@@ -102,6 +102,11 @@ void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) 
   file.commit();
 }
 
+void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions) {
+  for (const FabPrediction& p : predictions)
+    write_loops(run, "loops_" + p.stops.loops.direction + "_" + p.stops.loops.test + ".csv", p.stops);
+}
+
 void draw_predictions(Run& run, const std::string& fabric, const std::vector<FabPrediction>& predictions) {
   std::vector<double> measured, stops, one;
   render::Axis loops{"test, cycle"};

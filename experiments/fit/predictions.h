@@ -22,7 +22,9 @@ std::vector<FabPrediction> predict(const FabAnswer& answer, double density);
 
 // predictions.csv, and metrics of the largest errors.
 void write_predictions(Run& run, const std::vector<FabPrediction>& predictions);
-// plot_fab_<loops> of each, and plot_areas of all that bend.
+// loops_<loops>.csv of each: simulated and measured forces.
+void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions);
+// plot_<loops> of each, and plot_areas of all that bend.
 void draw_predictions(Run& run, const std::string& fabric, const std::vector<FabPrediction>& predictions);
 
 }  // namespace hysteron::experiments

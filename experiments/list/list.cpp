@@ -27,13 +27,13 @@ void print_row(const std::vector<std::string>& cells, const std::vector<int>& wi
   }
 }
 
-// Who measured the bending: the source of the first published number, else that of b2.
+// Who measured the bending: the source of the first published number, else that of B or b2.
 std::string bending_source(const FabricFile& file) {
   for (const char* key : {"B", "ke-0-small", "b1-warp"}) {
     const auto found = file.fabric.published.find(key);
     if (found != file.fabric.published.end()) return file.shown(found->second.provenance);
   }
-  return file.shown(file.fabric.provenance.at("b2"));
+  return file.shown(file.fabric.provenance.at(file.fabric.kes.on() ? "kes-b" : "b2"));
 }
 
 std::string listed(const std::vector<double>& numbers) {

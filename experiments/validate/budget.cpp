@@ -1,22 +1,46 @@
-// What each unknown of a fabric explains of a drape: one at a time at both ends of its range.
-#include "experiments/validate/spread.h"
+#include "experiments/validate/budget.h"
 
 #include <cmath>
 
-#include "experiments/validate/drapes.h"
-#include "render/plot.h"
+#include "experiments/validate/named_table.h"
+#include "experiments/validate/spread.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 namespace {
 
-// A drape that is told one thing more, on several meshes.
-struct Trial {
-  std::string number, value;  // "shear", "30"
-  Drape drape;
-  double coefficient = NAN, error = NAN;  // mean of the meshes and its standard error [%]
-};
+// Columns of budget.csv.
+constexpr const char* kMean = "mean drape coefficient [%]";
+constexpr const char* kError = "standard error [%]";
+constexpr const char* kChange = "change [%]";
+constexpr const char* kPublished = "published [%]";
+
+Drape on_other_tester(Drape drape) {
+  const bool shaken = drape.standard == "jis";
+  drape.standard = shaken ? "iso9073" : "jis";
+  drape.release = shaken ? "lowered" : "shaken";
+  return drape;
+}
+
+BudgetRow run_trial(const Trial& trial, int number, const ValidateFlags& flags, Run& run) {
+  std::vector<double> coefficients;
+  BudgetRow row{trial.drape.fabric, trial.number, trial.value, flags.draws};
+  for (int draw = 1; draw <= flags.draws; ++draw) {
+    Drape drape = trial.drape;
+    drape.varied = "budget-" + std::to_string(number) + "-" + std::to_string(draw);
+    drape.further.push_back({"seed", std::to_string(draw)});
+    drape.further.push_back({"no-images", "true"});
+    run_drape(drape, flags, run);
+    coefficients.push_back(drape.coefficient());
+    row.published = drape.published();
+  }
+  row.coefficient = mean_of(coefficients);
+  row.error = spread_of(coefficients) / std::sqrt(flags.draws);
+  return row;
+}
+
+}  // namespace
 
 std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags) {
   const Drape nominal = nominal_drape(file.fabric.name, flags);
@@ -28,10 +52,7 @@ std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags)
       trials.push_back({key, number_text(end), nominal});
       trials.back().drape.further = flags_of(sample);
     }
-  Drape other = nominal;
-  const bool shaken = nominal.standard == "jis";
-  other.standard = shaken ? "iso9073" : "jis";
-  other.release = shaken ? "lowered" : "shaken";
+  const Drape other = on_other_tester(nominal);
   trials.push_back({"tester", other.standard, other});
   Drape finer = nominal;
   finer.triangles *= 4;
@@ -39,61 +60,60 @@ std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags)
   return trials;
 }
 
-void run_trial(Trial& trial, int number, const ValidateFlags& flags, Run& run) {
-  std::vector<double> coefficients;
-  for (int draw = 1; draw <= flags.draws; ++draw) {
-    Drape drape = trial.drape;
-    drape.varied = "budget-" + std::to_string(number) + "-" + std::to_string(draw);
-    drape.further.push_back({"seed", std::to_string(draw)});
-    drape.further.push_back({"no-images", "true"});
-    run_drape(drape, flags, run);
-    trial.drape.metrics = drape.metrics;
-    coefficients.push_back(drape.coefficient());
-  }
-  trial.coefficient = mean_of(coefficients);
-  trial.error = spread_of(coefficients) / std::sqrt(flags.draws);
+std::vector<BudgetRow> read_budget(const std::filesystem::path& csv) {
+  const NamedTable table(csv);
+  std::vector<BudgetRow> rows;
+  for (std::size_t r = 0; r < table.size(); ++r)
+    rows.push_back({table.word(r, "fabric"), table.word(r, "number"), table.word(r, "value"),
+                    static_cast<int>(table.number(r, "meshes")), table.number(r, kMean),
+                    table.number(r, kError), table.number(r, kChange), table.number(r, kPublished)});
+  return rows;
 }
 
-void draw_budget(Run& run, const std::string& fabric, const std::vector<Trial>& trials) {
+render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
   render::Plot plot{
-      "What moves the drape of " + fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};
-  render::Series low{"low end of its range", {}, {}, render::Series::Style::points};
-  render::Series high{"high end, other tester, finer mesh", {}, {}, render::Series::Style::points};
-  for (std::size_t i = 1; i < trials.size(); ++i) {
-    const bool second = trials[i].number == trials[i - 1].number,
-               single = !second && (i + 1 == trials.size() || trials[i + 1].number != trials[i].number);
-    if (!second) plot.x.categories.push_back(trials[i].number);
+      "Drape of " + rows.at(0).fabric + ", one unknown at a time", {""}, {"drape coefficient [%]"}};
+  render::Series low{"low end of a range", {}, {}, render::Series::Style::points};
+  render::Series high{"high end, or as named", {}, {}, render::Series::Style::points};
+  render::Series errors{"standard error", {}, {}, render::Series::Style::line, "#888888"};
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const bool second = rows[i].number == rows[i - 1].number,
+               single = !second && (i + 1 == rows.size() || rows[i + 1].number != rows[i].number);
+    if (!second) plot.x.categories.push_back(rows[i].number);
     render::Series& series = second || single ? high : low;
     series.x.push_back(static_cast<double>(plot.x.categories.size() - 1));
-    series.y.push_back(trials[i].coefficient);
+    series.y.push_back(rows[i].coefficient);
+    for (const double sign : {-1., 1., double(NAN)}) {  // NaN: a gap between bars
+      errors.x.push_back(series.x.back());
+      errors.y.push_back(rows[i].coefficient + sign * rows[i].error);
+    }
   }
-  const double last = static_cast<double>(plot.x.categories.size()) - 1,
-               measured = trials[0].drape.published();
-  plot.series = {{"as its file says", {0, last}, {trials[0].coefficient, trials[0].coefficient}},
+  const double last = static_cast<double>(plot.x.categories.size()) - 1, nominal = rows[0].coefficient,
+               measured = rows[0].published;
+  plot.series = {{"as its file says", {0, last}, {nominal, nominal}},
                  {"measured", {0, last}, {measured, measured}, render::Series::Style::dashed, "#000000"},
+                 errors,
                  low,
                  high};
-  run.plot("plot_budget_" + fabric, plot);
+  std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
+  return plot;
 }
 
-}  // namespace
-
 void write_budget(const ValidateFlags& flags, Run& run) {
-  CsvFile file(
-      run.path("budget.csv"),
-      "fabric,number,value,meshes,mean drape coefficient [%],standard error [%],change [%],published [%]");
+  CsvFile file(run.path("budget.csv"),
+               {"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
   for (const std::string& fabric : split(flags.fabrics)) {
-    std::vector<Trial> trials = trials_of(read_fabric(fabric, "--fabrics"), flags);
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      Trial& trial = trials[i];
-      run_trial(trial, static_cast<int>(i), flags, run);
-      file.row({fabric, trial.number, trial.value, flags.draws, trial.coefficient, trial.error,
-                trial.coefficient - trials[0].coefficient, trial.drape.published()});
-      if (i > 0)
-        run.metric(fabric + "." + trial.number + "=" + trial.value + ".change_percent",
-                   trial.coefficient - trials[0].coefficient);
+    std::vector<BudgetRow> rows;
+    int number = 0;
+    for (const Trial& trial : trials_of(read_fabric(fabric, "--fabrics"), flags)) {
+      BudgetRow& row = rows.emplace_back(run_trial(trial, number++, flags, run));
+      row.change = row.coefficient - rows[0].coefficient;
+      file.row(
+          {fabric, row.number, row.value, row.meshes, row.coefficient, row.error, row.change, row.published});
+      if (rows.size() > 1)
+        run.metric(fabric + "." + row.number + "=" + row.value + ".change_percent", row.change);
     }
-    if (!flags.options.no_images) draw_budget(run, fabric, trials);
+    if (!flags.options.no_images) run.plot("plot_budget_" + fabric, budget_plot(rows));
   }
   file.commit();
 }

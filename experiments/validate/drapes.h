@@ -43,8 +43,4 @@ void run_drape(Drape& drape, const ValidateFlags& flags, Run& run);
 // times the triangles and with half the step: drape.csv, plot_drape.
 void compare_drapes(const ValidateFlags& flags, Run& run);
 
-// plot_folds: each drape's coefficient and folds over the ranges of real ones (folds.cpp); metrics: of each
-// fabric the share of its drapes within.
-void compare_folds(Run& run, const std::vector<Drape>& drapes, bool pictures);
-
 }  // namespace hysteron::experiments

@@ -1,11 +1,10 @@
-// Fold counts of drapes against those of real cloth: a coefficient alone does not tell whether a drape looks
-// like one.
-#include "experiments/validate/drapes.h"
+#include "experiments/validate/folds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
-#include "render/plot.h"
+#include "experiments/validate/named_table.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -26,11 +25,15 @@ const std::vector<RealDrapes>& real_drapes() {
   return kAll;
 }
 
-// The range of folds that real drapes of this coefficient [%] have: between those of the two fabrics around
-// it.
-struct FoldRange {
-  double fewest, most;
-};
+// By "FABRIC-LAW".
+std::map<std::string, std::vector<CountedDrape>> by_column(const std::vector<CountedDrape>& drapes) {
+  std::map<std::string, std::vector<CountedDrape>> columns;
+  for (const CountedDrape& drape : drapes) columns[drape.fabric + "-" + drape.law].push_back(drape);
+  return columns;
+}
+
+}  // namespace
+
 FoldRange real_folds(double coefficient) {
   const std::vector<RealDrapes>& all = real_drapes();
   const auto above =
@@ -41,36 +44,62 @@ FoldRange real_folds(double coefficient) {
           static_cast<double>(std::max(low.most, high.most))};
 }
 
-}  // namespace
+std::vector<CountedDrape> counted(const std::vector<Drape>& drapes) {
+  std::vector<CountedDrape> all;
+  for (const Drape& drape : drapes)
+    all.push_back({drape.fabric, drape.law, drape.coefficient(), drape.number("node_count")});
+  return all;
+}
 
-void compare_folds(Run& run, const std::vector<Drape>& drapes, bool pictures) {
-  render::Plot plot{"Folds of drapes, simulated and real", {"drape coefficient [%]"}, {"folds"}};
+std::vector<CountedDrape> read_counted(const std::filesystem::path& csv) {
+  const NamedTable table(csv);
+  std::vector<CountedDrape> all;
+  for (std::size_t r = 0; r < table.size(); ++r)
+    all.push_back({table.word(r, "fabric"), table.word(r, "law"),
+                   table.number(r, "drape_coefficient_percent"), table.number(r, "node_count")});
+  std::erase_if(all, [](const CountedDrape& drape) { return !std::isfinite(drape.coefficient); });
+  return all;
+}
+
+std::vector<render::Series> real_drape_boxes(const std::string& label) {
+  constexpr double kRoom = 0.2;  // of a fold, so that a count lies within its box
+  std::vector<render::Series> boxes;
   for (const RealDrapes& real : real_drapes()) {
-    const double low = real.coefficient - real.deviation, high = real.coefficient + real.deviation;
-    plot.series.push_back(
-        {&real == &real_drapes().front() ? "584 real drapes (Gong, Mao, Wang 2024)" : "",
-         {low, high, high, low, low},
-         {real.fewest - 0.2, real.fewest - 0.2, real.most + 0.2, real.most + 0.2, real.fewest - 0.2},
-         render::Series::Style::line,
-         "#999999"});
+    const double low = real.coefficient - real.deviation, high = real.coefficient + real.deviation,
+                 bottom = real.fewest - kRoom, top = real.most + kRoom;
+    boxes.push_back({boxes.empty() ? label : "",
+                     {low, high, high, low, low},
+                     {bottom, bottom, top, top, bottom},
+                     render::Series::Style::line,
+                     "#999999"});
   }
-  std::map<std::string, std::vector<const Drape*>> by_column;
-  for (const Drape& drape : drapes) by_column[drape.fabric + "-" + drape.law].push_back(&drape);
-  for (const auto& [column, all] : by_column) {
-    render::Series series{
-        all.front()->fabric + ", " + all.front()->law, {}, {}, render::Series::Style::points};
-    int within = 0;
-    for (const Drape* drape : all) {
-      const double folds = drape->number("node_count");
-      const FoldRange range = real_folds(drape->coefficient());
-      within += folds >= range.fewest && folds <= range.most;
-      series.x.push_back(drape->coefficient());
-      series.y.push_back(folds);
+  return boxes;
+}
+
+render::Plot folds_plot(const std::vector<CountedDrape>& drapes) {
+  render::Plot plot{
+      "Folds of drapes, simulated and real (Gong, Mao, Wang 2024)", {"drape coefficient [%]"}, {"folds"}};
+  plot.series = real_drape_boxes("584 real drapes");
+  for (const auto& [column, all] : by_column(drapes)) {
+    render::Series series{all.front().fabric + ", " + all.front().law, {}, {}, render::Series::Style::points};
+    for (const CountedDrape& drape : all) {
+      series.x.push_back(drape.coefficient);
+      series.y.push_back(drape.folds);
     }
-    run.metric(column + ".folds_as_real_percent", 100.0 * within / static_cast<double>(all.size()));
     plot.series.push_back(series);
   }
-  if (pictures) run.plot("plot_folds", plot);
+  return plot;
+}
+
+void compare_folds(Run& run, const std::vector<CountedDrape>& drapes, bool pictures) {
+  for (const auto& [column, all] : by_column(drapes)) {
+    const auto within = std::count_if(all.begin(), all.end(), [](const CountedDrape& drape) {
+      return real_folds(drape.coefficient).has(drape.folds);
+    });
+    run.metric(column + ".folds_as_real_percent",
+               100.0 * static_cast<double>(within) / static_cast<double>(all.size()));
+  }
+  if (pictures) run.plot("plot_folds", folds_plot(drapes));
 }
 
 }  // namespace hysteron::experiments

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "experiments/validate/drapes.h"
+#include "experiments/validate/folds.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -211,7 +212,7 @@ std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run) {
       all.insert(all.end(), drapes.begin(), drapes.end());
     }
   file.commit();
-  compare_folds(run, all, !flags.options.no_images);
+  compare_folds(run, counted(all), !flags.options.no_images);
   return predictions;
 }
 

@@ -38,9 +38,4 @@ std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run);
 // Every law for each fabric, on its tester, on `draws` meshes: draws.csv.
 std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run);
 
-// What each unknown explains.  For each fabric under the first law: as its file says, with each number that
-// states a range at its ends, on the other tester, and with four times the triangles; each on `draws` meshes.
-// budget.csv, plot_budget_<fabric>.
-void write_budget(const ValidateFlags& flags, Run& run);
-
 }  // namespace hysteron::experiments

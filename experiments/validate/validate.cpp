@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/validate/budget.h"
 #include "experiments/validate/drapes.h"
+#include "experiments/validate/figure.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
@@ -20,8 +22,9 @@ namespace {
 using F = ValidateFlags;
 // clang-format off
 const KeyRow<F> kRows[] = {
-    {"parts", at<&F::parts>, "", any(), "", "separated by commas: pairs (B and 2HB of ten fabrics), drapes (laws, paths, mesh and step), lengths (bending lengths), spread (drapes with uncertain numbers), draws (drapes on several meshes), budget (what each uncertain number explains)"},
+    {"parts", at<&F::parts>, "", any(), "", "separated by commas: pairs (B and 2HB of ten fabrics), drapes (laws, paths, mesh and step), lengths (bending lengths), spread (drapes with uncertain numbers), draws (drapes on several meshes), budget (what each uncertain number explains), figure (of recorded results)"},
     {"loops", at<&F::loops>, "", any(), "", "folder of a `fit --fab`, whose predictions of measured loops join the table"},
+    {"recorded", at<&F::recorded>, "", any(), "", "folder of results that the part `figure` draws"},
     {"standard", at<&F::standard>, "", any(), "published | iso9073 | jis", "of the drapes: the tester that the fabric's file names, or one for all"},
     {"fabrics", at<&F::fabrics>, "", any(), "", "those that publish a drape coefficient, separated by commas"},
     {"laws", at<&F::laws>, "", any(), "", "separated by commas"},
@@ -59,7 +62,8 @@ void measure_bending_lengths(const F& flags, Run& run) {
 }
 
 void check_parts(const F& flags) {
-  static const std::vector<std::string> kParts = {"pairs", "drapes", "lengths", "spread", "draws", "budget"};
+  static const std::vector<std::string> kParts = {"pairs", "drapes", "lengths", "spread",
+                                                  "draws", "budget", "figure"};
   for (const std::string& part : split(flags.parts))
     if (!std::count(kParts.begin(), kParts.end(), part))
       throw Error::request("parts = " + part + " must be " + join(kParts, " | ")).of("parts", part);
@@ -87,6 +91,7 @@ int run_validate(const CommandLine& line) {
   if (asked("draws")) add(predict_draws(flags, run));
   if (asked("budget")) write_budget(flags, run);
   if (asked("drapes")) compare_drapes(flags, run);
+  if (asked("figure")) draw_recorded(flags.recorded, run);
   if (asked("lengths")) measure_bending_lengths(flags, run);
   finish_with_report(run);
   return 0;

@@ -13,6 +13,7 @@ struct ValidateFlags {
   std::string laws = "prandtl,linear", device = "cpu";
   std::string standard = "published";  // whose apparatus drapes are made on
   std::string loops;                   // folder of a `fit --fab`; empty: none
+  std::string recorded = "results";    // folder of results that are drawn
   double triangles = 6000, step = 1.0 / 120, tolerance = 1e-5;
   double seconds = 0;  // longest of a drape; 0: as the drape has it
   int samples = 8;     // of each fabric's uncertain numbers

@@ -11,7 +11,6 @@ using Eigen::VectorXd;
 
 constexpr double kMomentSpread = 1.5;  // prior standard deviation of a logarithm: a factor of 4.5
 constexpr double kMedianSpread = 1.5, kShapeSpread = 0.7;
-constexpr int kEvenStops = 32;  // virgin moments to M0/(4 N^2)
 
 }  // namespace
 
@@ -34,15 +33,6 @@ FrictionForm shaped_friction() {
   return {"shaped", {kMomentSpread, kMedianSpread, kShapeSpread}, [](const VectorXd& p, double moment) {
             return shaped_stops(shape_of(p), std::exp(p[0]) * moment);
           }};
-}
-
-Spectrum even_stops(double stiffness, double k0) {
-  Spectrum stops;
-  for (int j = 0; j < kEvenStops; ++j) {
-    stops.thresholds.push_back((j + 0.5) * k0 / kEvenStops);
-    stops.stiffnesses.push_back(stiffness / kEvenStops);
-  }
-  return stops;
 }
 
 FrictionForm even_friction(double k0) {

@@ -27,10 +27,7 @@ inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: betwe
 FrictionForm shaped_friction();
 FrictionShape shape_of(const Eigen::VectorXd& parameters);
 
-// Friction that saturates at k0 [1/m] as even stops, which together have this stiffness [N m].
-Spectrum even_stops(double stiffness, double k0);
-
-// Friction that saturates at k0 [1/m] as b1, b2 and k0 have it (prandtl_stops.h): the logarithm of HB.
+// Friction that saturates at k0 [1/m] as even stops: the logarithm of HB.
 FrictionForm even_friction(double k0);
 
 // Standard errors of the logarithms of the stops' stiffnesses and, last, of their friction moment, from the

@@ -67,6 +67,22 @@ TEST_F(PlotTest, LabelsAreTextNotMarkup) {
   EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos);
 }
 
+TEST_F(PlotTest, LineEndsAtAGap) {
+  Plot plot = parabola();
+  plot.series[0].color = "#123456";
+  const auto lines = [&] {
+    write_plot(folder_.file("p"), plot);
+    const std::string svg = text_of(folder_.file("p.svg")), path = "<path stroke='rgb( 18,  52,  86)'  d='";
+    std::size_t begun = 0;
+    for (std::size_t at = svg.rfind(path); at < svg.size() && svg[at] != '>'; ++at) begun += svg[at] == 'M';
+    return begun;
+  };
+  const std::size_t whole = lines();  // the key's is one of them
+  EXPECT_GE(whole, 1u);
+  plot.series[0].y[10] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(lines(), whole + 1);
+}
+
 TEST_F(PlotTest, GapsAndLogarithmicAxesAreDrawn) {
   Plot plot = parabola();
   plot.x.logarithmic = plot.y.logarithmic = true;

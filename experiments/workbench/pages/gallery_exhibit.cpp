@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostRows = 16, kMostColumns = 12;  // of a table that is shown; larger ones are linked
 constexpr std::size_t kOpenRows = 24;                     // longer ones are folded away
 constexpr std::size_t kMostCards = 8;
+constexpr std::size_t kMostWarnings = 4;  // of many runs in one, most are alike; the manifest has all
 
 std::string file_name(const fs::path& file) { return file.filename().string(); }
 
@@ -59,6 +60,14 @@ std::string metrics_html(const Metrics& metrics, bool has_table) {
     html += html_details("Metrics", metric_table(without_asides(metrics)), true);
   if (!others.empty()) html += html_details(counted(more, "more metric"), metric_cards(others), false);
   return html;
+}
+
+std::vector<Fields> shown_warnings(const std::vector<std::string>& all) {
+  std::vector<Fields> shown;
+  for (std::size_t i = 0; i < std::min(all.size(), kMostWarnings); ++i) shown.push_back({{"text", all[i]}});
+  if (all.size() > kMostWarnings)
+    shown.push_back({{"text", std::to_string(all.size() - kMostWarnings) + " more in manifest.json"}});
+  return shown;
 }
 
 // Complete is what a run is expected to be.
@@ -159,9 +168,7 @@ std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const std::optional<Manifest>& manifest = exhibit.manifest;
   const std::string metrics =
       manifest ? metrics_html(manifest->metrics, !tables.html.empty()) + missing_errors(*manifest) : "";
-  std::vector<Fields> warnings;
-  if (manifest)
-    for (const std::string& text : manifest->warnings) warnings.push_back({{"text", text}});
+  const std::vector<Fields> warnings = manifest ? shown_warnings(manifest->warnings) : std::vector<Fields>();
   return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
                                  {"name", exhibit.name},
                                  {"badge", manifest ? warning(*manifest) : ""},

@@ -53,6 +53,20 @@ struct Spectrum {
   }
 };
 
+// Most of them that a law takes.
+inline constexpr int kMostStops = 32, kMostBranches = 4;
+
+// Friction that saturates at k0 [1/m] as b1, b2 and k0 have it: stops spread evenly over [0, k0], alike,
+// which together have this stiffness, b1 - b2 [N m] (prandtl_stops.h).  None without k0.
+inline Spectrum even_stops(double stiffness, double k0, int count = kMostStops) {
+  Spectrum stops;
+  for (int j = 0; k0 > 0 && j < count; ++j) {
+    stops.thresholds.push_back((j + 0.5) * k0 / count);
+    stops.stiffnesses.push_back(stiffness / count);
+  }
+  return stops;
+}
+
 // Springs c_i in series with dashpots, beside elasticity and friction: dm_i/dt = c_i dK/dt - m_i/tau_i.
 struct RelaxingBranches {
   std::vector<double> times;        // tau_i, ascending [s]
@@ -76,8 +90,5 @@ struct BendingParts {
   RelaxingBranches branches;  // `chapman` alone
   PermanentSet set;
 };
-
-// Most of them that a law takes.
-inline constexpr int kMostStops = 32, kMostBranches = 4;
 
 }  // namespace hysteron

@@ -15,14 +15,7 @@ namespace hysteron {
 // have, the most where it would remember by a stack.
 inline Spectrum measured_stops(const LawChoice& c) {
   if (!c.curve.parts.stops.empty()) return c.curve.parts.stops;
-  Spectrum even;
-  const int count = c.stack ? kMostStops : c.stops;
-  if (c.curve.k0 > 0)
-    for (int j = 0; j < count; ++j) {
-      even.thresholds.push_back((j + 0.5) * c.curve.k0 / count);
-      even.stiffnesses.push_back((c.curve.b1 - c.curve.b2) / count);
-    }
-  return even;
+  return even_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMostStops : c.stops);
 }
 
 // The law for few stops or for the most.

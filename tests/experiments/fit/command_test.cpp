@@ -226,7 +226,7 @@ class FitOfFab : public Fit {
 TEST_F(FitOfFab, FindsTheirFrictionAndPredictsWhatWasNotFitted) {
   ASSERT_EQ(fit(flags(made())), 0);
   for (const char* name :
-       {"fabric.toml", "one_stop.toml", "spectrum.csv", "predictions.csv", "plot_L_D1.png"})
+       {"fabric.toml", "one_stop.toml", "spectrum.csv", "predictions.csv", "loops_L_D1.csv", "plot_L_D1.png"})
     EXPECT_TRUE(fs::exists(out() / name)) << name;
   const Json m = metrics();
   const double friction = cotton_.virgin_curve().friction_moment();

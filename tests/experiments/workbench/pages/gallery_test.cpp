@@ -113,6 +113,18 @@ TEST_F(Gallery, SaysWhatRunsWarnOf) {
   EXPECT_EQ(count_of(page(), "<p class=\"warning\">Warning: layers &lt; 2 are thin</p>"), 1);
 }
 
+TEST_F(Gallery, ShowsTheFirstOfManyWarnings) {
+  {
+    ExperimentRun run({"sweep", "hysteron sweep", {}, {}}, setup_in(results_ / "many"));
+    for (int i = 0; i < 9; ++i) run.warn("run " + std::to_string(i) + " was stretched");
+    run.finish();
+  }
+  const std::string html = page();
+  EXPECT_EQ(count_of(html, "class=\"warning\""), 5);
+  EXPECT_EQ(count_of(html, "Warning: run 3 was stretched"), 1);
+  EXPECT_EQ(count_of(html, "Warning: 5 more in manifest.json"), 1);
+}
+
 TEST_F(Gallery, SaysWhichRunsAreIncomplete) {
   EXPECT_EQ(count_of(page(), ">incomplete<"), 0);
   { ExperimentRun run({"drape", "hysteron drape", {}, {}}, setup_in(results_ / "broken-off")); }

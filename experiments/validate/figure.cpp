@@ -1,0 +1,183 @@
+#include "experiments/validate/figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/validate/budget.h"
+#include "experiments/validate/folds.h"
+#include "experiments/validate/named_table.h"
+#include "sim/identification/decay_shape.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+using Style = render::Series::Style;
+
+// What is recorded where, below one folder.
+constexpr const char* kLoops = "fab-shirley/loops_L_D1.csv";
+constexpr const char* kSwing = "swing-cotton-broad";
+constexpr const char* kDrapes = "drapes-jis-h100/means.csv";
+constexpr const char* kSpread = "spread-h100";
+constexpr const char* kFolds = "drapes-iso-h100/table.csv";
+constexpr const char* kBudget = "budget-polyester-tropical-h100/budget.csv";
+
+constexpr const char* kModelColor = "#D55E00";
+constexpr const char* kMeasuredColor = "#6F7F8F";
+constexpr const char* kLineColor = "#888888";
+
+// One for each fabric in all plots, which colour-blind eyes can tell apart (Okabe & Ito 2008).
+std::string color_of(std::size_t fabric) {
+  static const std::vector<std::string> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
+  return kColors[fabric % kColors.size()];
+}
+
+// Force per width against the distance of the clamps, cycle by cycle.
+render::PagePlot loops_plot(const fs::path& csv) {
+  const NamedTable table(csv);
+  render::Plot plot{"Loops of a knit, fitted on the middle one",
+                    {"distance of the clamps [mm]"},
+                    {"force per width [N/m]"}};
+  render::Series measured{"measured", {}, {}, Style::points, kMeasuredColor};
+  render::Series model{"two numbers of friction", {}, {}, Style::line, kModelColor};
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    const double distance = 1e3 * table.number(r, "clamp_distance_m"), width = table.number(r, "width_m");
+    measured.x.push_back(distance), model.x.push_back(distance);
+    measured.y.push_back(table.number(r, "measured_force_N") / width);
+    model.y.push_back(table.number(r, "force_N") / width);
+  }
+  plot.series = {measured, model};
+  return {plot, "top left"};
+}
+
+// Those that a decay was read from; those before are too large.
+std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
+  const Table turns = read_csv(swing / "turns.csv", {"turn", "time [s]", "amplitude [mm]"}, {}, "validate");
+  std::vector<Amplitude> amplitudes;
+  for (std::size_t r = 0; r < turns.lines.size(); ++r)
+    amplitudes.push_back({static_cast<int>(turns.columns[0].values[r]), turns.columns[1].values[r],
+                          turns.columns[2].values[r] / 1e3});
+  const double used = read_manifest(swing / "manifest.json").metrics.number("decay_amplitudes_count");
+  if (!(used >= kLeastAmplitudes))
+    throw Error::request("validate: " + swing.string() + " has too few amplitudes for two lines");
+  const auto count = std::min(amplitudes.size(), static_cast<std::size_t>(used));
+  return {amplitudes.end() - static_cast<std::ptrdiff_t>(count), amplitudes.end()};
+}
+
+// A line of a decay between two times after its first amplitude, which stands at `start` [s].
+render::Series decay_line(const DecayFit& fit, double start, double from, double to,
+                          const std::string& label) {
+  return {
+      label, {start + from, start + to}, {1e3 * fit.at(from), 1e3 * fit.at(to)}, Style::line, kModelColor};
+}
+
+render::PagePlot decay_plot(const fs::path& swing) {
+  constexpr double kFifth = 0.2;
+  const std::vector<Amplitude> amplitudes = read_amplitudes(swing);
+  const Decay decay = decay_of(amplitudes, INFINITY);
+  if (decay.fits.empty()) throw Error::request("validate: the swing in " + swing.string() + " does not fall");
+  const DecayFit two = decay.of(DecayShape::two_step);
+  render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
+  render::Series points{"amplitudes", {}, {}, Style::points, kMeasuredColor};
+  for (const Amplitude& a : amplitudes) points.x.push_back(a.time), points.y.push_back(1e3 * a.value);
+  const double start = amplitudes.front().time, end = amplitudes.back().time,
+               fifth = 1e3 * kFifth * two.at(0);
+  plot.series = {points,
+                 decay_line(two, start, 0, two.step, "two lines"),
+                 decay_line(two, start, two.step, end - start, ""),
+                 {"a fifth (real cloth)", {start, end}, {fifth, fifth}, Style::dashed, kLineColor, 1.5}};
+  plot.y.low = 0, plot.y.high = 1.1 * points.y.front();
+  plot.x.low = 0, plot.x.high = end;
+  return {plot, "top right"};
+}
+
+// A bar from the low to the high end of an interval.
+render::Series interval(const PredictedDrape& drape, const std::string& color, const std::string& label) {
+  return {label, {drape.measured, drape.measured}, {drape.low, drape.high}, Style::line, color, 5};
+}
+
+// A fabric's name, where the diagonal is not: of limp fabrics below the interval and to the right, of stiff
+// ones above it and to the left.
+render::Mark name_of(const PredictedDrape& drape, bool stiff, const std::string& color) {
+  constexpr double kAway = 3.5;  // [%]
+  if (stiff) return {drape.fabric, drape.measured + 1, drape.high + kAway, -0.1, 0, color, false};
+  return {drape.fabric, drape.measured - 1, drape.low - kAway, 0.1, 0, color, false};
+}
+
+render::PagePlot drapes_plot(const std::vector<PredictedDrape>& drapes) {
+  constexpr double kLow = 15, kHigh = 100;
+  render::Plot plot{"Drape coefficients on the JIS tester",
+                    {"measured [%]", false, kLow, kHigh},
+                    {"predicted [%]", false, kLow, kHigh}};
+  plot.series.push_back({"as measured", {kLow, kHigh}, {kLow, kHigh}, Style::dashed, kLineColor, 1.5});
+  render::Series mean{"with friction", {}, {}, Style::points, "#222222"};
+  render::Series elastic{"elasticity alone", {}, {}, Style::rings, "#222222"};
+  for (std::size_t f = 0; f < drapes.size(); ++f) {
+    const PredictedDrape& drape = drapes[f];
+    plot.series.push_back(interval(drape, color_of(f), f == 0 ? "95 % interval" : ""));
+    for (render::Series* series : {&mean, &elastic}) series->x.push_back(drape.measured);
+    mean.y.push_back(drape.mean), elastic.y.push_back(drape.elastic);
+    plot.marks.push_back(name_of(drape, 2 * f >= drapes.size(), color_of(f)));
+  }
+  plot.series.insert(plot.series.end(), {mean, elastic});
+  return {plot, "top left"};
+}
+
+// Of the fabrics in this order, which their colours have.
+render::PagePlot folds_of(const std::vector<CountedDrape>& counted,
+                          const std::vector<PredictedDrape>& order) {
+  render::Plot plot{"Folds of drapes, 300 mm on 180 mm",
+                    {"drape coefficient [%]", false, 10, 100},
+                    {"folds", false, 0, 18}};
+  plot.series = real_drape_boxes("584 real drapes");
+  for (std::size_t f = 0; f < order.size(); ++f) {
+    render::Series series{order[f].fabric, {}, {}, Style::points, color_of(f)};
+    for (const CountedDrape& drape : counted)
+      if (drape.fabric == order[f].fabric)
+        series.x.push_back(drape.coefficient), series.y.push_back(drape.folds);
+    if (!series.x.empty()) plot.series.push_back(series);
+  }
+  return {plot, "top right"};
+}
+
+}  // namespace
+
+std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& spread) {
+  const NamedTable table(means);
+  std::vector<PredictedDrape> drapes;
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    const std::string& fabric = table.word(r, "fabric");
+    auto at = std::find_if(drapes.begin(), drapes.end(),
+                           [&](const PredictedDrape& drape) { return drape.fabric == fabric; });
+    if (at == drapes.end()) {
+      const NamedTable known(spread / fabric / "predictions.csv");  // the coefficient first, then folds
+      if (known.size() == 0)
+        throw Error::request("validate: " + (spread / fabric).string() + " has no drape");
+      at = drapes.insert(drapes.end(), {.fabric = fabric,
+                                        .measured = known.number(0, "measured"),
+                                        .low = known.number(0, "low"),
+                                        .high = known.number(0, "high")});
+    }
+    (table.word(r, "law") == "linear" ? at->elastic : at->mean) =
+        table.number(r, "drape_coefficient_percent_mean");
+  }
+  return drapes;
+}
+
+render::PlotPage validation_page(const fs::path& recorded) {
+  const std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
+  return {"From the raw loop to decay, drape and folds",
+          "friction fitted on one loop of a knit; its shape, with B and 2HB of each fabric, gives the rest",
+          {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),
+           folds_of(read_counted(recorded / kFolds), drapes)}};
+}
+
+void draw_recorded(const fs::path& recorded, Run& run) {
+  const render::PlotPage page = validation_page(recorded);
+  run.plot("plot_validation", [&](const fs::path& base) { render::write_plot_page(base, page); });
+  compare_folds(run, read_counted(recorded / kFolds), true);
+  const std::vector<BudgetRow> budget = read_budget(recorded / kBudget);
+  run.plot("plot_budget_" + budget.at(0).fabric, budget_plot(budget));
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,31 @@
+// The figure of a validation, from raw loop to decay, drape and folds, drawn from recorded results.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/validate/drapes.h"
+#include "render/plot_page.h"
+
+namespace hysteron::experiments {
+
+// What is measured or known of a drape, beside what is predicted of it [%].
+struct PredictedDrape {
+  std::string fabric;
+  double measured = NAN;
+  double mean = NAN, elastic = NAN;  // under `prandtl` and `linear`, on several meshes
+  double low = NAN, high = NAN;      // 95 %, with the fabric's uncertain numbers in their ranges
+};
+// From the means of a study and, for each of its fabrics, FABRIC/predictions.csv in the folder `spread`.
+std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
+                                        const std::filesystem::path& spread);
+
+// Loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::machine, Error::request
+// where one of their files is missing or another than it was.
+render::PlotPage validation_page(const std::filesystem::path& recorded);
+
+// plot_validation; plot_folds and plot_budget_<fabric>, as the parts `draws` and `budget` draw them.
+void draw_recorded(const std::filesystem::path& recorded, Run& run);
+
+}  // namespace hysteron::experiments

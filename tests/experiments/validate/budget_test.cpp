@@ -1,0 +1,168 @@
+// What each unknown of a fabric explains of a drape: trials, rows, means and their errors.
+#include "experiments/validate/budget.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/experiments/folder.h"
+
+namespace hysteron::experiments {
+namespace {
+
+double told(const Trial& trial, const std::string& key) {
+  const std::string text = last_text(trial.drape.further, "fabric." + key, "");
+  return text.empty() ? NAN : std::stod(text);
+}
+
+// The fabric's file, each range at its low and then its high end, the other tester, a mesh four times as
+// fine.
+TEST(BudgetTrials, ChangeOneThingEach) {
+  ValidateFlags flags;
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  const std::vector<Trial> trials = trials_of(file, flags);
+  ASSERT_EQ(trials.size(), 1 + 2 * file.range.size() + 2);
+  EXPECT_TRUE(trials[0].drape.further.empty());
+  std::size_t next = 1;
+  for (const auto& [key, range] : file.range)
+    for (const double end : {range.low, range.high}) {
+      const Trial& trial = trials[next++];
+      EXPECT_EQ(trial.number, key);
+      EXPECT_EQ(std::stod(trial.value), end);
+      EXPECT_EQ(trial.drape.standard, "jis") << "the published one";
+      EXPECT_EQ(trial.drape.triangles, trials[0].drape.triangles);
+    }
+  const Trial &tester = trials[next], &mesh = trials[next + 1];
+  EXPECT_EQ(tester.value, "iso9073");
+  EXPECT_EQ(tester.drape.release, "lowered");
+  EXPECT_TRUE(tester.drape.further.empty());
+  EXPECT_EQ(mesh.drape.triangles, 4 * flags.triangles);
+  EXPECT_EQ(mesh.drape.standard, "jis");
+  EXPECT_TRUE(mesh.drape.further.empty());
+}
+
+// What is published of warp and weft together is not an unknown: at both ends of their ratio, B and 2HB are
+// the means of both.
+TEST(BudgetTrials, KeepWhatWasMeasured) {
+  constexpr double kRounding = 1e-12;
+  const FabricFile file = read_fabric("cotton-broad", "test");
+  const KesPair published = file.fabric.kes.read;
+  int ratios = 0;
+  for (const Trial& trial : trials_of(file, {})) {
+    if (trial.number == "weft-bending") {
+      const double mean = (1 + told(trial, "weft-bending")) / 2;
+      EXPECT_NEAR(mean * told(trial, "kes-b"), published.rigidity, kRounding * published.rigidity);
+      EXPECT_NEAR(mean * told(trial, "kes-2hb"), published.loop_width, kRounding * published.loop_width);
+      ++ratios;
+    } else if (trial.number == "shear") {
+      EXPECT_EQ(trial.drape.further.size(), 1u);
+      EXPECT_EQ(told(trial, "shear"), std::stod(trial.value));
+    }
+  }
+  EXPECT_EQ(ratios, 2);
+}
+
+// A stiff fabric of which only the weight is unknown, from that of a veil to that of a canvas.
+constexpr const char* kOneUnknown = R"(name = "one-unknown"
+description = "a fabric with one uncertain number"
+[sources]
+made = "made up for a test"
+[published]
+drape-coefficient = {value = 60, unit = "%", source = "made", confidence = "published"}
+[parameters]
+b1 = {value = 6e-5, unit = "N m", source = "made", confidence = "assumed"}
+b2 = {value = 6e-5, unit = "N m", source = "made", confidence = "assumed"}
+k0 = {value = 50, unit = "1/m", source = "made", confidence = "assumed"}
+density = {value = 0.15, unit = "kg/m^2", source = "made", confidence = "assumed", range = [0.01, 0.6]}
+thickness = {value = 4e-4, unit = "m", source = "made", confidence = "assumed"}
+warp = {value = 1000, unit = "N/m", source = "made", confidence = "assumed"}
+weft = {value = 1000, unit = "N/m", source = "made", confidence = "assumed"}
+shear = {value = 60, unit = "N/m", source = "made", confidence = "assumed"}
+)";
+
+class InFolder {
+ public:
+  explicit InFolder(const std::filesystem::path& folder) { std::filesystem::current_path(folder); }
+  ~InFolder() { std::filesystem::current_path(before_); }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+};
+
+double drape_of(const std::filesystem::path& out, int trial, int draw) {
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    if (entry.path().filename().string().ends_with("-budget-" + std::to_string(trial) + "-" +
+                                                   std::to_string(draw)))
+      return nlohmann::json::parse(
+          text_of(entry.path() / "manifest.json"))["metrics"]["drape_coefficient_percent"];
+  return NAN;
+}
+
+TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
+  constexpr double kDigits = 1e-4;  // of six in the table [%]
+  const Folder folder;
+  const auto out = folder.path() / "v";
+  std::ofstream(folder.path() / "one-unknown") << kOneUnknown;
+  const InFolder here(folder.path());  // where the name is a file's
+  CommandLine line{"validate",
+                   "hysteron validate",
+                   {{"fabrics", "one-unknown"},
+                    {"parts", "budget"},
+                    {"laws", "linear"},
+                    {"triangles", "100"},
+                    {"seconds", "0.5"},
+                    {"step", "0.0166666666666"},
+                    {"out", out.string()}},
+                   {}};
+  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
+  ASSERT_EQ(experiment_named("validate").run(line), 0);
+  const std::vector<BudgetRow> rows = read_budget(out / "budget.csv");
+  ASSERT_EQ(rows.size(), 5u);  // file, two ends, tester, mesh
+  for (int trial = 0; trial < 5; ++trial) {
+    const BudgetRow& row = rows[trial];
+    const double one = drape_of(out, trial, 1), two = drape_of(out, trial, 2);
+    EXPECT_EQ(row.meshes, 2) << row.number;
+    EXPECT_NEAR(row.coefficient, (one + two) / 2, kDigits) << row.number;
+    EXPECT_NEAR(row.error, std::abs(one - two) / 2, kDigits) << row.number << ": of the mean of two";
+    EXPECT_NEAR(row.change, row.coefficient - rows[0].coefficient, 2 * kDigits) << row.number;
+    EXPECT_EQ(row.published, 60) << row.number;
+  }
+  EXPECT_EQ(rows[0].change, 0);
+  EXPECT_EQ(rows[3].value, "jis");
+  EXPECT_EQ(rows[4].value, "400");
+  // A drape falls as its weight grows, by more than meshes differ.
+  EXPECT_GT(rows[1].change, 2 * (rows[1].error + rows[0].error)) << "a fifteenth of the weight";
+  EXPECT_LT(rows[2].change, -2 * (rows[2].error + rows[0].error)) << "four times the weight";
+  const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
+  EXPECT_NEAR(metrics["one-unknown.density=0.6.change_percent"].get<double>(), rows[2].change, kDigits);
+}
+
+// Ranges have two points above their names, the tester and the mesh one.
+TEST(Budget, PlotHasBothEndsOfARangeInOneColumn) {
+  const render::Plot plot = budget_plot({{"wool", "as its file says", "", 2, 50, 1, 0, 49},
+                                         {"wool", "shear", "30", 2, 48, 1, -2, 49},
+                                         {"wool", "shear", "110", 2, 53, 1, 3, 49},
+                                         {"wool", "mesh", "400", 2, 51, 1, 1, 49}});
+  EXPECT_EQ(plot.x.categories, (std::vector<std::string>{"shear", "mesh"}));
+  ASSERT_EQ(plot.series.size(), 5u);
+  EXPECT_EQ(plot.series[0].y, (std::vector<double>{50, 50}));
+  EXPECT_EQ(plot.series[1].y, (std::vector<double>{49, 49}));
+  EXPECT_EQ(plot.series[2].x.size(), 3 * 3u) << "a bar and a gap for each";
+  EXPECT_EQ(plot.series[2].y[0], 47);
+  EXPECT_EQ(plot.series[2].y[1], 49);
+  EXPECT_EQ(plot.series[3].y, (std::vector<double>{48}));
+  EXPECT_EQ(plot.series[4].x, (std::vector<double>{0, 1}));
+  EXPECT_EQ(plot.series[4].y, (std::vector<double>{53, 51}));
+}
+
+TEST(Budget, OfAnotherTableIsRefused) {
+  const Folder folder;
+  const auto csv = folder.path() / "budget.csv";
+  std::ofstream(csv) << "fabric,number\nwool,shear\n";
+  EXPECT_THROW(read_budget(csv), Error);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
