@@ -143,6 +143,8 @@ BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
     f.warp = std::max(f.warp, stiff);
     f.weft = std::max(f.weft, stiff);
     f.shear = std::max(f.shear, 0.3 * stiff);
+    // Means at nodes would leave a strip of a cell or two too soft to bend in its plane.
+    scene.membrane_element = MembraneElement::constant;
   }
   return buckling_strip(std::move(scene), kind, length, tilt, kMost);
 }
