@@ -1,6 +1,6 @@
 // Membrane locking: triangles of constant strain are flat, and mesh edges that do not lie along a fold must
-// be stretched for the cloth to bend across them.  Where the membrane is stiff beside bending, coarse cloth
-// bends less than its rigidity says.
+// be stretched for the cloth to bend across them.  Where triangles are stiff beside bending, coarse cloth
+// bends less than its rigidity says.  Means of strains at nodes (membrane_nodes.h) leave them soft.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@
 namespace hysteron {
 
 // E h^2/b2, dimensionless: the square of an edge over the thickness of the plate that has this membrane and
-// this rigidity, but for a factor of 12.  E: the larger of warp and weft [N/m], since threads that are stiff
-// one way lock the mesh nearly as much as both; h: the side of an equilateral triangle of mean area [m].
+// this rigidity, but for a factor of 12.  E: the larger of warp and weft [N/m] that triangles have, since
+// threads that are stiff one way lock the mesh nearly as much as both; h: the side of an equilateral triangle
+// of mean area [m].
 double locking_number(const Scene& scene, const ClothMesh& mesh);
 
 // A warning where the number is above what was measured to matter (locking.cpp); "" below.

@@ -10,8 +10,6 @@ namespace hysteron {
 
 namespace {
 
-constexpr double kOfTriangles = 1000;  // what they keep along warp and weft, at most [N/m]
-
 // Sets of corners, 3*face + corner, that belong together.
 class CornerSets {
  public:

@@ -19,6 +19,8 @@
 
 namespace hysteron {
 
+inline constexpr double kOfTriangles = 1000;  // what they keep along warp and weft, at most [N/m]
+
 // Stiffness that acts on strains of triangles, and on means at nodes (no shear).
 struct MembraneSplit {
   MembraneStiffness<double> faces, nodes;
