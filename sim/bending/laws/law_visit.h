@@ -107,22 +107,15 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// A group of laws.txt; the laws of the group `fatigue` weaken, those of the next four take a fabric's parts.
-template <class Group>
-constexpr bool takes_few_stops() {
-  return std::is_same_v<Group, PartsLaws> || std::is_same_v<Group, BranchesLaws>;
-}
-template <class Group>
-constexpr bool takes_many_stops() {
-  return std::is_same_v<Group, ManyLaws> || std::is_same_v<Group, ManybranchesLaws>;
-}
+// A group of laws.txt; the laws of the group `fatigue` weaken, those of `parts` and `many` take a fabric's
+// parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
     return visit_fatigued_laws<Real, D, typename Memory::Fatigued>(Group{}, c, visit);
-  else if constexpr (takes_few_stops<Group>())
+  else if constexpr (std::is_same_v<Group, PartsLaws>)
     return visit_laws_with_parts<Real, D, kFewStops>(Group{}, c, visit);
-  else if constexpr (takes_many_stops<Group>())
+  else if constexpr (std::is_same_v<Group, ManyLaws>)
     return visit_laws_with_parts<Real, D, kMostStops>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
