@@ -89,7 +89,7 @@ Membrane<Real, Device>::Nodes::Nodes(Device& device, const ClothMesh& mesh, cons
 
 template <class Real, class Device>
 Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric,
-                                 MembraneElement element, const BlockRows<Real, Device>& rows)
+                                 const MembraneSplit& split, const BlockRows<Real, Device>& rows)
     : device_(device),
       vertices_(mesh.vertices()),
       damping_(static_cast<Real>(fabric.damping)),
@@ -99,15 +99,12 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
       vertex_item_(device, mesh.vertex_faces.item),
       block_sum_(device, block_terms(mesh, rows)),
       deformation_(device, mesh.faces()),
-      faces_(device, face_strains(), mesh.faces(), split_membrane(fabric, element).faces, fabric.damping,
-             stops_of_faces(fabric, split_membrane(fabric, element)),
-             !split_membrane(fabric, element).averages,
+      faces_(device, face_strains(), mesh.faces(), split.faces, fabric.damping, stops_of_faces(fabric, split),
+             !split.averages,
              {bytes_of(rest_, corner_, deformation_) + vertices_ * sizeof(Vec3<Real>),
               vertices_ * sizeof(Vec3<Real>)}) {
-  const MembraneSplit split = split_membrane(fabric, element);
   if (split.averages) {
-    const MembraneNodes nodes = membrane_nodes(mesh);
-    nodes_.emplace(device, mesh, fabric, split, nodes, face_strains(), rows);
+    nodes_.emplace(device, mesh, fabric, split, membrane_nodes(mesh), face_strains(), rows);
   }
   energy_ = Buffer<double, Device>(device, faces_.count() + (nodes_ ? nodes_->sites.count() : 0));
 }

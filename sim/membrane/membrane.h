@@ -62,7 +62,8 @@ class Membrane {
  public:
   // `rows` couple what membrane_couplings() says.
   Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, MembraneElement element,
-           const BlockRows<Real, Device>& rows);
+           const BlockRows<Real, Device>& rows)
+      : Membrane(device, mesh, fabric, split_membrane(fabric, element), rows) {}
 
   // Strains and stresses (elastic, of friction, and viscous of `velocity`) at `position`; forces() then
   // gathers them.
@@ -131,6 +132,8 @@ class Membrane {
     NodalStiffness<Real, Device> stiffness;
   };
 
+  Membrane(Device& device, const ClothMesh& mesh, const Fabric& fabric, const MembraneSplit& split,
+           const BlockRows<Real, Device>& rows);
   Faces face_strains() { return {rest_.data(), corner_.data(), deformation_.data()}; }
   MembraneBlocks<Real> blocks() const {
     return {static_cast<int>(block_sum_.size()), block_sum_.data(), vertex_start_.data(), vertex_item_.data(),
