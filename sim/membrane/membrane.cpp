@@ -92,7 +92,6 @@ Membrane<Real, Device>::Membrane(Device& device, const ClothMesh& mesh, const Fa
                                  const MembraneSplit& split, const BlockRows<Real, Device>& rows)
     : device_(device),
       vertices_(mesh.vertices()),
-      damping_(static_cast<Real>(fabric.damping)),
       rest_(device, rest_as<Real>(mesh)),
       corner_(device, mesh.face),
       vertex_start_(device, mesh.vertex_faces.start),

@@ -82,7 +82,7 @@ class Membrane {
   template <class Stiffness>
   void gather_columns(const Stiffness& stiffness, Real factor, Real geometric, BlockRowsView<Real> matrix);
   void add_nodes(bool tension_is_apart);
-  Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
+  Real damping() const { return faces_.damping(); }  // viscous over elastic stiffness [s]
 
   // Implicit steps.  begin_step() fixes what strain rates are measured from: (1 + e) E(now) - e E(before),
   // e the extrapolation (`before` may be null if e = 0).  evaluate() sets forces(), energies() of elastic,
@@ -144,7 +144,6 @@ class Membrane {
 
   Device& device_;
   int vertices_;
-  Real damping_;
   Buffer<MembraneRest<Real>, Device> rest_;
   Buffer<Eigen::Vector3i, Device> corner_;
   Buffer<int, Device> vertex_start_, vertex_item_;

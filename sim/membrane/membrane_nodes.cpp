@@ -2,35 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sim/linear/compressed_rows.h"
+#include "sim/mesh/corner_sets.h"
 
 namespace hysteron {
 
 namespace {
 
-// Sets of corners, 3*face + corner, that belong together.
-class CornerSets {
- public:
-  explicit CornerSets(int corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int set_of(int corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(int a, int b) { parent_[set_of(a)] = set_of(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
-int corner_at(const ClothMesh& mesh, int face, int vertex) {
-  const Eigen::Vector3i& t = mesh.face[face];
-  return 3 * face + (t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2);
-}
-
 // Joins the corners of both triangles at an edge, unless it is a seam.
-void join_along(const ClothMesh& mesh, const Edge& edge, CornerSets& sets) {
+void join_along(const ClothMesh& mesh, const Edge& edge, Sets& sets) {
   const int ends[] = {edge.p2, edge.p3};
   int pair[2][2];
   for (int k = 0; k < 2; ++k) {
@@ -45,13 +26,13 @@ void join_along(const ClothMesh& mesh, const Edge& edge, CornerSets& sets) {
 
 // Vertex by vertex: without seams the nodes are the vertices.
 void number_nodes(const ClothMesh& mesh, MembraneNodes& nodes) {
-  CornerSets sets(3 * mesh.faces());
+  Sets sets(3 * mesh.faces());
   for (int e = 0; e < mesh.interior_edges; ++e) join_along(mesh, mesh.edge[e], sets);
   std::vector<int> number(3 * mesh.faces(), -1);
   nodes.of_face.resize(mesh.faces());
   std::vector<std::vector<int>> faces;
   for (const int corner : mesh.vertex_faces.item) {
-    int& node = number[sets.set_of(corner)];
+    int& node = number[sets.root(corner)];
     if (node < 0) {
       node = static_cast<int>(faces.size());
       faces.emplace_back();

@@ -26,6 +26,7 @@ class MembraneSites {
 
   int count() const { return sites_; }
   const MembraneStiffness<Real>& stiffness() const { return stiffness_; }
+  Real damping() const { return damping_; }  // viscous over elastic stiffness [s]
   const MembraneStress<Real>* stress() const { return stress_.data(); }
   MembraneStress<Real>* stress() { return stress_.data(); }
   // Of elasticity and friction after update(), of the whole stress after evaluate(); its tensile part if
@@ -62,7 +63,7 @@ class MembraneSites {
   Strains strains_;
   int sites_;
   MembraneStiffness<Real> stiffness_;
-  Real damping_;  // viscous over elastic stiffness [s]
+  Real damping_;
   bool is_last_;
   Bytes bytes_;
   Buffer<MembraneStress<Real>, Device> stress_, tension_;

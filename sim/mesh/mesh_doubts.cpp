@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sim/base/number_text.h"
+#include "sim/mesh/corner_sets.h"
 #include "sim/mesh/point_grid.h"
 #include "sim/mesh/weld.h"
 
@@ -14,30 +14,9 @@ namespace {
 // Of the mean edge: nearer vertices are one to who drew the mesh.  Coordinates of six digits round by less.
 constexpr double kCoincident = 1e-3;
 
-// Sets of numbers 0 ... n-1 that are joined one pair at a time.
-class Sets {
- public:
-  explicit Sets(int n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) { parent_[root(i)] = root(j); }
-
- private:
-  std::vector<int> parent_;
-};
-
 // "3 vertices", "1 vertex"
 std::string counted(int n, const char* one, const char* several) {
   return std::to_string(n) + " " + (n == 1 ? one : several);
-}
-
-// 3 * face + corner, where that face has the vertex.
-int corner_at(const ClothMesh& mesh, int face, int vertex) {
-  const Eigen::Vector3i& f = mesh.face[face];
-  return 3 * face + (f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2);
 }
 
 class Doubts {
