@@ -5,15 +5,6 @@ include(CMakePackageConfigHelpers)
 install(TARGETS hysteron)
 install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hysteron/assets)
 
-# The program writes its manual page.
-set(manual ${PROJECT_BINARY_DIR}/hysteron.1)
-add_custom_command(OUTPUT ${manual} COMMAND hysteron manual > ${manual} DEPENDS hysteron VERBATIM)
-add_custom_target(hysteron_manual ALL DEPENDS ${manual})
-install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES experiments/complete/hysteron.bash RENAME hysteron
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(FILES experiments/complete/_hysteron DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
-
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/hysteron)  # below it as in this tree: "sim/time/simulation.h"
 install(DIRECTORY sim render DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/sim DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")

@@ -29,9 +29,7 @@
   entry(rerun) \
   entry(verify) \
   entry(list) \
-  entry(batch) \
-  entry(manual) \
-  entry(complete)
+  entry(batch)
 // clang-format on
 
 namespace hysteron::experiments {

@@ -25,7 +25,7 @@ build --target hysteron
 [[ $# -gt 0 ]] || set -- drape --fabric cotton-broad
 [[ $1 != -* ]] || set -- drape "$@"
 case $1 in
-  list | law | fit | diff | report | manual) exec "$build_folder/hysteron" "$@" ;;
+  list | law | fit | diff | report) exec "$build_folder/hysteron" "$@" ;;
 esac
 
 [[ -n $(out_of "$@") ]] || set -- "$@" --out "$root/out/$1"

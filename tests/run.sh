@@ -10,9 +10,7 @@ optional_test_packages=("${optional_program_packages[@]}" "clang-format-14|check
   "python3-dev|headers of Python, for its package"
   "pybind11-dev|C++ and Python in one module"
   "python3-numpy|arrays in Python"
-  "libxml2-utils|checks JUnit files"
-  "mandoc|checks the manual page"
-  "zsh|reads its completion")
+  "libxml2-utils|checks JUnit files")
 
 install_missing test_packages optional_test_packages
 configure -DHYSTERON_TESTS=ON

@@ -15,19 +15,6 @@ fabrics=$prefix/share/hysteron/assets/fabrics
 sed 's/^name = .*/name = "installed"/' "$fabrics/cotton-broad.toml" >"$fabrics/installed.toml"
 env -u HYSTERON_ASSETS "$prefix/bin/hysteron" list fabrics | grep '^installed' >/dev/null
 
-# Manual and completion.
-grep -q '^\.TH HYSTERON 1' "$prefix/share/man/man1/hysteron.1"
-[[ -f $prefix/share/zsh/site-functions/_hysteron ]]
-# shellcheck disable=SC1091
-(
-  PATH=$prefix/bin:$PATH
-  source "$prefix/share/bash-completion/completions/hysteron"
-  complete -p hysteron >/dev/null
-  COMP_WORDS=(hysteron dra) COMP_CWORD=1
-  _hysteron
-  [[ ${COMPREPLY[*]} == drape ]]
-)
-
 cmake -S "$here/../examples/consumer" -B "$folder/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$prefix" >"$folder/configure.log"
 cmake --build "$folder/consumer" >"$folder/build.log" || { cat "$folder/build.log"; exit 1; }

@@ -1,4 +1,4 @@
-// What the program's exit code says, once for --help, manual and documentation.
+// What the program's exit code says, once for --help and documentation.
 #pragma once
 
 namespace hysteron::experiments {
