@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
 #include "render/color_map.h"
@@ -33,9 +34,12 @@ struct Look {
   Rgb8 backdrop_top{222, 223, 226};            // paper behind and below the scene
   Rgb8 backdrop_bottom{246, 246, 245};
   ColorMap map = ColorMap::diverging;
-  float value_low = -1, value_high = 1;             // ends of the colour map, in the value's unit
-  Eigen::Vector3f to_light{-0.62f, -0.38f, 0.78f};  // key light's direction, any length
+  float value_low = -1, value_high = 1;  // ends of the colour map, in the value's unit
+  // Key light's direction, any length; none: from the left of the picture (key_beside()).
+  std::optional<Eigen::Vector3f> to_light;
   float room = 1;  // brightness of the room around; less of it leaves the key light to model the shape
+  float thickness = 0.5e-3f;        // of the cloth [m]; it is drawn at least as thick as can be seen
+  float sheen = 0.15f;              // of fibres that stand off, 0 = none
   float thread_spacing = 0.45e-3f;  // [m]; cotton broadcloth has 20 to 40 threads a centimetre
   float weave = 1;                  // strength of the threads' relief and unevenness, 0 = smooth
   // Obstacles are drawn smaller by at least this [m], more below coarse cloth (inset.h).

@@ -53,7 +53,8 @@ constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width,
 
 Keys keys_of(F& flags) {
   static const std::vector<std::string> kNames = {
-      "size", "renderer", "look", "light", "camera.direction", "camera.fov", "out", "quiet", "json"};
+      "size",       "quality", "renderer", "look", "light", "camera.direction",
+      "camera.fov", "out",     "quiet",    "json"};
   Keys keys = bind(kRows, flags);
   for (BoundKey& key : bind_options(flags.options)) {
     KeyDescription& what = key.description;

@@ -20,7 +20,7 @@ const KeyRow<Options> kRows[] = {
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
     {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
-    {"quality", at<&O::quality>, "", any(), "draft | final", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8"},
+    {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
     {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | difference | friction | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},

@@ -30,9 +30,11 @@ render::Box framed_box(const Options& options, render::Box box) {
 }  // namespace
 
 render::PictureSize picture_size(const Options& options) {
-  constexpr int kDraftSamples = 4;  // drawn at once
+  constexpr int kDraftSamples = 4;   // drawn at once
+  constexpr int kFigurePasses = 16;  // 192 directions of light
   render::PictureSize size{options.width(), options.height()};
   if (options.quality == "draft") size.samples = kDraftSamples;
+  if (options.quality == "figure") size.figure_passes = kFigurePasses;
   return size;
 }
 
