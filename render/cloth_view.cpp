@@ -1,5 +1,6 @@
 #include "render/cloth_view.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -20,6 +21,8 @@ constexpr int kColorMapUnit = 2;
 constexpr float kLeastThickness = 1.2f;  // of cloth as it is drawn [pixels]
 // Of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
+constexpr float kRaking = 0.3f;      // elevation of a raking light above the cloth's plane [rad]
+constexpr float kLeastAlong = 0.2f;  // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
@@ -45,6 +48,15 @@ ProgramFiles cloth_files(Show show, bool figure) {
 // Whether the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those of its
 // middle.
 bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
+
+// Of the plane that lies nearest to the points.
+Eigen::Vector3f normal_of(std::span<const float> xyz) {
+  const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3, count);
+  const Eigen::Matrix3Xf from_middle = points.colwise() - points.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(from_middle * from_middle.transpose());
+  return axes.eigenvectors().col(0);
+}
 
 Box mesh_box(const TriangleMesh& mesh) {
   if (mesh.positions.empty()) throw Error::request("drawing an obstacle: it has no triangles");
@@ -145,6 +157,7 @@ void ClothView::set_positions(std::span<const float> xyz) {
   cloth_->set_positions(xyz);
   if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
   if (!given_bounds_ || is_figure()) position_bounds_ = box_of(xyz);
+  if (is_figure()) cloth_normal_ = normal_of(xyz);
 }
 
 void ClothView::set_values(std::span<const float> values) {
@@ -164,6 +177,7 @@ bool ClothView::write_positions(std::string& reason) {
   if (!shared_positions_) return false;
   offscreen_.make_current();
   position_bounds_.reset();
+  cloth_normal_.reset();
   if (shared_positions_->write(reason)) return true;
   shared_positions_.reset();
   return false;
@@ -253,7 +267,16 @@ void ClothView::prepare(const Camera& camera) {
 }
 
 Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
-  return look_.to_light ? *look_.to_light : camera.beside(kKeyAzimuth, kKeyElevation);
+  if (look_.to_light) return *look_.to_light;
+  if (!look_.raking) return camera.beside(kKeyAzimuth, kKeyElevation);
+  const Eigen::Vector3f side = camera.beside(kKeyAzimuth, 0), eye = -camera.forward();
+  Eigen::Vector3f normal = cloth_normal_.value_or(eye);
+  if (normal.dot(eye) < 0) normal = -normal;
+  Eigen::Vector3f along = side - side.dot(normal) * normal;
+  if (along.norm() < kLeastAlong) along = Eigen::Vector3f::UnitZ() - normal.z() * normal;
+  Eigen::Vector3f light = std::cos(kRaking) * along.normalized() + std::sin(kRaking) * normal;
+  light.z() = std::max(light.z(), std::sin(kRaking));  // a ground, or the room's floor, hides what is lower
+  return light;
 }
 
 void ClothView::update_body_sky() const {
@@ -373,7 +396,6 @@ void ClothView::set_backdrop(const Program& program, const View& view) const {
   const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
   program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
   program.set("origin", view.origin);
-  program.set("vignette", studio && look_.show != Show::silhouette ? 0.22f : 0.0f);
 }
 
 void ClothView::begin_lit(const Program& program, const View& view) const {
@@ -423,7 +445,11 @@ void ClothView::begin_cloth(const Program& program, const View& view) const {
   program.set("front_albedo", linear(look_.front));
   program.set("back_albedo", linear(look_.back));
   program.set("sheen", look_.sheen);
-  program.set("thread_spacing", look_.thread_spacing);
+  const float weft_spacing = look_.weft_spacing > 0 ? look_.weft_spacing : look_.thread_spacing;
+  program.set("thread_spacing", Eigen::Vector2f(weft_spacing, look_.thread_spacing));
+  program.set("weave_kind", static_cast<int>(look_.weave_kind));
+  program.set("shown", look_.shown);
+  program.set("grid", look_.grid);
   program.set("weave_strength", look_.weave);
   program.set("value_range", Eigen::Vector2f(look_.value_low, look_.value_high));
   program.set("color_map", kColorMapUnit);

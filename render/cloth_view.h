@@ -145,6 +145,7 @@ class ClothView {
   float cloth_side_ = 0;        // long_side() of the cloth [m]
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
+  std::optional<Eigen::Vector3f> cloth_normal_;  // of its own plane, of a figure whose positions are known
   Look look_;
 };
 

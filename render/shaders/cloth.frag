@@ -3,16 +3,18 @@ in Surface {
 #include "surface.glsl"
 };
 uniform vec3 front_albedo, back_albedo;
+uniform float sheen;  // fibres that stand off catch light at grazing angles
 uniform sampler2D color_map;
 uniform vec2 value_range;
 out vec4 color;
 
 #include "light.glsl"
+#include "grid.glsl"
 #include "weave.glsl"
 #include "threads.glsl"
+#include "tone.glsl"
 
 const float kThrough = 0.16;  // share of the key light that a sheet passes on to its other side
-const float kSheen = 0.10;    // fibres that stand off catch light at grazing angles
 
 #ifdef WIREFRAME
 #include "wireframe.glsl"
@@ -38,12 +40,13 @@ void main() {
   vec3 shown = texture(color_map, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   // Colours must stay readable against the colour bar: the light only models the shape.
   float brightness = dot(light + fill, vec3(0.3333));
-  color = vec4(shown * mix(0.42, 1.0, min(brightness, 1.0)), 1);
+  color = vec4(shown * mix(0.8, 1.0, min(brightness, 1.0)), 1);
 #else
   vec3 albedo = (gl_FrontFacing ? front_albedo : back_albedo) * weave.shade;
+  albedo = mix(albedo, vec3(0.03, 0.035, 0.05), 0.85 * printed(thread));
   float grazing = pow(1.0 - max(dot(normal, view), 0.0), 4.0);
-  vec3 sheen = kSheen * grazing * light;
-  color = vec4(albedo * (light + fill) + sheen, 1);
+  vec3 fuzz = sheen * grazing * light;
+  color = vec4(toned(albedo * (light + fill) + fuzz), 1);
 #endif
 #ifdef WIREFRAME
   color.rgb = mix(color.rgb, vec3(0.02, 0.03, 0.05), 0.85 * edge_coverage());

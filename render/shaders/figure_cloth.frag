@@ -10,6 +10,7 @@ out vec4 color;
 
 #include "eye.glsl"
 #include "figure_light.glsl"
+#include "grid.glsl"
 #include "weave.glsl"
 #include "threads.glsl"
 #include "tone.glsl"
@@ -77,6 +78,7 @@ void main() {
   color = vec4(shown * mix(0.8, 1.0, min(kExposure * dot(light.reflected, vec3(0.3333)), 1.0)), 1);
 #else
   vec3 albedo = (gl_FrontFacing ? front_albedo : back_albedo) * weave.shade;
+  albedo = mix(albedo, vec3(0.03, 0.035, 0.05), 0.85 * printed(thread));
   float grazing = pow(1.0 - max(dot(normal, view), 0.0), 3.0);
   vec3 base = albedo * ((1.0 - kThrough) * light.reflected + kThrough * light.through + kNeighbours * albedo * light.hidden);
   color = vec4(toned(kExposure * (base * (1.0 - sheen * grazing) + sheen * light.sheen)), 1);

@@ -10,6 +10,7 @@ out vec4 color;
 
 void main() {
   float near = 1.0 - smoothstep(0.6, 1.0, length(place));
-  vec3 light = mix(vec3(1), min(texture(ground_light, 0.5 * texture_of(place) + 0.5).rgb, vec3(1)), near);
+  vec3 hidden = max(1.0 - texture(ground_light, 0.5 * texture_of(place) + 0.5).rgb, 0.0);
+  vec3 light = 1.0 - kShadowDepth * fade() * near * hidden;
   color = alone > 0.5 ? shadow_layer(light) : vec4(backdrop() * light, 1);
 }

@@ -7,15 +7,16 @@ uniform sampler2D key_depth;  // the same map, the depths themselves
 uniform mat4 key_matrix;
 uniform float key_texel;  // size of a texel in the world [m]
 
-const float kKeySize = 0.06;     // radius of the light over its distance: 3.4 degrees
 const float kSharpest = 1.5;     // least radius of a lookup [texels]: what the map resolves
 const float kSearchMargin = 1.3;  // blockers are looked for beyond the light's rim, else edges would begin with a step
 const float kSteepest = 5.0;     // the key light fades out on surfaces steeper than this to it
 #ifdef GROUND
+const float kKeySize = 0.16;  // radius of the light over its distance: 9 degrees, for shadows that leave the eye to the cloth
 const int kSearchTaps = 48;
 const float kTapsPerTexel = 4.0;
 const float kMostTaps = 64.0;
 #else
+const float kKeySize = 0.06;  // 3.4 degrees
 const int kSearchTaps = 22;
 const float kTapsPerTexel = 3.0;
 const float kMostTaps = 32.0;
