@@ -33,16 +33,23 @@ Eigen::Vector3f linear(const Rgb8& color) {
   return {table[color[0]], table[color[1]], table[color[2]]};
 }
 
+std::string_view cloth_defines(Show show, bool figure) {
+  switch (show) {
+    case Show::curvature:
+    case Show::friction:
+      return figure ? "#define FIELD\n#define FIGURE\n" : "#define FIELD\n";
+    case Show::wireframe:
+      return figure ? "#define WIREFRAME\n#define FIGURE\n" : "#define WIREFRAME\n";
+    default:
+      return figure ? "#define FIGURE\n" : "";
+  }
+}
+
 ProgramFiles cloth_files(Show show, bool figure) {
   const char* const fragment = show == Show::silhouette ? "silhouette.frag"
                                : figure                 ? "figure_cloth.frag"
                                                         : "cloth.frag";
-  const bool is_field = show == Show::curvature || show == Show::friction;
-  return {.vertex = "surface.vert",
-          .fragment = fragment,
-          .defines = is_field                  ? "#define FIELD\n"
-                     : show == Show::wireframe ? "#define WIREFRAME\n"
-                                               : ""};
+  return {.vertex = "surface.vert", .fragment = fragment, .defines = cloth_defines(show, figure)};
 }
 
 // Whether the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those of its
@@ -130,7 +137,7 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
       matte_program_(gl_, {.vertex = "surface.vert",
                            .fragment = is_figure() ? "figure_matte.frag" : "matte.frag",
-                           .defines = ""}),
+                           .defines = cloth_defines(Show::cloth, is_figure())}),
       body_sky_program_(gl_,
                         {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       color_map_(gl_),

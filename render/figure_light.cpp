@@ -19,7 +19,10 @@ constexpr float kKeyRadius = 0.15f;                 // of the key light over its
 constexpr float kBorder = 1.04f;                    // the maps' border stays empty: outside of them is light
 const Eigen::Vector3f kKey{4.1f, 4.0f, 3.87f};      // on a surface that faces it
 const Eigen::Vector3f kSky{0.96f, 1.0f, 1.06f};     // on a surface that faces up
-const Eigen::Vector3f kFloor{0.76f, 0.75f, 0.73f};  // on a surface that faces down
+const Eigen::Vector3f kFloor{0.91f, 0.90f, 0.88f};  // on a surface that faces down
+
+constexpr float kOpenLight = 3;        // of the studio on open ground: half the key's and the sky's
+constexpr float kLeastExposed = 0.4f;  // a dim room is exposed longer, for its key light alone
 
 float u(int index, int base) { return static_cast<float>(radical_inverse(index, base)); }
 
@@ -115,6 +118,7 @@ void FigureLight::bind(const Program& program) const {
   program.set("room_map", kRoomUnit);
   const auto passes = static_cast<float>(passes_);  // each draws the whole light of its directions
   program.set("open_ground", open_);
+  program.set("exposure", 1 / (kOpenLight * (kLeastExposed + (1 - kLeastExposed) * room_)));
   for (int k = 0; k < kPassLights; ++k) {
     const std::string index = "[" + std::to_string(k) + "]";
     program.set(("light_matrix" + index).c_str(), matrices_[k]);

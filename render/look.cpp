@@ -9,15 +9,14 @@ namespace hysteron::render {
 namespace {
 
 // Near white stands for values then: the paper must not.
-void shade_backdrop(Look& look) {
-  look.backdrop_top = {196, 199, 204};
-  look.backdrop_bottom = {224, 225, 226};
-}
+void shade_backdrop(Look& look) { look.backdrop_top = look.backdrop_bottom = {224, 225, 226}; }
 
 }  // namespace
 
 Look look_named(std::string_view name) {
   Look look;
+  look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
+  look.back = {172, 186, 206};
   if (name == "cloth") return look;
   if (name == "grid") {
     look.grid = 0.01f;

@@ -44,7 +44,7 @@ void main() {
 #else
   vec3 albedo = (gl_FrontFacing ? front_albedo : back_albedo) * weave.shade;
   albedo = mix(albedo, vec3(0.03, 0.035, 0.05), 0.85 * printed(thread));
-  float grazing = pow(1.0 - max(dot(normal, view), 0.0), 4.0);
+  float grazing = pow(1.0 - max(dot(normal, view), 0.15), 4.0);
   vec3 fuzz = sheen * grazing * light;
   color = vec4(toned(albedo * (light + fill) + fuzz), 1);
 #endif

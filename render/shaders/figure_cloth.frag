@@ -10,6 +10,7 @@ out vec4 color;
 
 #include "eye.glsl"
 #include "figure_light.glsl"
+#include "rounded.glsl"
 #include "grid.glsl"
 #include "weave.glsl"
 #include "threads.glsl"
@@ -19,14 +20,7 @@ out vec4 color;
 #endif
 
 const float kThrough = 0.10;      // share of light that a sheet passes on to its other side
-const float kNeighbours = 0.8;    // light that cloth around throws back, over its albedo; the sky's: 1
-
-// Where the smooth normal faces the light and the triangle does not, the light ends softly (Chiang, Li and Burley 2019,
-// Eq. 3).
-float soft_terminator(vec3 flat_normal, vec3 normal, vec3 direction, float facing) {
-  float g = clamp(dot(flat_normal, direction) / max(facing * dot(flat_normal, normal), 1e-4), 0.0, 1.0);
-  return g * (1.0 + g * (1.0 - g));
-}
+const float kNeighbours = 1.1;    // light that cloth around throws back, over its albedo; the sky's: 1
 
 // Fibres that stand off a surface (Estevez and Kulla 2017, Eq. 2, roughness 0.4; visibility of Neubelt and Pettineo 2013).
 float sheen_of(vec3 normal, vec3 view, vec3 direction, float facing) {
@@ -41,16 +35,16 @@ struct Light {
   vec3 hidden;                     // what cloth hides
 };
 
-Light light_at(vec3 point, vec3 normal, vec3 fine, vec3 flat_normal, vec3 view) {
+Light light_at(vec3 point, vec3 normal, vec3 fine, vec3 view) {
+  float below = below_round(point, normal);
   Light light = Light(vec3(0), vec3(0), vec3(0), vec3(0));
   for (int k = 0; k < kLights; ++k) {
     vec3 direction = light_direction[k];
     float facing = dot(normal, direction), near_side = sign(facing);
-    float open = open_to(k, point, near_side * normal, facing);
+    float open = open_to(k, point + near_side * max(near_side * below, 0.0) * normal, near_side * normal, facing);
     vec3 arriving = open * light_weight[k];
     float lit = max(dot(fine, direction), 0.0) * step(0.0, facing);
     if (k < kKeys) {
-      lit *= soft_terminator(flat_normal, normal, direction, max(facing, 0.0));
       light.sheen += arriving * sheen_of(normal, view, direction, max(facing, 0.0));
     } else {
       light.hidden += (1.0 - open) * light_weight[k] * max(facing, 0.0);
@@ -65,23 +59,21 @@ void main() {
   vec3 view = toward_eye(world);
   vec3 normal = normalize(world_normal);
   if (!gl_FrontFacing) normal = -normal;
-  vec3 flat_normal = normalize(cross(dFdx(world), dFdy(world)));
-  flat_normal *= sign(dot(flat_normal, normal));
   Weave weave = weave_at(thread);
   vec3 fine = with_threads(normal, weave.tilt);
-  Light light = light_at(world, normal, fine, flat_normal, view);
+  Light light = light_at(world, normal, fine, view);
 
 #ifdef FIELD
   float t = clamp((field - value_range.x) / (value_range.y - value_range.x), 0.0, 1.0);
   vec3 shown = texture(color_map, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   // Colours must stay readable against the colour bar: the light only models the shape.
-  color = vec4(shown * mix(0.8, 1.0, min(kExposure * dot(light.reflected, vec3(0.3333)), 1.0)), 1);
+  color = vec4(shown * mix(0.8, 1.0, min(exposure * dot(light.reflected, vec3(0.3333)), 1.0)), 1);
 #else
   vec3 albedo = (gl_FrontFacing ? front_albedo : back_albedo) * weave.shade;
   albedo = mix(albedo, vec3(0.03, 0.035, 0.05), 0.85 * printed(thread));
   float grazing = pow(1.0 - max(dot(normal, view), 0.0), 3.0);
   vec3 base = albedo * ((1.0 - kThrough) * light.reflected + kThrough * light.through + kNeighbours * albedo * light.hidden);
-  color = vec4(toned(kExposure * (base * (1.0 - sheen * grazing) + sheen * light.sheen)), 1);
+  color = vec4(toned(exposure * (base * (1.0 - sheen * grazing) + sheen * light.sheen)), 1);
 #endif
 #ifdef WIREFRAME
   color.rgb = mix(color.rgb, vec3(0.02, 0.03, 0.05), 0.85 * edge_coverage());

@@ -10,7 +10,7 @@ uniform float light_texel[kLights];  // size of a map's texel [m]
 
 const vec2 kKeyTiles = vec2(2, 2);
 const vec2 kRoomTiles = vec2(4, 2);
-const float kExposure = 1.0 / 3.0;  // makes open ground under the studio's light as bright as its colour
+uniform float exposure;  // makes open ground under the studio's light as bright as its colour
 
 // Of a tile, the share that a point is looked up in: tiles do not run into each other, their borders are empty.
 vec3 in_tile(vec3 p, int tile, vec2 tiles) {

@@ -19,6 +19,12 @@ void main() {
     vec3 up = end[i].world_normal;
     world_normal = normalize(cross(along, up));
     world = end[i].world + (corner < 2 ? -1.0 : 1.0) * half_thickness(end[i].world) * up;
+#ifdef FIGURE
+    vec3 n = world_normal;
+    facing_planes = dot(n, world) * n;
+    planes_square = n * n;
+    planes_mixed = n.xxy * n.yzz;
+#endif
     thread = end[i].thread;
     field = end[i].field;
     vec4 seen = end[i].sky;

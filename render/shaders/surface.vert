@@ -19,6 +19,12 @@ void main() {
   world_normal = mat3(model) * normal;
   world = (model * vec4(keep * position - inset * normal, 1)).xyz;
   world += side * half_thickness(world) * world_normal;
+#ifdef FIGURE
+  vec3 n = normalize(world_normal);
+  facing_planes = dot(n, world) * n;
+  planes_square = n * n;
+  planes_mixed = n.xxy * n.yzz;
+#endif
   thread = pattern;
   field = value;
   sky = vertex_sky;

@@ -1,5 +1,5 @@
-// What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges as
-// thick as the cloth.
+// What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges
+// as thick as the cloth.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,8 +103,8 @@ TEST_F(FigureTest, SixteenPassesHaveDirectionsEnough) {
   EXPECT_LE(std::abs(sum / (kWidth * kHeight)), 0.3);
 }
 
-// Between the shadow's umbra and open ground, under a sheet: lightness along a line, less the cubic that fits it
-// best, has no steps.
+// Between the shadow's umbra and open ground, under a sheet: lightness along a line, less the cubic that fits
+// it best, has no steps.
 double roughness(const std::vector<double>& y) {
   Eigen::MatrixXd powers(static_cast<long>(y.size()), 4);
   for (long i = 0; i < powers.rows(); ++i) {
