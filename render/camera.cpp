@@ -136,10 +136,19 @@ bool Camera::frames(std::span<const float> positions, float aspect) const {
   return true;
 }
 
+Eigen::Vector3f Camera::beside(float azimuth, float elevation) const {
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ(), right = forward().cross(up_).normalized();
+  const float a = azimuth * std::numbers::pi_v<float> / 180, e = elevation * std::numbers::pi_v<float> / 180;
+  return std::cos(e) * (std::cos(a) * right.cross(up) - std::sin(a) * right) + std::sin(e) * up;
+}
+
+float Camera::metres_per_pixel(int height) const {
+  return 2 * (is_orthographic() ? half_height_ : tan_half_fov_) / static_cast<float>(height);
+}
+
 float Camera::metres_per_pixel(const Eigen::Vector3f& point, int height) const {
-  if (is_orthographic()) return 2 * half_height_ / static_cast<float>(height);
-  const float distance = (point - eye_).dot((target_ - eye_).normalized());
-  return 2 * tan_half_fov_ * distance / static_cast<float>(height);
+  const float distance = is_orthographic() ? 1 : (point - eye_).dot((target_ - eye_).normalized());
+  return distance * metres_per_pixel(height);
 }
 
 }  // namespace hysteron::render

@@ -43,6 +43,12 @@ class Camera {
   const Eigen::Vector3f& eye() const { return eye_; }
   Eigen::Vector3f forward() const { return (target_ - eye_).normalized(); }
   bool is_orthographic() const { return half_height_ > 0; }
+  // Direction to a key light beside the camera: `azimuth` counted from the camera around gravity, to the left
+  // of the picture, and `elevation` above the horizon [degree].
+  Eigen::Vector3f beside(float azimuth, float elevation) const;
+  // Length across the view that a pixel of a picture `height` pixels high shows, where clip space's w is 1
+  // [m].
+  float metres_per_pixel(int height) const;
 
   // Length at `point`, across the view, that one pixel of a picture `height` pixels high shows [m].
   float metres_per_pixel(const Eigen::Vector3f& point, int height) const;

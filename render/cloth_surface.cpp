@@ -1,6 +1,7 @@
 #include "render/cloth_surface.h"
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "render/gl/capture.h"
@@ -63,6 +64,7 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
           gl,
           {.vertex = "sky.vert", .fragment = "", .defines = "#define CLOTH\n", .captured = {"vertex_sky"}}),
       arrays_(gl),
+      boundary_arrays_(gl),
       point_arrays_(gl),
       no_arrays_(gl),
       positions_(gl),
@@ -71,6 +73,7 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
       values_(gl),
       pattern_(gl),
       indices_(gl),
+      boundary_indices_(gl),
       corner_start_(gl),
       corners_(gl),
       position_texture_(gl),
@@ -86,6 +89,7 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
                          " items");
   upload_topology(topology);
   upload_adjacency(topology);
+  upload_boundary(topology);
   bind_attributes(topology);
   set_values({});
   check_gl(gl, "uploading a cloth");
@@ -123,13 +127,31 @@ void ClothSurface::upload_adjacency(const ClothTopology& topology) {
   view_as_texture(*gl_, corner_texture_, GL_RG32I, corners_);
 }
 
+void ClothSurface::upload_boundary(const ClothTopology& topology) {
+  const auto& t = topology.triangles;
+  const auto side = [&](int from, int to) {
+    return static_cast<std::uint64_t>(from) * vertices_ + static_cast<std::uint64_t>(to);
+  };
+  const auto next = [](size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+  std::unordered_set<std::uint64_t> sides;
+  for (size_t i = 0; i < 3 * triangles_; ++i) sides.insert(side(t[i], t[next(i)]));
+  std::vector<int> ends;
+  for (size_t i = 0; i < 3 * triangles_; ++i)
+    if (!sides.contains(side(t[next(i)], t[i]))) ends.insert(ends.end(), {t[i], t[next(i)]});
+  boundary_ = ends.size() / 2;
+  upload<int>(*gl_, boundary_indices_, ends, GL_STATIC_DRAW);
+}
+
 void ClothSurface::bind_attributes(const ClothTopology& topology) {
-  gl_->BindVertexArray(arrays_.name());
-  attribute(*gl_, kPosition, positions_, 3);
-  attribute(*gl_, kNormal, normals_, 3);
-  attribute(*gl_, kSky, sky_, 4);
-  if (!topology.pattern.empty()) attribute(*gl_, kPattern, pattern_, 2);
-  gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+  for (const GlVertexArray* arrays : {&arrays_, &boundary_arrays_}) {
+    gl_->BindVertexArray(arrays->name());
+    attribute(*gl_, kPosition, positions_, 3);
+    attribute(*gl_, kNormal, normals_, 3);
+    attribute(*gl_, kSky, sky_, 4);
+    if (!topology.pattern.empty()) attribute(*gl_, kPattern, pattern_, 2);
+    const GlBuffer& indices = arrays == &arrays_ ? indices_ : boundary_indices_;
+    gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
+  }
   gl_->BindVertexArray(point_arrays_.name());  // without the sky light, which is written from it
   attribute(*gl_, kPosition, positions_, 3);
   attribute(*gl_, kNormal, normals_, 3);
@@ -142,15 +164,19 @@ void ClothSurface::set_positions(std::span<const float> xyz) {
 }
 
 void ClothSurface::set_values(std::span<const float> values) {
-  gl_->BindVertexArray(arrays_.name());
-  if (values.empty()) {
-    gl_->DisableVertexAttribArray(kValue);
-    gl_->VertexAttrib1f(kValue, 0.0f);
-    return;
+  if (!values.empty()) {
+    require_count("values", values.size(), vertices_);
+    upload<float>(*gl_, values_, values, GL_DYNAMIC_DRAW);
   }
-  require_count("values", values.size(), vertices_);
-  upload<float>(*gl_, values_, values, GL_DYNAMIC_DRAW);
-  attribute(*gl_, kValue, values_, 1);
+  for (const GlVertexArray* arrays : {&arrays_, &boundary_arrays_}) {
+    gl_->BindVertexArray(arrays->name());
+    if (!values.empty()) {
+      attribute(*gl_, kValue, values_, 1);
+    } else {
+      gl_->DisableVertexAttribArray(kValue);
+      gl_->VertexAttrib1f(kValue, 0.0f);
+    }
+  }
 }
 
 void ClothSurface::bind_buffer_texture(int unit, const GlTexture& texture) const {
@@ -180,6 +206,11 @@ void ClothSurface::draw() const {
   bind_buffer_texture(kIndexUnit, index_texture_);
   gl_->BindVertexArray(arrays_.name());
   gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles_), GL_UNSIGNED_INT, nullptr);
+}
+
+void ClothSurface::draw_boundary() const {
+  gl_->BindVertexArray(boundary_arrays_.name());
+  gl_->DrawElements(GL_LINES, static_cast<GLsizei>(2 * boundary_), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace hysteron::render

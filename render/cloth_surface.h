@@ -42,18 +42,22 @@ class ClothSurface {
   void update_sky(const ShadowMaps& shadows) const;
   // One draw call of all triangles with the program in use.
   void draw() const;
+  // The sides that belong to one triangle only, as lines in its sense.
+  void draw_boundary() const;
 
  private:
   void upload_topology(const ClothTopology& topology);
   void upload_adjacency(const ClothTopology& topology);
+  void upload_boundary(const ClothTopology& topology);
   void bind_attributes(const ClothTopology& topology);
   void bind_buffer_texture(int unit, const GlTexture& texture) const;
 
   const GlFunctions* gl_;
-  size_t vertices_, triangles_;
+  size_t vertices_, triangles_, boundary_ = 0;
   Program normal_program_, sky_program_;
-  GlVertexArray arrays_, point_arrays_, no_arrays_;
-  GlBuffer positions_, normals_, sky_, values_, pattern_, indices_, corner_start_, corners_;
+  GlVertexArray arrays_, boundary_arrays_, point_arrays_, no_arrays_;
+  GlBuffer positions_, normals_, sky_, values_, pattern_, indices_, boundary_indices_, corner_start_,
+      corners_;
   GlTexture position_texture_, index_texture_, corner_start_texture_, corner_texture_;
 };
 

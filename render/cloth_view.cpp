@@ -1,5 +1,6 @@
 #include "render/cloth_view.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,7 +16,13 @@ namespace {
 // Of a pixel: the standard pattern of D3D 11 and Vulkan.  Eight lie elsewhere on every driver, which shows
 // along every edge when pictures are compared.
 constexpr int kSamplesAtOnce = 4;
+constexpr int kFigureSamples = 1;  // a figure has passes enough
 constexpr int kColorMapUnit = 2;
+constexpr float kLeastThickness = 1.2f;  // of cloth as it is drawn [pixels]
+// Of the key light beside the camera [degree].
+constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
+constexpr float kRaking = 0.3f;      // elevation of a raking light above the cloth's plane [rad]
+constexpr float kLeastAlong = 0.2f;  // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
@@ -26,18 +33,36 @@ Eigen::Vector3f linear(const Rgb8& color) {
   return {table[color[0]], table[color[1]], table[color[2]]};
 }
 
-ProgramFiles cloth_files(Show show) {
+std::string_view cloth_defines(Show show, bool figure) {
   switch (show) {
     case Show::curvature:
     case Show::friction:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define FIELD\n"};
+      return figure ? "#define FIELD\n#define FIGURE\n" : "#define FIELD\n";
     case Show::wireframe:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = "#define WIREFRAME\n"};
-    case Show::silhouette:
-      return {.vertex = "surface.vert", .fragment = "silhouette.frag", .defines = ""};
+      return figure ? "#define WIREFRAME\n#define FIGURE\n" : "#define WIREFRAME\n";
     default:
-      return {.vertex = "surface.vert", .fragment = "cloth.frag", .defines = ""};
+      return figure ? "#define FIGURE\n" : "";
   }
+}
+
+ProgramFiles cloth_files(Show show, bool figure) {
+  const char* const fragment = show == Show::silhouette ? "silhouette.frag"
+                               : figure                 ? "figure_cloth.frag"
+                                                        : "cloth.frag";
+  return {.vertex = "surface.vert", .fragment = fragment, .defines = cloth_defines(show, figure)};
+}
+
+// Whether the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those of its
+// middle.
+bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
+
+// Of the plane that lies nearest to the points.
+Eigen::Vector3f normal_of(std::span<const float> xyz) {
+  const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xf> points(xyz.data(), 3, count);
+  const Eigen::Matrix3Xf from_middle = points.colwise() - points.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes(from_middle * from_middle.transpose());
+  return axes.eigenvectors().col(0);
 }
 
 Box mesh_box(const TriangleMesh& mesh) {
@@ -104,10 +129,15 @@ ClothView::ClothView(Offscreen& offscreen, const PictureSize& size)
       part_width_(part_side(size.width, size_.tile)),
       part_height_(part_side(size.height, size_.tile)),
       target_(gl_, part_width_ * size.supersample, part_height_ * size.supersample,
-              std::min(size.samples, kSamplesAtOnce)),
+              size.figure_passes > 0 ? kFigureSamples : std::min(size.samples, kSamplesAtOnce)),
       shadows_(gl_),
+      figure_light_(size.figure_passes > 0
+                        ? std::optional<FigureLight>(std::in_place, gl_, size.figure_passes)
+                        : std::nullopt),
       backdrop_program_(gl_, {.vertex = "backdrop.vert", .fragment = "backdrop.frag", .defines = ""}),
-      matte_program_(gl_, {.vertex = "surface.vert", .fragment = "matte.frag", .defines = ""}),
+      matte_program_(gl_, {.vertex = "surface.vert",
+                           .fragment = is_figure() ? "figure_matte.frag" : "matte.frag",
+                           .defines = cloth_defines(Show::cloth, is_figure())}),
       body_sky_program_(gl_,
                         {.vertex = "sky.vert", .fragment = "", .defines = "", .captured = {"vertex_sky"}}),
       color_map_(gl_),
@@ -133,7 +163,8 @@ void ClothView::set_positions(std::span<const float> xyz) {
   offscreen_.make_current();
   cloth_->set_positions(xyz);
   if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
-  if (!given_bounds_) position_bounds_ = box_of(xyz);
+  if (!given_bounds_ || is_figure()) position_bounds_ = box_of(xyz);
+  if (is_figure()) cloth_normal_ = normal_of(xyz);
 }
 
 void ClothView::set_values(std::span<const float> values) {
@@ -152,6 +183,8 @@ void ClothView::share_positions(std::unique_ptr<GlPositions> positions) {
 bool ClothView::write_positions(std::string& reason) {
   if (!shared_positions_) return false;
   offscreen_.make_current();
+  position_bounds_.reset();
+  cloth_normal_.reset();
   if (shared_positions_->write(reason)) return true;
   shared_positions_.reset();
   return false;
@@ -180,20 +213,26 @@ void ClothView::show_obstacle(int number, bool visible) { obstacle(number).visib
 void ClothView::set_ground(std::optional<float> height) {
   offscreen_.make_current();
   ground_height_ = height;
-  if (height && !ground_) ground_.emplace(gl_);
+  if (height && !ground_) ground_.emplace(gl_, is_figure());
 }
 
 void ClothView::set_bounds(const Box& bounds) { given_bounds_ = bounds; }
 
 void ClothView::set_look(const Look& look) {
   offscreen_.make_current();
-  if (!cloth_program_ || look.show != look_.show) cloth_program_.emplace(gl_, cloth_files(look.show));
+  if (!cloth_program_ || look.show != look_.show) {
+    ProgramFiles files = cloth_files(look.show, is_figure());
+    cloth_program_.emplace(gl_, files);
+    files.geometry = "rim.geom";
+    if (has_thickness(look.show)) rim_program_.emplace(gl_, files);
+  }
   look_ = look;
   upload_color_map(gl_, color_map_, look.map);
 }
 
+// Of a figure the box of its own instant, if known: the tighter, the sharper its shadows.
 Box ClothView::bounds() const {
-  if (given_bounds_) return *given_bounds_;
+  if (given_bounds_ && !(is_figure() && position_bounds_)) return *given_bounds_;
   std::optional<Box> box = position_bounds_;
   for (const Obstacle& obstacle : obstacles_) {
     if (!obstacle.visible) continue;
@@ -204,7 +243,7 @@ Box ClothView::bounds() const {
 }
 
 Image ClothView::draw(const Camera& camera) {
-  prepare();
+  prepare(camera);
   shows_cloth_ = false;
   Image image(size_.width, size_.height, is_transparent() ? 4 : 3);
   for (int top = 0; top < size_.height; top += part_height_)
@@ -214,7 +253,7 @@ Image ClothView::draw(const Camera& camera) {
 }
 
 // What does not depend on the camera.
-void ClothView::prepare() {
+void ClothView::prepare(const Camera& camera) {
   offscreen_.make_current();
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
@@ -222,11 +261,29 @@ void ClothView::prepare() {
                     // taken it away
   if (cloth_) cloth_->update_normals();
   if (look_.show == Show::silhouette) return;
-  shadows_.aim(bounds(), look_.to_light, look_.room);
+  if (is_figure()) {
+    figure_light_->aim(bounds(), to_light(camera), look_.room);
+    if (ground_height_) ground_->place(bounds(), *ground_height_);
+    return;
+  }
+  shadows_.aim(bounds(), to_light(camera), look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
   update_body_sky();
   if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+}
+
+Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
+  if (look_.to_light) return *look_.to_light;
+  if (!look_.raking) return camera.beside(kKeyAzimuth, kKeyElevation);
+  const Eigen::Vector3f side = camera.beside(kKeyAzimuth, 0), eye = -camera.forward();
+  Eigen::Vector3f normal = cloth_normal_.value_or(eye);
+  if (normal.dot(eye) < 0) normal = -normal;
+  Eigen::Vector3f along = side - side.dot(normal) * normal;
+  if (along.norm() < kLeastAlong) along = Eigen::Vector3f::UnitZ() - normal.z() * normal;
+  Eigen::Vector3f light = std::cos(kRaking) * along.normalized() + std::sin(kRaking) * normal;
+  light.z() = std::max(light.z(), std::sin(kRaking));  // a ground, or the room's floor, hides what is lower
+  return light;
 }
 
 void ClothView::update_body_sky() const {
@@ -242,15 +299,20 @@ void ClothView::update_body_sky() const {
 // The part of the picture whose upper left pixel is at (left, top).
 Image ClothView::draw_part(const Camera& camera, int left, int top) {
   Exposure exposure(part_width_, part_height_, size_.supersample);
-  const int passes = (size_.samples + target_.samples() - 1) / target_.samples();
+  const bool lit = is_figure() && look_.show != Show::silhouette;
+  const int passes =
+      is_figure() ? figure_light_->passes() : (size_.samples + target_.samples() - 1) / target_.samples();
   for (int pass = 0; pass < passes; ++pass) {
+    if (lit) figure_light_->draw(pass, [this](const Program& program) { draw_casters(program); });
     target_.begin();
-    const View view = view_of(camera, left, top, pass_shift(pass, passes, target_.samples()));
+    const View view =
+        view_of(camera, left, top,
+                is_figure() ? bell_shift(pass, passes) : pass_shift(pass, passes, target_.samples()));
     draw_scene(view);
     shows_cloth_ = shows_cloth_ || is_cloth_seen(view);
     exposure.add(target_.finish());
   }
-  return exposure.image(is_transparent());
+  return exposure.image(is_transparent(), left, top);
 }
 
 ClothView::View ClothView::view_of(const Camera& camera, int left, int top, const Shift& shift) const {
@@ -259,9 +321,12 @@ ClothView::View ClothView::view_of(const Camera& camera, int left, int top, cons
   const Window window{(left + dx) / width, (bottom + dy) / height, (left + part_width_ + dx) / width,
                       (bottom + part_height_ + dy) / height};
   const auto scale = static_cast<float>(size_.supersample);
-  return {camera.projection(static_cast<float>(width / height), window) * camera.view(), camera.eye(),
-          camera.forward(), camera.is_orthographic(),
-          scale * Eigen::Vector2f(static_cast<float>(left), static_cast<float>(bottom))};
+  return {camera.projection(static_cast<float>(width / height), window) * camera.view(),
+          camera.eye(),
+          camera.forward(),
+          camera.is_orthographic(),
+          scale * Eigen::Vector2f(static_cast<float>(left), static_cast<float>(bottom)),
+          camera.metres_per_pixel(size_.height * size_.supersample)};
 }
 
 // The placement of a body that is drawn smaller by `inset` [m] on all sides, stretched upright so that one
@@ -331,14 +396,13 @@ bool ClothView::is_transparent() const {
 }
 
 void ClothView::set_backdrop(const Program& program, const View& view) const {
-  const bool studio = look_.background == Background::studio;
+  const bool studio = look_.background == Background::studio && !is_figure();
   const Rgb8 white{255, 255, 255};
   program.set("backdrop_top", linear(studio ? look_.backdrop_top : white));
   program.set("backdrop_bottom", linear(studio ? look_.backdrop_bottom : white));
   const Eigen::Vector2i drawn = size_.supersample * Eigen::Vector2i(size_.width, size_.height);
   program.set("picture_size", Eigen::Vector2f(drawn.cast<float>()));
   program.set("origin", view.origin);
-  program.set("vignette", studio && look_.show != Show::silhouette ? 0.22f : 0.0f);
 }
 
 void ClothView::begin_lit(const Program& program, const View& view) const {
@@ -348,7 +412,13 @@ void ClothView::begin_lit(const Program& program, const View& view) const {
   program.set("eye", view.eye);
   program.set("view_forward", view.forward);
   program.set("orthographic", view.orthographic ? 1.0f : 0.0f);
-  shadows_.bind(program);
+  program.set("side", 0.0f);
+  program.set("sheet_half", 0.0f);
+  program.set("least_half", 0.0f);
+  if (is_figure())
+    figure_light_->bind(program);
+  else
+    shadows_.bind(program);
 }
 
 void ClothView::draw_backdrop(const View& view) const {
@@ -361,6 +431,7 @@ void ClothView::draw_backdrop(const View& view) const {
 void ClothView::draw_ground(const View& view) const {
   const Program& program = ground_->begin();
   program.set("view_projection", view.view_projection);
+  if (is_figure()) figure_light_->bind(program);
   set_backdrop(program, view);
   program.set("alone", is_transparent() ? 1.0f : 0.0f);
   ground_->draw();
@@ -376,19 +447,40 @@ void ClothView::draw_obstacles(const View& view) const {
   }
 }
 
-void ClothView::draw_cloth(const View& view) const {
-  begin_lit(*cloth_program_, view);
-  cloth_program_->set("front_albedo", linear(look_.front));
-  cloth_program_->set("back_albedo", linear(look_.back));
-  cloth_program_->set("thread_spacing", look_.thread_spacing);
-  cloth_program_->set("weave_strength", look_.weave);
-  cloth_program_->set("value_range", Eigen::Vector2f(look_.value_low, look_.value_high));
-  cloth_program_->set("color_map", kColorMapUnit);
-  cloth_program_->set("position", kPositionUnit);
-  cloth_program_->set("corner_index", kIndexUnit);
+void ClothView::begin_cloth(const Program& program, const View& view) const {
+  begin_lit(program, view);
+  program.set("front_albedo", linear(look_.front));
+  program.set("back_albedo", linear(look_.back));
+  program.set("sheen", look_.sheen);
+  const float weft_spacing = look_.weft_spacing > 0 ? look_.weft_spacing : look_.thread_spacing;
+  program.set("thread_spacing", Eigen::Vector2f(weft_spacing, look_.thread_spacing));
+  program.set("weave_kind", static_cast<int>(look_.weave_kind));
+  program.set("shown", look_.shown);
+  program.set("grid", look_.grid);
+  program.set("weave_strength", look_.weave);
+  program.set("value_range", Eigen::Vector2f(look_.value_low, look_.value_high));
+  program.set("color_map", kColorMapUnit);
+  program.set("position", kPositionUnit);
+  program.set("corner_index", kIndexUnit);
+  program.set("sheet_half", 0.5f * look_.thickness);
+  program.set("least_half", 0.5f * kLeastThickness * view.pixel);
   gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
   gl_.BindTexture(GL_TEXTURE_2D, color_map_.name());
-  cloth_->draw();
+}
+
+// A sheet's two sides and its rim; where it has no thickness, its middle.
+void ClothView::draw_cloth(const View& view) const {
+  begin_cloth(*cloth_program_, view);
+  if (!has_thickness(look_.show)) return cloth_->draw();
+  gl_.Enable(GL_CULL_FACE);
+  for (const float side : {1.0f, -1.0f}) {
+    cloth_program_->set("side", side);
+    gl_.CullFace(side > 0 ? GL_BACK : GL_FRONT);
+    cloth_->draw();
+  }
+  gl_.Disable(GL_CULL_FACE);
+  begin_cloth(*rim_program_, view);
+  cloth_->draw_boundary();
 }
 
 double covered_area(const Image& silhouette, double metres_per_pixel) {

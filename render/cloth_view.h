@@ -13,6 +13,7 @@
 #include "render/camera.h"
 #include "render/cloth_surface.h"
 #include "render/exposure.h"
+#include "render/figure_light.h"
 #include "render/frame_target.h"
 #include "render/ground.h"
 #include "render/image.h"
@@ -34,6 +35,9 @@ struct PictureSize {
   // Largest side drawn at once [pixels]; larger pictures are drawn in parts, which bounds the driver's
   // memory.
   int tile = 2048;
+  // Of a figure: that many passes, each lit from 12 directions of its own (figure_light.h) in place of the
+  // few that a sequence has time for; 0: no figure.
+  int figure_passes = 0;
 };
 
 class ClothView {
@@ -93,6 +97,7 @@ class ClothView {
     Eigen::Vector3f eye, forward;
     bool orthographic;
     Eigen::Vector2f origin;  // lower left corner of the part in the picture [drawn pixels]
+    float pixel;             // metres across a drawn one, where clip space's w is 1
   };
 
   Obstacle& obstacle(int number);
@@ -101,7 +106,9 @@ class ClothView {
   Eigen::Matrix4f standing(const Obstacle& obstacle, float inset) const;
   static void place_cloth(const Program& program);
   Box bounds() const;
-  void prepare();
+  void prepare(const Camera& camera);
+  bool is_figure() const { return figure_light_.has_value(); }
+  Eigen::Vector3f to_light(const Camera& camera) const;
   void update_body_sky() const;  // light of the room on the obstacles
   Image draw_part(const Camera& camera, int left, int top);
   View view_of(const Camera& camera, int left, int top, const Shift& shift) const;
@@ -113,6 +120,7 @@ class ClothView {
   void draw_ground(const View& view) const;
   void draw_obstacles(const View& view) const;
   void draw_cloth(const View& view) const;
+  void begin_cloth(const Program& program, const View& view) const;
   void begin_lit(const Program& program, const View& view) const;
   void set_backdrop(const Program& program, const View& view) const;
 
@@ -122,8 +130,9 @@ class ClothView {
   int part_width_, part_height_;  // of the picture drawn at once [pixels]
   FrameTarget target_;
   ShadowMaps shadows_;
+  std::optional<FigureLight> figure_light_;
   Program backdrop_program_, matte_program_, body_sky_program_;
-  std::optional<Program> cloth_program_;
+  std::optional<Program> cloth_program_, rim_program_;
   GlTexture color_map_;
   GlVertexArray no_arrays_;
   GlQuery seen_;
@@ -136,6 +145,7 @@ class ClothView {
   float cloth_side_ = 0;        // long_side() of the cloth [m]
   std::optional<float> ground_height_;
   std::optional<Box> given_bounds_, position_bounds_;
+  std::optional<Eigen::Vector3f> cloth_normal_;  // of its own plane, of a figure whose positions are known
   Look look_;
 };
 

@@ -44,11 +44,11 @@ FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int sampl
   gl.GetIntegerv(GL_MAX_SAMPLES, &most_samples);
   samples_ = std::clamp(samples, 1, std::max(most_samples, 1));
   gl.BindRenderbuffer(GL_RENDERBUFFER, color_.name());
-  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_SRGB8_ALPHA8, width, height);
+  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA32F, width, height);
   gl.BindRenderbuffer(GL_RENDERBUFFER, depth_.name());
   gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width, height);
   gl.BindRenderbuffer(GL_RENDERBUFFER, resolved_color_.name());
-  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_SRGB8_ALPHA8, width, height);
+  gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, width, height);
 
   gl.BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
   attach(gl, GL_COLOR_ATTACHMENT0, color_);
@@ -63,20 +63,19 @@ FrameTarget::FrameTarget(const GlFunctions& gl, int width, int height, int sampl
 void FrameTarget::begin() const {
   gl_->BindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
   gl_->Viewport(0, 0, width_, height_);
-  gl_->Enable(GL_FRAMEBUFFER_SRGB);
   gl_->DepthMask(GL_TRUE);
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-std::vector<std::uint8_t> FrameTarget::finish() const {
+std::vector<float> FrameTarget::finish() const {
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
   gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
   gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
-  std::vector<std::uint8_t> rgba(static_cast<size_t>(width_) * height_ * 4);
+  std::vector<float> rgba(static_cast<size_t>(width_) * height_ * 4);
   gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, rgba.data());
   check_gl(*gl_, "drawing a picture");
   return rgba;
 }

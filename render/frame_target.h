@@ -1,7 +1,6 @@
 // The multisampled framebuffer that a picture, or a part of it, is drawn into, and the way back to the host.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "render/gl/handles.h"
@@ -20,8 +19,8 @@ class FrameTarget {
 
   // Binds the framebuffer, clears it to transparent and its depth to far.
   void begin() const;
-  // Averages the samples in linear light: RGBA, rows from the bottom.
-  std::vector<std::uint8_t> finish() const;
+  // The mean of each pixel's samples: RGBA in linear light, rows from the bottom.
+  std::vector<float> finish() const;
 
  private:
   const GlFunctions* gl_;

@@ -5,9 +5,10 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSkySide = 160;   // texels of the sky light's texture
-constexpr int kSide = 448;      // texels of the light texture
-constexpr float kReach = 2.6f;  // half side of the patch in radii of the scene
+constexpr int kSkySide = 160;       // texels of the sky light's texture
+constexpr int kSide = 448;          // texels of the light texture
+constexpr float kFigureReach = 12;  // beyond it lies no shadow that can be seen
+constexpr float kReach = 2.6f;      // half side of the patch in radii of the scene
 constexpr int kLightUnit = 7;
 constexpr int kSkyTextureUnit = 9;
 constexpr float kSkyBlur = 4.0f;  // texels of the sky maps
@@ -23,7 +24,7 @@ TriangleMesh ground_square() {
 GlTexture light_texture(const GlFunctions& gl, int side) {
   GlTexture texture(gl);
   gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, side, side, 0, GL_RGBA, GL_FLOAT, nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -40,13 +41,15 @@ GlFramebuffer texture_target(const GlFunctions& gl, const GlTexture& texture) {
 
 }  // namespace
 
-Ground::Ground(const GlFunctions& gl)
+Ground::Ground(const GlFunctions& gl, bool figure)
     : gl_(&gl),
       sky_program_(gl,
                    {.vertex = "backdrop.vert", .fragment = "ground_sky.frag", .defines = "#define GROUND\n"}),
       light_program_(
           gl, {.vertex = "backdrop.vert", .fragment = "ground_light.frag", .defines = "#define GROUND\n"}),
-      program_(gl, {.vertex = "ground.vert", .fragment = "ground.frag", .defines = ""}),
+      program_(gl, {.vertex = "ground.vert",
+                    .fragment = figure ? "figure_ground.frag" : "ground.frag",
+                    .defines = figure ? "#define FIGURE\n" : ""}),
       mesh_(gl, ground_square()),
       no_arrays_(gl),
       sky_(light_texture(gl, kSkySide)),
@@ -54,6 +57,13 @@ Ground::Ground(const GlFunctions& gl)
       sky_target_(texture_target(gl, sky_)),
       light_target_(texture_target(gl, light_)) {
   check_gl(gl, "making the ground");
+}
+
+void Ground::place(const Box& box, float height) {
+  const float reach = kFigureReach * box.radius();
+  placement_ = Eigen::Matrix4f::Identity();
+  placement_.diagonal() << reach, reach, 1, 1;
+  placement_.topRightCorner<3, 1>() << box.center().x(), box.center().y(), height;
 }
 
 void Ground::update(const ShadowMaps& shadows, const Box& box, float height) {

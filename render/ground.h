@@ -13,7 +13,11 @@ namespace hysteron::render {
 
 class Ground {
  public:
-  explicit Ground(const GlFunctions& gl);
+  // `figure`: lit per pixel by the light of a figure (figure_light.h), else by a texture that lies on it.
+  Ground(const GlFunctions& gl, bool figure);
+
+  // Where a figure's ground lies: below and around `box`, at `height` [m].
+  void place(const Box& box, float height);
 
   // Computes the light on the ground at `height` [m] under casters in `box`; the shadow maps are up to date.
   void update(const ShadowMaps& shadows, const Box& box, float height);

@@ -9,17 +9,21 @@ namespace hysteron::render {
 namespace {
 
 // Near white stands for values then: the paper must not.
-void shade_backdrop(Look& look) {
-  look.backdrop_top = {196, 199, 204};
-  look.backdrop_bottom = {224, 225, 226};
-}
+void shade_backdrop(Look& look) { look.backdrop_top = look.backdrop_bottom = {224, 225, 226}; }
 
 }  // namespace
 
 Look look_named(std::string_view name) {
   Look look;
+  look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
+  look.back = {172, 186, 206};
   if (name == "cloth") return look;
-  if (name == "wireframe") {
+  if (name == "grid") {
+    look.grid = 0.01f;
+  } else if (name == "clay") {
+    look.front = look.back = {198, 192, 184};
+    look.weave = look.sheen = 0;
+  } else if (name == "wireframe") {
     look.show = Show::wireframe;
     look.front = {206, 214, 224};
     look.back = {216, 210, 204};
@@ -35,10 +39,20 @@ Look look_named(std::string_view name) {
     look.show = Show::silhouette;
     look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
   } else {
-    throw Error::request("look = \"" + std::string(name) +
-                         "\" is unknown; allowed: cloth, curvature, friction, wireframe, silhouette");
+    throw Error::request(
+        "look = \"" + std::string(name) +
+        "\" is unknown; allowed: cloth, grid, clay, curvature, friction, wireframe, silhouette");
   }
   return look;
+}
+
+Weave weave_named(std::string_view name) {
+  if (name == "plain") return Weave::plain;
+  if (name == "twill") return Weave::twill;
+  if (name == "satin") return Weave::satin;
+  if (name == "knit") return Weave::knit;
+  throw Error::request("weave = \"" + std::string(name) +
+                       "\" is unknown; allowed: plain, twill, satin, knit");
 }
 
 Background background_named(std::string_view name) {

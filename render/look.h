@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string_view>
 
 #include "render/color_map.h"
@@ -19,9 +20,16 @@ enum class Show {
 };
 
 enum class Background {
-  studio,       // a paper backdrop with a gradient
+  studio,       // a pale backdrop that ends in the white page; a figure's is white at once
   white,        // white paper
   transparent,  // none: the picture is RGBA, and what the ground's shadow takes from white is its alpha
+};
+
+enum class Weave {
+  plain,  // every thread over one, under one
+  twill,  // warp over three, under one, a thread further each time: diagonal lines
+  satin,  // warp over four, under one
+  knit,   // wales of loops along the warp
 };
 
 struct Look {
@@ -33,18 +41,31 @@ struct Look {
   Rgb8 backdrop_top{222, 223, 226};            // paper behind and below the scene
   Rgb8 backdrop_bottom{246, 246, 245};
   ColorMap map = ColorMap::diverging;
-  float value_low = -1, value_high = 1;             // ends of the colour map, in the value's unit
-  Eigen::Vector3f to_light{-0.62f, -0.38f, 0.78f};  // key light's direction, any length
-  float room = 1;  // brightness of the room around; less of it leaves the key light to model the shape
-  float thread_spacing = 0.45e-3f;  // [m]; cotton broadcloth has 20 to 40 threads a centimetre
+  float value_low = -1, value_high = 1;  // ends of the colour map, in the value's unit
+  // Key light's direction, any length; none: from the left of the picture (key_beside()).
+  std::optional<Eigen::Vector3f> to_light;
+  bool raking = false;  // without to_light: the key light almost lies in the cloth's own plane
+  float room = 1;       // brightness of the room around; less of it leaves the key light to model the shape
+  float thickness = 0.5e-3f;  // of the cloth [m]; it is drawn at least as thick as can be seen
+  float sheen = 0.15f;        // of fibres that stand off, 0 = none
+  Weave weave_kind = Weave::plain;
+  float thread_spacing = 0.45e-3f;  // of warp threads [m]; cotton broadcloth has 20 to 40 a centimetre
+  float weft_spacing = 0;           // of weft threads, courses of a knit [m]; 0: that of warp threads
   float weave = 1;                  // strength of the threads' relief and unevenness, 0 = smooth
+  float grid = 0;                   // printed on the cloth: between its lines [m]; 0: none
+  // Size at which the picture will be shown over the size that it is drawn at: threads that are too fine to
+  // be seen then would make false patterns and are left out.
+  float shown = 1;
   // Obstacles are drawn smaller by at least this [m], more below coarse cloth (inset.h).
   float obstacle_inset = 0.8e-3f;
 };
 
-// "cloth", "curvature", "friction", "wireframe" or "silhouette" with the colour map and colours that suit it;
-// Error::request for anything else.
+// "cloth", "grid" (with a printed grid of 1 cm), "clay" (smooth and grey: shape alone), "curvature",
+// "friction", "wireframe" or "silhouette" with the colour map and colours that suit it; Error::request for
+// anything else.
 Look look_named(std::string_view name);
+// "plain", "twill", "satin" or "knit"; Error::request for anything else.
+Weave weave_named(std::string_view name);
 // "studio", "white" or "transparent"; Error::request for anything else.
 Background background_named(std::string_view name);
 

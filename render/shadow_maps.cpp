@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "render/depth_map.h"
+
 namespace hysteron::render {
 namespace {
 
@@ -17,29 +19,6 @@ constexpr int kSkyColumns = 6;  // of tiles, as in sky.glsl
 constexpr int kSkyRows = kSkyLights / kSkyColumns;
 // Casters fill the map but for this border, which stays empty, so that a clamped lookup outside finds light.
 constexpr float kBorder = 1.05f;
-
-GlTexture depth_texture(const GlFunctions& gl, int width, int height) {
-  GlTexture texture(gl);
-  gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                nullptr);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-  return texture;
-}
-
-GlFramebuffer depth_target(const GlFunctions& gl, const GlTexture& texture) {
-  GlFramebuffer target(gl);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.name(), 0);
-  gl.DrawBuffer(GL_NONE);
-  gl.ReadBuffer(GL_NONE);
-  return target;
-}
 
 // World to clip space of a parallel light that sees the sphere around the casters.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& to_light, const Eigen::Vector3f& center, float radius) {
@@ -69,8 +48,8 @@ std::array<Eigen::Vector3f, kSkyLights> sky_directions() {
 ShadowMaps::ShadowMaps(const GlFunctions& gl)
     : gl_(&gl),
       depth_program_(gl, {.vertex = "depth.vert", .fragment = "depth.frag", .defines = ""}),
-      key_map_(depth_texture(gl, kKeySide, kKeySide)),
-      sky_map_(depth_texture(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)),
+      key_map_(depth_map(gl, kKeySide, kKeySide)),
+      sky_map_(depth_map(gl, kSkySide * kSkyColumns, kSkySide * kSkyRows)),
       depth_sampler_(gl),
       key_target_(depth_target(gl, key_map_)),
       sky_target_(depth_target(gl, sky_map_)),

@@ -27,17 +27,22 @@ inline const std::array<float, 256>& linear_of_srgb8() {
   return table;
 }
 
-// From a table of 2^16 steps, because pictures ask millions of times; it is off by up to 1/40 of an 8-bit
-// step before rounding, where the curve is steepest.
-inline std::uint8_t srgb8_of_linear(float light) {
+// In 256ths of an 8-bit step, 0 to 65280.  From a table of 2^16 steps, because pictures ask millions of
+// times; it is off by up to 1/40 of an 8-bit step, where the curve is steepest.
+inline std::uint16_t srgb16_of_linear(float light) {
   constexpr int kLast = 65535;
-  static const std::vector<std::uint8_t> table = [] {
-    std::vector<std::uint8_t> values(kLast + 1);
+  static const std::vector<std::uint16_t> table = [] {
+    std::vector<std::uint16_t> values(kLast + 1);
     for (int i = 0; i <= kLast; ++i)
-      values[i] = static_cast<std::uint8_t>(255 * srgb_of_linear(static_cast<float>(i) / kLast) + 0.5f);
+      values[i] =
+          static_cast<std::uint16_t>(255 * 256 * srgb_of_linear(static_cast<float>(i) / kLast) + 0.5f);
     return values;
   }();
   return table[static_cast<size_t>(kLast * std::clamp(light, 0.0f, 1.0f) + 0.5f)];
+}
+
+inline std::uint8_t srgb8_of_linear(float light) {
+  return static_cast<std::uint8_t>((srgb16_of_linear(light) + 128) >> 8);
 }
 
 }  // namespace hysteron::render

@@ -26,7 +26,7 @@ namespace {
 
 struct RenderFlags {
   std::string fps, unit = "metre", up = "z";  // one for all sequences, or one for each, separated by commas
-  std::string title, ground = "none", body, curvature = "geometry";
+  std::string title, ground = "none", body, curvature = "geometry", fabric;
   double range = 100;  // [1/m] 2 k0 of the shipped fabrics, as in the pictures of their runs
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};
   Options options;
@@ -43,6 +43,7 @@ const KeyRow<F> kRows[] = {
     {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names"},
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
     {"render.body", at<&F::body>, "", any(), "", "a mesh that does not move, drawn matte as obstacles are; in the unit and axes of the first sequence"},
+    {"render.fabric", at<&F::fabric>, "", any(), "", "a fabric of assets/fabrics or a file, whose colours and weave the cloth has"},
     {"render.low", at<&F::low>, "m", any(), "", "with render.high: corners of what is framed; else the box of all frames"},
     {"render.high", at<&F::high>, "m", any(), "", "see render.low"},
 };
@@ -53,12 +54,13 @@ constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width,
 
 Keys keys_of(F& flags) {
   static const std::vector<std::string> kNames = {
-      "size", "renderer", "look", "light", "camera.direction", "camera.fov", "out", "quiet", "json"};
+      "size",       "quality", "renderer", "look", "light", "camera.direction",
+      "camera.fov", "out",     "quiet",    "json"};
   Keys keys = bind(kRows, flags);
   for (BoundKey& key : bind_options(flags.options)) {
     KeyDescription& what = key.description;
     if (!std::count(kNames.begin(), kNames.end(), what.path)) continue;
-    if (what.path == "look") what.choices = {"cloth", "curvature", "wireframe", "silhouette"};
+    if (what.path == "look") what.choices = {"cloth", "grid", "clay", "curvature", "wireframe", "silhouette"};
     keys.push_back(std::move(key));
   }
   return keys;
@@ -246,7 +248,8 @@ class FramesAndSheet {
       : flags_(flags),
         columns_(columns),
         run_(run),
-        pictures_(flags.options, {bounds, ground_of(flags), flags.range, flags.curvature == "file"}) {}
+        pictures_(flags.options,
+                  {bounds, ground_of(flags), flags.range, flags.curvature == "file", flags.fabric}) {}
 
   void draw() {
     if (!flags_.body.empty()) pictures_.add_body(body_of(flags_, columns_.front().axes));

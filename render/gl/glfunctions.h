@@ -32,6 +32,7 @@ namespace hysteron::render {
   X(PFNGLCOMPILESHADERPROC, CompileShader)                                   \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                   \
   X(PFNGLCREATESHADERPROC, CreateShader)                                     \
+  X(PFNGLCULLFACEPROC, CullFace)                                             \
   X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                   \
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                         \
   X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                   \

@@ -56,6 +56,7 @@ void attach(const GlFunctions& gl, GLuint program, GLenum stage, std::string_vie
 Program::Program(const GlFunctions& gl, const ProgramFiles& files) : gl_(&gl), program_(gl) {
   const GLuint name = program_.name();
   attach(gl, name, GL_VERTEX_SHADER, files.vertex, files.defines);
+  attach(gl, name, GL_GEOMETRY_SHADER, files.geometry, files.defines);
   attach(gl, name, GL_FRAGMENT_SHADER, files.fragment, files.defines);
   if (files.captured.size() > 0)
     gl.TransformFeedbackVaryings(name, static_cast<GLsizei>(files.captured.size()), files.captured.begin(),

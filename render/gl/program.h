@@ -11,12 +11,13 @@
 
 namespace hysteron::render {
 
-// Shader files of render/shaders/, embedded in the binary; `fragment` may be empty.
+// Shader files of render/shaders/, embedded in the binary; `fragment` and `geometry` may be empty.
 struct ProgramFiles {
   std::string_view vertex;
   std::string_view fragment;
   std::string_view defines;                          // lines put before every stage
   std::initializer_list<const char*> captured = {};  // outputs captured by transform feedback
+  std::string_view geometry = {};
 };
 
 class Program {

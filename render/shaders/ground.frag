@@ -6,20 +6,11 @@ out vec4 color;
 
 #include "backdrop.glsl"
 #include "ground_place.glsl"
-#include "srgb.glsl"
-
-// The layer, multiplied by its alpha, that leaves of white paper what this light does where viewers blend it, which
-// they do in encoded values.
-vec4 layer(vec3 light) {
-  vec3 left = srgb_of_linear(light);
-  float alpha = 1.0 - min(left.r, min(left.g, left.b));
-  vec3 tint = alpha > 0.0 ? (left - (1.0 - alpha)) / alpha : vec3(0);
-  tint *= smoothstep(0.02, 0.2, alpha);  // rounding gives faint shadows any hue
-  return vec4(alpha * linear_of_srgb(tint), alpha);
-}
+#include "shadow_layer.glsl"
 
 void main() {
   float near = 1.0 - smoothstep(0.6, 1.0, length(place));
-  vec3 light = mix(vec3(1), min(texture(ground_light, 0.5 * texture_of(place) + 0.5).rgb, vec3(1)), near);
-  color = alone > 0.5 ? layer(light) : vec4(backdrop() * light, 1);
+  vec3 hidden = max(1.0 - texture(ground_light, 0.5 * texture_of(place) + 0.5).rgb, 0.0);
+  vec3 light = 1.0 - kShadowDepth * fade() * near * hidden;
+  color = alone > 0.5 ? shadow_layer(light) : vec4(backdrop() * light, 1);
 }

@@ -7,16 +7,19 @@ uniform sampler2D key_depth;  // the same map, the depths themselves
 uniform mat4 key_matrix;
 uniform float key_texel;  // size of a texel in the world [m]
 
-const float kKeySize = 0.06;     // radius of the light over its distance: 3.4 degrees
 const float kSharpest = 1.5;     // least radius of a lookup [texels]: what the map resolves
 const float kSearchMargin = 1.3;  // blockers are looked for beyond the light's rim, else edges would begin with a step
 const float kSteepest = 5.0;     // the key light fades out on surfaces steeper than this to it
 #ifdef GROUND
-const int kSearchTaps = 48;
+const float kKeySize = 0.15;  // radius of the light over its distance: 8.5 degrees, for shadows that leave the eye to the cloth
+const int kSearchTaps = 64;
+const float kSureLookups = 6.0;  // fewer that find something: the shadow fades, else its edge would show them
 const float kTapsPerTexel = 4.0;
 const float kMostTaps = 64.0;
 #else
+const float kKeySize = 0.06;  // 3.4 degrees
 const int kSearchTaps = 22;
+const float kSureLookups = 1.0;
 const float kTapsPerTexel = 3.0;
 const float kMostTaps = 32.0;
 #endif
@@ -26,9 +29,9 @@ const int kRimTaps = 8;
 // surface itself rises there.
 float rise(float slope, float off, float texel) { return slope * (off + texel); }
 
-// Mean distance along the rays of what may hide the light from p; 0 where nothing does.  The search runs outward, each
+// Mean distance along the rays of what may hide the light from p, and how many lookups found it.  The search runs outward, each
 // ring a share wider; beyond the least radius only what stands in the cone from p to the light counts.
-float blocker_distance(vec3 p, float slope, float texel) {
+vec2 blockers(vec3 p, float slope, float texel) {
   float sum = 0.0, count = 0.0;
   float least = kSharpest * texel, most = max(kSearchMargin * kKeySize * p.z, 2.0 * least);
   mat2 turn = kGoldenTurn * pow(most / least, 1.0 / float(kSearchTaps - 1));
@@ -41,7 +44,7 @@ float blocker_distance(vec3 p, float slope, float texel) {
     count += hides;
     spoke = turn * spoke;
   }
-  return count > 0.0 ? sum / count : 0.0;
+  return vec2(sum / max(count, 1.0), count);
 }
 
 // Share of a disc of lookups that the light reaches.  Most discs lie wholly in light or shadow: those around the rim
@@ -66,9 +69,11 @@ float key_reaching(vec3 point, vec3 normal, vec3 to_light) {
   float facing = dot(normal, to_light);
   vec3 p = (key_matrix * vec4(point + sign(facing) * key_texel * normal, 1)).xyz * 0.5 + 0.5;
   vec2 from_middle = abs(p.xy - 0.5);
-  if (max(from_middle.x, from_middle.y) > 0.56) return 1.0;
+  if (max(from_middle.x, from_middle.y) > 0.5 + kKeySize) return 1.0;
   float texel = 1.0 / float(textureSize(key_map, 0).x);
   float slope = min(sqrt(1.0 - min(facing * facing, 1.0)) / max(abs(facing), 1e-3), kSteepest) + 0.1;
-  float distance = blocker_distance(p, slope, texel);
-  return distance > 0.0 ? lit_share(p, max(kKeySize * distance, kSharpest * texel), slope, texel) : 1.0;
+  vec2 found = blockers(p, slope, texel);
+  if (found.y == 0.0) return 1.0;
+  float lit = lit_share(p, max(kKeySize * found.x, kSharpest * texel), slope, texel);
+  return mix(1.0, lit, min(found.y / kSureLookups, 1.0));
 }

@@ -1,7 +1,7 @@
 // Obstacles: plain matte bodies that leave the eye to the cloth.
-in vec3 world;
-in vec3 world_normal;
-in vec4 sky;
+in Surface {
+#include "surface.glsl"
+};
 uniform vec3 albedo;
 out vec4 color;
 

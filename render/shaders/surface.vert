@@ -8,15 +8,23 @@ uniform mat4 model, view_projection;
 uniform vec3 keep;    // share of a body that is drawn along its axes
 uniform float inset;  // along its normals
 
-out vec3 world;
-out vec3 world_normal;
-out vec2 thread;     // warp and weft coordinates [m]
-out float field;     // what the colour map shows
-out vec4 sky;        // shares of the sky seen from the front and the back side, and of the floor
+uniform float side;   // of a sheet that is drawn: 1 its front, -1 its back, 0 its middle
+
+out Surface {
+#include "surface.glsl"
+};
+#include "thickness.glsl"
 
 void main() {
   world_normal = mat3(model) * normal;
   world = (model * vec4(keep * position - inset * normal, 1)).xyz;
+  world += side * half_thickness(world) * world_normal;
+#ifdef FIGURE
+  vec3 n = normalize(world_normal);
+  facing_planes = dot(n, world) * n;
+  planes_square = n * n;
+  planes_mixed = n.xxy * n.yzz;
+#endif
   thread = pattern;
   field = value;
   sky = vertex_sky;

@@ -210,8 +210,8 @@ const std::string& FabricFile::shown(const Provenance& from) const {
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin) {
   const Reader reader{find_asset("fabrics", name_or_file, origin).string()};
   const TomlNode root = read_toml(reader.file);
-  reader.only_known(root,
-                    {"name", "description", "sources", "parameters", "bending", "membrane", "published"});
+  reader.only_known(
+      root, {"name", "description", "sources", "parameters", "bending", "membrane", "published", "look"});
   const TomlNode* sources = root.find("sources");
   const TomlNode& parameters = reader.required(root, "parameters");
 

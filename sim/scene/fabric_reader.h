@@ -18,6 +18,7 @@
 //   stiffnesses = [200, 50]            N/m
 //   [published]          what the source prints besides, in its own units
 //   B = {value = 0.118, unit = "gf cm^2/cm", source = "kes", confidence = "published"}
+//   [look]               for pictures only, which read it: experiments/workbench/pictures/fabric_look.h
 #pragma once
 
 #include <map>

@@ -42,18 +42,6 @@ std::string value_of(const Field& field) {
   return in_quotes(*std::get<std::string*>(field));
 }
 
-// The file that a fabric of one's own stands in, as its numbers' places name it; else its name.
-std::string fabric_to_read(const Scene& scene) {
-  const std::vector<std::string> known = list_assets("fabrics");
-  if (std::count(known.begin(), known.end(), scene.fabric.name)) return scene.fabric.name;
-  for (const auto& [key, place] : scene.origin) {
-    const std::size_t end = place.find(".toml:");
-    if (key.starts_with("fabric.") && key != "fabric.name" && end != place.npos)
-      return place.substr(0, end) + ".toml";
-  }
-  return scene.fabric.name;
-}
-
 class TomlWriter {
  public:
   TomlWriter(const Scene& scene, const std::set<std::string>& own) : scene_(scene), own_(own) {}
@@ -131,6 +119,17 @@ class TomlWriter {
 };
 
 }  // namespace
+
+std::string fabric_to_read(const Scene& scene) {
+  const std::vector<std::string> known = list_assets("fabrics");
+  if (std::count(known.begin(), known.end(), scene.fabric.name)) return scene.fabric.name;
+  for (const auto& [key, place] : scene.origin) {
+    const std::size_t end = place.find(".toml:");
+    if (key.starts_with("fabric.") && key != "fabric.name" && end != place.npos)
+      return place.substr(0, end) + ".toml";
+  }
+  return scene.fabric.name;
+}
 
 std::string toml_of(const Scene& scene, const std::set<std::string>& own,
                     const std::vector<FurtherKey>& others) {

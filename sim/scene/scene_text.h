@@ -9,6 +9,9 @@
 
 namespace hysteron {
 
+// The file that a fabric of one's own stands in, as its numbers' places name it; else its name.
+std::string fabric_to_read(const Scene& scene);
+
 // A key beside those of scenes, of a run or its experiment, and its value as TOML has it.
 struct FurtherKey {
   std::string path, value;

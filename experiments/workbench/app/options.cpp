@@ -20,10 +20,10 @@ const KeyRow<Options> kRows[] = {
     {"out", at<&O::out>, "", any(), "", "folder of the results; default out/<experiment>"},
     {"size", at<&O::size>, "", any(), "", "size of the pictures, WIDTHxHEIGHT pixels"},
     {"fps", at<&O::fps>, "1/s", {0, 10000, true}, "", "pictures per simulated second"},
-    {"quality", at<&O::quality>, "", any(), "draft | final", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8"},
+    {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
-    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | curvature | residual | difference | friction | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
+    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars"},
@@ -55,8 +55,8 @@ const KeyRow<Options> kRows[] = {
 constexpr int kSmallestSide = 16;    // [pixels] captions need some room
 constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
 
-const std::vector<std::string> kLooks = {"cloth",    "curvature", "residual",  "difference",
-                                         "friction", "wireframe", "silhouette"};
+const std::vector<std::string> kLooks = {"cloth",      "grid",     "clay",      "curvature", "residual",
+                                         "difference", "friction", "wireframe", "silhouette"};
 
 // {0, 0} if the text is no WIDTHxHEIGHT.
 std::pair<int, int> sides(const std::string& size) {

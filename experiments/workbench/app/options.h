@@ -14,7 +14,7 @@ struct Options {
   std::string out;                    // out        folder of the results, "" = out/<experiment>
   std::string size = "1280x720";      // size       of pictures, WIDTHxHEIGHT pixels
   double fps = 30;                    // fps        pictures per simulated second
-  std::string quality = "final";      // quality    draft | final
+  std::string quality = "final";      // quality    draft | final | figure
   std::string renderer = "auto";      // renderer   auto | egl | osmesa
   bool no_images = false;             // no-images
   std::string look = "cloth";         // look       what the pictures show; several separated by commas

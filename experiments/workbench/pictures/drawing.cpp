@@ -6,9 +6,8 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kThumbnailWidth = 640;                // [pixels]
-const Eigen::Vector3f kRaking{0.94f, 0.2f, 0.25f};  // light from the left, a little from the front and above
-constexpr float kRakingRoom = 0.22f;                // in a dim room
+constexpr int kThumbnailWidth = 640;  // [pixels]
+constexpr float kRakingRoom = 0.45f;  // raking light is of a dim room
 
 }  // namespace
 
@@ -30,9 +29,11 @@ render::Box framed_box(const Options& options, render::Box box) {
 }  // namespace
 
 render::PictureSize picture_size(const Options& options) {
-  constexpr int kDraftSamples = 4;  // drawn at once
+  constexpr int kDraftSamples = 4;   // drawn at once
+  constexpr int kFigurePasses = 16;  // 192 directions of light
   render::PictureSize size{options.width(), options.height()};
   if (options.quality == "draft") size.samples = kDraftSamples;
+  if (options.quality == "figure") size.figure_passes = kFigurePasses;
   return size;
 }
 
@@ -49,11 +50,9 @@ render::Camera camera_of(const Options& options, const render::Box& bounds) {
 
 render::Look lit(render::Look look, const Options& options) {
   look.background = render::background_named(options.background);
-  if (options.light != "raking") return look;
-  const Eigen::Vector3f back = options.camera_direction.cast<float>().normalized();
-  const Eigen::Vector3f left = back.cross(Eigen::Vector3f::UnitZ()).normalized();
-  look.room = kRakingRoom;
-  look.to_light = kRaking.x() * left + kRaking.y() * back + kRaking.z() * Eigen::Vector3f::UnitZ();
+  look.shown = std::min(1.0f, static_cast<float>(kThumbnailWidth) / static_cast<float>(options.width()));
+  look.raking = options.light == "raking";
+  if (look.raking) look.room = kRakingRoom;
   return look;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/fabric_look.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
@@ -12,13 +13,14 @@
 namespace hysteron::experiments {
 namespace {
 
-render::Look look_of(const Options& options, double range) {
+render::Look look_of(const Options& options, const MeshPictures::Choice& choice) {
   render::Look look = render::look_named(options.look);
   if (look.show == render::Show::curvature) {
-    look.value_high = static_cast<float>(range);
+    look.value_high = static_cast<float>(choice.range);
     look.value_low = -look.value_high;
   }
-  return lit(look, options);
+  look = lit(look, options);
+  return choice.fabric.empty() ? look : dressed(look, choice.fabric);
 }
 
 // With area-weighted normals.
@@ -45,7 +47,7 @@ render::TriangleMesh matte_mesh(const Surface& surface) {
 MeshPictures::MeshPictures(const Options& options, const Choice& choice)
     : options_(options),
       choice_(choice),
-      look_(look_of(options, choice.range)),
+      look_(look_of(options, choice)),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer))),
       view_(*offscreen_, picture_size(options)) {
   view_.set_look(look_);

@@ -20,6 +20,7 @@ class MeshPictures {
     std::optional<float> ground;    // height of a visible ground [m]
     double range = 100;             // of curvature, at the ends of the colour bar [1/m]
     bool stored_curvature = false;  // shown as the frames have it, not computed
+    std::string fabric;             // whose look the cloth has; empty: the program's
   };
   // Of the options: size, renderer, look ("cloth", "curvature", "wireframe" or "silhouette"), light, camera.
   MeshPictures(const Options& options, const Choice& choice);

@@ -1,10 +1,12 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
 #include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/fabric_look.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
 #include "sim/scene/motion.h"
+#include "sim/scene/scene_text.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -84,7 +86,8 @@ render::Look look_of(const Scene& scene, const Options& options, const std::stri
     look.value_low = 0;
     look.value_high = 1;
   }
-  return lit(look, options);
+  look.thickness = static_cast<float>(scene.fabric.thickness);
+  return dressed(lit(look, options), fabric_to_read(scene));
 }
 
 std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& options,

@@ -1,0 +1,221 @@
+// What a figure promises: light that models the cloth, shadows without steps, a page that stays white, edges
+// as thick as the cloth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/compare.h"
+#include "render/srgb.h"
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180, kPasses = 16;
+constexpr float kAspect = static_cast<float>(kWidth) / kHeight;
+
+// CIE 1976 lightness of a pixel.
+double lightness(const std::uint8_t* rgb) {
+  const auto& linear = linear_of_srgb8();
+  const double y = 0.2126 * linear[rgb[0]] + 0.7152 * linear[rgb[1]] + 0.0722 * linear[rgb[2]];
+  return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
+}
+
+// The q-th share of the values from below.
+double quantile(std::vector<double> values, double q) {
+  const auto at = values.begin() + static_cast<long>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+class FigureTest : public testing::Test {
+ protected:
+  Image figure(const Look& look, int passes = kPasses) {
+    return test::draped_view(*offscreen_, {.width = kWidth, .height = kHeight, .figure_passes = passes}, look)
+        ->draw(test::draped_camera(kAspect));
+  }
+  // Where the cloth is wholly in a pixel.
+  Image silhouette() {
+    return test::draped_view(*offscreen_, {kWidth, kHeight}, look_named("silhouette"))
+        ->draw(test::draped_camera(kAspect));
+  }
+  std::vector<double> on_cloth(const Image& image) {
+    const Image where = silhouette();
+    std::vector<double> values;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        if (where.at(x, y)[1] == 0) values.push_back(lightness(image.at(x, y)));
+    return values;
+  }
+
+  std::unique_ptr<Offscreen> offscreen_ = Offscreen::create(Renderer::automatic);
+};
+
+TEST_F(FigureTest, StudioLightModelsTheCloth) {
+  const std::vector<double> cloth = on_cloth(figure({}));
+  EXPECT_GE(quantile(cloth, 0.95) - quantile(cloth, 0.05), 30);
+}
+
+TEST_F(FigureTest, RakingLightIsStrongerAndLeavesNoBlack) {
+  Look look;
+  look.raking = true;
+  look.room = 0.45f;
+  const std::vector<double> cloth = on_cloth(figure(look));
+  EXPECT_GE(quantile(cloth, 0.95) - quantile(cloth, 0.05), 35);
+  constexpr double kBlack = 12;  // L*
+  EXPECT_GE(quantile(cloth, 0.01), kBlack);
+}
+
+TEST_F(FigureTest, ThePictureEndsInTheWhitePage) {
+  const Image image = figure({});
+  for (int x = 0; x < kWidth; ++x)
+    for (const int y : {0, kHeight - 1})
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(image.at(x, y)[c], 255) << x << ", " << y;
+  for (int y = 0; y < kHeight; ++y)
+    for (const int x : {0, kWidth - 1})
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(image.at(x, y)[c], 255) << x << ", " << y;
+}
+
+// What is no cloth and no pedestal is ground: seen again without both, the page is white there.
+TEST_F(FigureTest, TheGroundStaysLighterThanTheCloth) {
+  const Image image = figure({});
+  Look hidden;
+  hidden.front = hidden.back = hidden.obstacle = {255, 0, 0};
+  const Image marked = figure(hidden);
+  const double median = quantile(on_cloth(image), 0.5);
+  std::vector<double> ground;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      if (marked.at(x, y)[2] > 60) ground.push_back(lightness(image.at(x, y)));
+  ASSERT_GT(ground.size(), 1000u);
+  constexpr double kContact = 0.01;  // of the ground: where the pedestal stands on it
+  EXPECT_GE(quantile(ground, kContact), median + 8);
+}
+
+// Twice the directions change the mean by 0.3 L* at most.
+TEST_F(FigureTest, SixteenPassesHaveDirectionsEnough) {
+  const Image image = figure({}), fine = figure({}, 2 * kPasses);
+  double sum = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) sum += lightness(image.at(x, y)) - lightness(fine.at(x, y));
+  EXPECT_LE(std::abs(sum / (kWidth * kHeight)), 0.3);
+}
+
+// Between the shadow's umbra and open ground, under a sheet: lightness along a line, less the cubic that fits
+// it best, has no steps.
+double roughness(const std::vector<double>& y) {
+  Eigen::MatrixXd powers(static_cast<long>(y.size()), 4);
+  for (long i = 0; i < powers.rows(); ++i) {
+    const double t = 2.0 * static_cast<double>(i) / static_cast<double>(powers.rows() - 1) - 1;
+    powers.row(i) << 1, t, t * t, t * t * t;
+  }
+  const Eigen::Map<const Eigen::VectorXd> values(y.data(), powers.rows());
+  const Eigen::VectorXd normal = (powers.transpose() * powers).inverse() * (powers.transpose() * values);
+  return (values - powers * normal).norm() / std::sqrt(static_cast<double>(powers.rows()));
+}
+
+// Lightness of columns, each the mean over a band of rows: the noise of rounding is gone, steps remain.
+TEST_F(FigureTest, ShadowsHaveNoSteps) {
+  constexpr int kSide = 300, kBand = 24;
+  ClothView view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses});
+  const test::Cloth cloth = test::flat_square(8, 0.12f, 0.12f);
+  view.set_cloth(cloth.topology());
+  view.set_positions(cloth.positions);
+  view.set_ground(0.0f);
+  // From below the sheet's height: the ground behind it.
+  const Image image = view.draw(Camera::perspective({0, -0.9f, 0.35f}, {0, 0, 0.03f}, 26));
+  const auto columns = [&](int left, int right, int top) {
+    std::vector<double> values;
+    for (int x = left; x < right; ++x) {
+      double sum = 0;
+      for (int y = top; y < top + kBand; ++y) sum += lightness(image.at(x, y));
+      values.push_back(sum / kBand);
+    }
+    return values;
+  };
+  EXPECT_LE(roughness(columns(60, 240, 200)), 0.25) << "across the shadow";
+  EXPECT_LE(roughness(columns(60, 240, 250)), 0.10) << "on open ground";
+}
+
+// A sheet seen along its plane: as thick as it is, where that is more than the least.
+TEST_F(FigureTest, AnEdgeIsAsThickAsTheCloth) {
+  constexpr int kSide = 200;
+  constexpr float kHalf = 0.02f;
+  Look look;
+  look.to_light = {0, -1, 1};
+  const Camera camera = Camera::perspective({0, -0.4f, 0.01f}, {0, 0, 0.01f}, 6);
+  const double metres = camera.metres_per_pixel({0, -kHalf, 0.01f}, kSide);
+  for (const double pixels : {0.3, 2.0, 5.0}) {
+    look.thickness = static_cast<float>(pixels * metres);
+    ClothView view(*offscreen_, {.width = kSide, .height = kSide, .figure_passes = kPasses});
+    const test::Cloth cloth = test::flat_square(4, 2 * kHalf, 0.01f);
+    view.set_cloth(cloth.topology());
+    view.set_positions(cloth.positions);
+    view.set_look(look);
+    const Image image = view.draw(camera);
+    const double edge = linear_of_srgb8()[image.at(kSide / 2, kSide / 2)[0]];
+    double covered = 0;
+    for (int y = 0; y < kSide; ++y) covered += 1 - linear_of_srgb8()[image.at(kSide / 2, y)[0]];
+    const double expected = std::max(pixels, 1.2);
+    EXPECT_NEAR(covered / (pixels < 1.5 ? 1 : 1 - edge), expected, pixels < 1.5 ? 0.9 : 0.5) << pixels;
+    EXPECT_GE(covered, 0.3) << "an edge must be seen";
+  }
+}
+
+// Edges of a figure against one of 256 passes.
+TEST_F(FigureTest, EdgesAreSmooth) {
+  const Image image = figure({}), fine = figure({}, 256), where = silhouette();
+  double sum = 0;
+  int edges = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      if (where.at(x, y)[1] == 0 || where.at(x, y)[1] == 255) continue;
+      sum += std::abs(lightness(image.at(x, y)) - lightness(fine.at(x, y)));
+      ++edges;
+    }
+  ASSERT_GT(edges, 100);
+  EXPECT_LE(sum / edges, 1.5);
+}
+
+TEST_F(FigureTest, TheSameCallsGiveTheSameBits) { EXPECT_EQ(figure({}), figure({})); }
+
+TEST_F(FigureTest, FieldsKeepTheColoursOfTheBar) {
+  Look look = look_named("curvature");
+  look.value_low = -2;
+  look.value_high = 2;
+  test::Cloth cloth = test::flat_square(4, 0.2f, 0.0f);
+  ClothView view(*offscreen_, {.width = 100, .height = 100, .figure_passes = kPasses});
+  view.set_cloth(cloth.topology());
+  view.set_positions(cloth.positions);
+  view.set_look(look);
+  for (const float value : {-2.0f, 0.0f, 2.0f}) {
+    view.set_values(std::vector<float>(cloth.values.size(), value));
+    const Image image = view.draw(Camera::top({{-0.05f, -0.05f, 0}, {0.05f, 0.05f, 0}}, 1));
+    const Rgb8 expected = map_color8(look.map, (value + 2) / 4);
+    EXPECT_NEAR(lightness(image.at(50, 50)), lightness(expected.data()), 5) << value;
+  }
+}
+
+// All of Mesa's software paths run one rasteriser, so between them not a bit may differ.
+TEST(Figure, AllPathsOfOneMesaAgreeToTheBit) {
+  std::vector<Image> pictures;
+  for (const Candidate& candidate : Offscreen::candidates(Renderer::automatic)) {
+    if (candidate.hardware) continue;
+    try {
+      const auto offscreen = Offscreen::create(candidate);
+      if (offscreen->description().find("llvmpipe") == std::string::npos) continue;
+      pictures.push_back(
+          test::draped_view(*offscreen, {.width = kWidth, .height = kHeight, .figure_passes = kPasses}, {})
+              ->draw(test::draped_camera(kAspect)));
+    } catch (const Error&) {
+      continue;  // a path this machine lacks
+    }
+  }
+  if (pictures.size() < 2) GTEST_SKIP() << "fewer than two software paths on this machine";
+  for (const Image& picture : pictures) EXPECT_EQ(picture, pictures[0]);
+}
+
+}  // namespace
+}  // namespace hysteron::render
