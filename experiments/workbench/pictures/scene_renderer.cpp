@@ -1,7 +1,6 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
 #include "experiments/workbench/pictures/drawing.h"
-#include "experiments/workbench/pictures/ridge_metrics.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
 #include "sim/scene/motion.h"
@@ -10,25 +9,6 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
-
-// None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
-std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
-  std::vector<float> uv;
-  if (mesh.sewn) return uv;
-  if (shape.shape == "tube") {
-    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
-      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
-    return uv;
-  }
-  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
-  for (int i = 0; i < mesh.vertices(); ++i) {
-    Eigen::Vector3d at = mesh.rest[i];
-    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
-    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
-    uv.push_back(static_cast<float>(at.dot(weft)));
-  }
-  return uv;
-}
 
 // None of what is drawn otherwise, or not at all.
 std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
@@ -101,14 +81,12 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
   return {};
 }
 
-SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const Cloth& cloth,
+SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const DrawnMesh& mesh,
                              const render::Box& bounds, std::optional<float> floor, int cuda_device)
     : scenery_(scene.obstacle),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
       view_(*offscreen_, picture_size(options)) {
-  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
-  const std::vector<float> pattern = pattern_of(cloth.mesh, scene.cloth);
-  view_.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
+  view_.set_cloth({mesh.vertices, mesh.triangles, mesh.pattern});
   for (const Obstacle& o : scenery_) {
     const auto body = body_of(o);
     body_.push_back(body && o.visible ? view_.add_obstacle(*body, placed_at(o, 0)) : -1);
@@ -131,11 +109,10 @@ render::Image SceneRenderer::draw(const render::Look& look, const render::Camera
   return view_.draw(camera);
 }
 
-render::Image SceneRenderer::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
+render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz,
                                         const render::Camera& camera, int pixels) {
   render::ClothView view(*offscreen_, {pixels, pixels});
-  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
-  view.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, {}});
+  view.set_cloth({mesh.vertices, mesh.triangles, {}});
   view.set_look(render::look_named("silhouette"));
   view.set_positions(xyz);
   render::Image image = view.draw(camera);
