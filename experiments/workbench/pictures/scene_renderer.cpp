@@ -10,7 +10,20 @@ namespace {
 
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
-// None of what is drawn otherwise, or not at all.
+render::Look base_look(const std::string& name) {
+  const bool of_curvature = name == "residual" || name == "difference";
+  return render::look_named(of_curvature ? "curvature" : name);
+}
+
+// [1/m].  What stays and what differs is half of what bends.
+double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
+  const double range = options.curvature_range > 0 ? options.curvature_range
+                                                   : kCurvatureRange * scene.fabric.friction_curvature();
+  return look == "curvature" ? range : range / 2;
+}
+
+}  // namespace
+
 std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
   const auto f = [](double x) { return static_cast<float>(x); };
   switch (o.kind) {
@@ -38,20 +51,6 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   motion.topRightCorner<3, 1>() = at.translation.cast<float>();
   return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
 }
-
-render::Look base_look(const std::string& name) {
-  const bool of_curvature = name == "residual" || name == "difference";
-  return render::look_named(of_curvature ? "curvature" : name);
-}
-
-// [1/m].  What stays and what differs is half of what bends.
-double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
-  const double range = options.curvature_range > 0 ? options.curvature_range
-                                                   : kCurvatureRange * scene.fabric.friction_curvature();
-  return look == "curvature" ? range : range / 2;
-}
-
-}  // namespace
 
 render::ColorMap map_of(const std::string& look) { return base_look(look).map; }
 

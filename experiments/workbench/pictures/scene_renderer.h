@@ -11,9 +11,15 @@
 #include "render/camera.h"
 #include "render/caption.h"
 #include "render/cloth_view.h"
+#include "render/shapes.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron::experiments {
+
+// An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.
+std::optional<render::TriangleMesh> body_of(const Obstacle& obstacle);
+// Where it is at `time` [s].
+Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
 // The colours of a look that shows a value.
 render::ColorMap map_of(const std::string& look);
