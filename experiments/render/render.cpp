@@ -333,8 +333,7 @@ class FramesAndSheet {
 // Friction and what stays of curvature are not in mesh files.
 void check_look(const std::string& look) {
   static const std::vector<std::string> kLooks = {"cloth", "curvature", "wireframe", "silhouette"};
-  if (!std::count(kLooks.begin(), kLooks.end(), look))
-    throw refusal("look", look, join(kLooks, " | ") + " of mesh files");
+  if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
 }
 
 int run_render(const CommandLine& line) {

@@ -6,6 +6,7 @@
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
+#include "experiments/workbench/pages/pictures.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/parallel.h"
 
@@ -52,6 +53,22 @@ std::string title_of(std::string experiment) {
   return first_upper(experiment);
 }
 
+// The sheet of the folder of that name, else the first: what a reader sees first.
+std::string teaser_of(const std::vector<ExhibitGroup>& groups, PageForm form) {
+  constexpr const char* kTeaser = "teaser";
+  constexpr int kWidth = 1200;  // [pixels] of an embedded picture
+  const Exhibit* chosen = nullptr;
+  for (const ExhibitGroup& group : groups)
+    for (const Exhibit& exhibit : group.exhibits)
+      if (is_there(exhibit.folder / "sheet.png") && (!chosen || exhibit.name == kTeaser)) chosen = &exhibit;
+  if (!chosen) return "";
+  const std::string path = chosen->name + "/sheet.png";
+  return filled("teaser.html",
+                {{"anchor", anchor_of(*chosen)},
+                 {"name", chosen->name},
+                 {"image", image_of({chosen->folder / "sheet.png", path, chosen->name, kWidth}, form)}});
+}
+
 // Pictures that are embedded take seconds to shrink: exhibits are made at the same time.
 std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageForm form) {
   std::vector<const Exhibit*> all;
@@ -75,12 +92,15 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
     std::vector<Fields> exhibits;
     for (const Exhibit& exhibit : group.exhibits)
       exhibits.push_back({{"anchor", anchor_of(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
-    sections.push_back({{"title", title_of(group.experiment)},
-                        {"question", question_of(group.experiment)},
+    sections.push_back({{"experiment", group.experiment},
+                        {"title", title_of(group.experiment)},
+                        {"question", first_upper(question_of(group.experiment))},
                         {"exhibits", exhibits}});
   }
-  const std::string body =
-      filled("gallery.html", {{"facts", facts_of(groups)}, {"from", origin_of(form)}, {"groups", sections}});
+  const std::string body = filled("gallery.html", {{"facts", facts_of(groups)},
+                                                   {"from", origin_of(form)},
+                                                   {"teaser", teaser_of(groups, form)},
+                                                   {"groups", sections}});
   return html_page("hysteron: results", body, "gallery");
 }
 

@@ -63,7 +63,7 @@ std::string sensor(const MitsubaView& view) {
       "    <sampler type=\"multijitter\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>\n"
       "    <film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/><integer name=\"height\" "
       "value=\"{}\"/>"
-      "<string name=\"pixel_format\" value=\"rgb\"/><rfilter type=\"gaussian\"/></film>\n  </sensor>\n",
+      "<string name=\"pixel_format\" value=\"rgba\"/><rfilter type=\"gaussian\"/></film>\n  </sensor>\n",
       flat ? "orthographic" : "perspective", angle, lens, looking(eye, eye + forward, up), view.width,
       view.height);
 }
@@ -117,7 +117,8 @@ std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double ti
                           const std::vector<std::string>& bodies) {
   std::string xml = fmt::format(
       "<scene version=\"3.0.0\">\n  <default name=\"spp\" value=\"{}\"/>\n"
-      "  <integrator type=\"path\"><integer name=\"max_depth\" value=\"{}\"/></integrator>\n",
+      "  <integrator type=\"path\"><integer name=\"max_depth\" value=\"{}\"/>"
+      "<boolean name=\"hide_emitters\" value=\"true\"/></integrator>\n",
       kSamples, kDepth);
   xml += sensor(view) + lights(view) + ground(view);
   xml += surface(cloth, "",
