@@ -77,7 +77,8 @@ TEST_F(Report, ShowsTheSheetThePlotOnceAndPlaysItsFrames) {
 TEST_F(Report, OpensWithTheQuestionTheNumberAndThePictureThatAnswerIt) {
   const std::string page = html();
   std::size_t at = 0;
-  for (const char* part : {"Cusick", ">49.8 <small>%</small>", "src=\"sheet.png\"", "src=\"plot_energy.svg\""}) {
+  for (const char* part :
+       {"Cusick", ">49.8 <small>%</small>", "src=\"sheet.png\"", "src=\"plot_energy.svg\""}) {
     const std::size_t found = page.find(part);
     ASSERT_NE(found, std::string::npos) << part;
     EXPECT_GT(found, at) << part;
