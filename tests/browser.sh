@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Opens pages of results from disk in headless Chromium, on a phone's width and on a desk's, and checks that they
 # work there: a title, every picture loaded, nothing wider than the window, sequences that play, pictures that
-# enlarge, links that lead to files, and not a word on the console.
+# enlarge, cloth that turns by keys and by dragging, links that lead to files, and not a word on the console.
 #   tests/browser.sh [--hysteron PROGRAM] PAGE.html...
 # With --hysteron a run with frames and a gallery are made of the first page's folder; the run's report and both as
-# self-contained pages, moved away from their folders, are checked too.
+# self-contained pages, moved away from their folders, are checked too, and the report of a small run whose cloth can be
+# turned, with WebGL and without.
 # 77 (skipped) without Chromium.
 set -euo pipefail
 
@@ -33,6 +34,25 @@ probed_copy() {
 <script>
 const wait = ms => new Promise(done => setTimeout(done, ms));
 const wrong = (fault, is) => { if (is) faults.push(fault); };
+async function probe_turn(figure) {
+  const webgl = document.createElement('canvas').getContext('webgl');
+  for (let i = 0; webgl && i < 50 && figure.hidden; ++i) await wait(100);
+  wrong(webgl ? 'shows no cloth' : 'shows cloth without WebGL', figure.hidden !== !webgl);
+  if (!webgl || figure.hidden) return;
+  const canvas = figure.querySelector('canvas');
+  const press = key => { canvas.dispatchEvent(new KeyboardEvent('keydown', {key})); return canvas.toDataURL(); };
+  const drag = (type, x) => canvas.dispatchEvent(new PointerEvent(type, {clientX: x, clientY: 50, pointerId: 1}));
+  canvas.setPointerCapture = () => 0;  // of a pointer that there is
+  const before = press('+'), after = press('-'), turned = press('ArrowLeft');
+  wrong('does not come nearer', before === after);
+  wrong('does not turn by keys', after === turned);
+  drag('pointerdown', 50);
+  drag('pointermove', 90);
+  wrong('does not turn by dragging', canvas.toDataURL() === turned);
+  drag('pointerup', 90);
+  wrong('draws nothing', canvas.toDataURL() === Object.assign(document.createElement('canvas'),
+    {width: canvas.width, height: canvas.height}).toDataURL());
+}
 async function probe() {
   wrong('no title', !document.title);
   wrong('no viewport', !document.querySelector('meta[name=viewport]'));
@@ -66,6 +86,7 @@ async function probe() {
     await wait(100);
     wrong('does not close', document.querySelector('dialog[open]'));
   }
+  for (const figure of document.querySelectorAll('figure.turn')) await probe_turn(figure);
   return {images: images.length, players: document.querySelectorAll('.player').length, title: document.title, width};
 }
 addEventListener('load', () => probe().then(found => parent.postMessage({...found, faults}, '*'),
@@ -93,13 +114,15 @@ addEventListener('message', event => {
 EOF
 }
 
+webgl=(--use-angle=swiftshader --enable-unsafe-swiftshader)  # drawn in software
+
 # The console of a page until it says DONE, one message a line.  Chromium's own --dump-dom does not wait for frames.
 console_of() {
   local browser_id
   : >"$scratch/log"
   "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
     --user-data-dir="$scratch/profile" --host-resolver-rules="MAP * ~NOTFOUND" --enable-logging=stderr --v=0 \
-    --remote-debugging-port=0 "$1" >/dev/null 2>"$scratch/log" &
+    "${webgl[@]}" --remote-debugging-port=0 "$1" >/dev/null 2>"$scratch/log" &
   browser_id=$!
   for ((tenths = 0; tenths < 600; ++tenths)); do
     grep -q 'CONSOLE.*"DONE"' "$scratch/log" && break
@@ -126,7 +149,7 @@ check() {
   write_frame "$(url_of "$copy")" "$frame"
   messages=$(console_of "$(url_of "$frame")")
   faults=$(
-    grep -vE '^(SEEN|DONE)' <<<"$messages" || true
+    grep -vE '^(SEEN|DONE)|GPU stall due to ReadPixels' <<<"$messages" || true
     missing_files "$page"
   )
   [[ $messages == *DONE* ]] || faults+=$'\nFAULT: not every window reported'
@@ -155,6 +178,7 @@ make_pages() {
   "$program" report --self-contained "$made" "$made/run" >&2
   mv "$made/index.html" "$made/run/report.html" "$alone/"
   "$program" report "$made/run" >&2
+  "$program" swing --quick --seconds 0.2 --fps 10 --size 240x180 --quiet --out "$made/turned" >&2
 }
 
 program=
@@ -167,6 +191,10 @@ failed=0
 for page in "$@"; do check "$page" || failed=1; done
 if [[ -n $program ]]; then
   make_pages "$program" "$(dirname "$1")"
-  for page in made/run/report.html alone/index.html alone/report.html; do check "$scratch/$page" || failed=1; done
+  for page in made/run/report.html made/turned/report.html alone/index.html alone/report.html; do
+    check "$scratch/$page" || failed=1
+  done
+  webgl=(--disable-3d-apis)
+  check "$scratch/made/turned/report.html" || failed=1
 fi
 exit $failed

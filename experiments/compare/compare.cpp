@@ -15,6 +15,7 @@
 #include "experiments/workbench/compare/comparison_captions.h"
 #include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
 
@@ -82,7 +83,7 @@ std::vector<std::string> notes_of(const CompareChoice& choice, const Plan& plan)
 void claim_files(Run& run, bool with_images) {
   for (const char* name : {"table.csv", "report.html"}) run.path(name);
   if (!with_images) return;
-  for (const char* name : {"sheet.png", "README.md"}) run.path(name);
+  for (const char* name : {"sheet.png", "README.md", kKeptSheet}) run.path(name);
 }
 
 std::vector<KeyDescription> own_keys() {

@@ -1,5 +1,5 @@
 // `hysteron render`: sequences of OBJ or PLY files, of this program or another, in the look, light and camera
-// of its own runs; several of them side by side.
+// of its own runs; several of them side by side.  A folder of its own runs is drawn again as it was.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/report.h"
@@ -38,7 +39,7 @@ const KeyRow<F> kRows[] = {
     {"fps", at<&F::fps>, "", any(), "", "frames per second of the files, one number for all sequences or one for each, separated by commas; without it pictures carry the frame's number"},
     {"render.unit", at<&F::unit>, "", any(), "", "unit of length in the files: metre | centimetre | millimetre | inch, for all or for each"},
     {"render.up", at<&F::up>, "", any(), "", "the files' upward axis: z | y, for all or for each"},
-    {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics"},
+    {"render.range", at<&F::range>, "1/m", positive(), "", "curvature at the ends of the colour bar; 100, as in runs of the shipped fabrics; of kept geometry without it that of its run"},
     {"render.curvature", at<&F::curvature>, "", any(), "geometry | file", "computed from positions, or the property of that name in a PLY"},
     {"render.title", at<&F::title>, "", any(), "", "of the sheet, and of a single sequence's pictures; else the sequences' names"},
     {"render.ground", at<&F::ground>, "", any(), "", "height of a visible ground [m], or none"},
@@ -53,14 +54,24 @@ constexpr int kCells = 12, kInstants = 5;     // pictures on the sheet of one se
 constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width, the whole at most [pixels]
 
 Keys keys_of(F& flags) {
-  static const std::vector<std::string> kNames = {
-      "size",       "quality", "renderer", "look", "light", "camera.direction",
-      "camera.fov", "out",     "quiet",    "json"};
+  static const std::vector<std::string> kNames = {"size",
+                                                  "quality",
+                                                  "renderer",
+                                                  "look",
+                                                  "light",
+                                                  "background",
+                                                  "camera.direction",
+                                                  "camera.fov",
+                                                  "camera.target",
+                                                  "camera.distance",
+                                                  "camera.box",
+                                                  "out",
+                                                  "quiet",
+                                                  "json"};
   Keys keys = bind(kRows, flags);
   for (BoundKey& key : bind_options(flags.options)) {
     KeyDescription& what = key.description;
     if (!std::count(kNames.begin(), kNames.end(), what.path)) continue;
-    if (what.path == "look") what.choices = {"cloth", "grid", "clay", "curvature", "wireframe", "silhouette"};
     keys.push_back(std::move(key));
   }
   return keys;
@@ -321,12 +332,20 @@ class FramesAndSheet {
   render::PngWriter writer_;
 };
 
+// Friction and what stays of curvature are not in mesh files.
+void check_look(const std::string& look) {
+  static const std::vector<std::string> kLooks = {"cloth", "curvature", "wireframe", "silhouette"};
+  if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
+}
+
 int run_render(const CommandLine& line) {
+  if (const auto kept = kept_file_of(line); !kept.empty()) return draw_kept(line, kept), 0;
   F flags;
   flags.options.out = "out/render";
   const Keys keys = keys_of(flags);
   set_keys(line, keys);
   check_options(flags.options);
+  check_look(flags.options.look);
   ground_of(flags);
   const std::vector<Column> columns = columns_of(flags, line.names);
   const render::Box bounds = framed(flags, checked_box(flags, columns));
@@ -342,10 +361,12 @@ int run_render(const CommandLine& line) {
 
 Experiment render_files() {
   return {.name = "render",
-          .question = "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera",
+          .question =
+              "pictures of OBJ/PLY sequences of any simulator, side by side in one look and camera; "
+              "those of a run's folder again, from the geometry that it keeps",
           .run = run_render,
           .own_keys = own_keys_of<keys_of>,
-          .names = "FILES"};
+          .names = "FILES|DIR"};
 }
 
 }  // namespace hysteron::experiments

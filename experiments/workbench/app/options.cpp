@@ -34,7 +34,7 @@ const KeyRow<Options> kRows[] = {
     {"camera.target", at<&O::camera_target>, "m", any(), "", "three numbers: what is in the middle of the picture; none: the middle of what moves"},
     {"camera.distance", at<&O::camera_distance>, "m", at_least(0), "", "from the target to the eye; 0: as near as all that moves stays in the picture"},
     {"camera.box", at<&O::camera_box>, "m", any(), "", "six numbers, lowest corner, then highest: what the picture frames in place of what moves"},
-    {"export", at<&O::export_format>, "", any(), "none | ply | obj | vtk | gltf", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; gltf: cloth.glb, one animated mesh for browsers and Blender"},
+    {"export", at<&O::export_format>, "", any(), "none | ply | obj | vtk | gltf | mitsuba", "meshes, OUT/mesh/0000.obj ...; vtk: 0000.vtp ... with fields, and cloth.pvd for ParaView; mitsuba: 0000.xml ... beside 0000.ply, scenes that the path tracer Mitsuba 3 draws; gltf: cloth.glb, one animated mesh for browsers and Blender"},
     {"probe", at<&O::probe>, "", any(), "", "material points as they lie on the flat cloth [m], 'x,y' or 'x,y;x,y...': a time series of their positions, curvatures, moments and friction, OUT/probes.csv"},
     {"check-intersections", at<&O::check_intersections>, "", any(), "", "count the triangles that pass through each other at every recorded instant, by exact predicates; always on with self-contact"},
     {"errors", at<&O::errors>, "", any(), "", "repeat the run at half the step, with four times the triangles and on other meshes: the error of each headline number"},

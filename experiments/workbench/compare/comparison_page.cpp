@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
+#include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/compare/table_plot.h"
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/manifest.h"
@@ -243,6 +245,19 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
          columns);
 }
 
+// Of each column the frames in its rows, and the first, which tells of no motion before them.
+std::vector<std::vector<int>> frames_of(const std::vector<SweepColumn>& columns,
+                                        const std::vector<double>& times) {
+  std::vector<std::vector<int>> frames(columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (!has_frames(columns[c])) continue;
+    std::set<int> chosen = {0};
+    for (const double time : times) chosen.insert(static_cast<int>(frame_at(columns[c], time)));
+    frames[c].assign(chosen.begin(), chosen.end());
+  }
+  return frames;
+}
+
 // Those that the page asks for, or all of shown_numbers().
 std::vector<std::string> candidates(const ComparisonPage& page) {
   std::vector<std::string> keys = page.metrics;
@@ -339,6 +354,7 @@ void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vecto
     sheet.bars.push_back(
         {render::ColorMap::sequential, 0, kDifferenceScale, "difference of pictures", "8-bit steps", 5});
   render::write_png(run.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);
+  keep_page(run, page, columns, frames_of(columns, drawn.times));
   if (page.video != "none") film(run, page, columns);
 }
 

@@ -1,6 +1,7 @@
 #include "experiments/workbench/compare/variant_page.h"
 
 #include "experiments/workbench/compare/comparison.h"
+#include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/compare/shared_framing.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
@@ -37,6 +38,25 @@ fs::path picture_of(const VariantPage& page, const SweepColumn& column) {
   return frames.empty() ? fs::path() : frames.back();
 }
 
+// As a comparison of the columns' last instants.
+void keep(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
+  const ComparisonPage kept{.title = page.title,
+                            .notes = {},
+                            .rows = 1,
+                            .times = {},
+                            .metrics = page.metrics,
+                            .look = page.setup.options.looks().front(),
+                            .outlines = false,
+                            .video = "none"};
+  std::vector<std::vector<int>> frames;
+  for (const SweepColumn& column : columns) {
+    const auto& drawn = column.manifest ? column.manifest->frames : std::nullopt;
+    const int count = drawn && column.stopped.empty() ? static_cast<int>(drawn->instants.size()) : 0;
+    frames.push_back(count > 0 ? std::vector<int>{count - 1} : std::vector<int>{});
+  }
+  keep_page(run, kept, columns, frames);
+}
+
 void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
   std::vector<render::SheetEntry> entries;
   for (const SweepColumn& column : columns) {
@@ -49,6 +69,7 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>
   if (!entries.empty())
     render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {page.title}),
                       render::PngEffort::best);
+  keep(run, page, columns);
   for (TablePlot plot : page.plots) {
     plot.plot.title = page.title;
     draw(run, plot, columns);
@@ -58,7 +79,7 @@ void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>
 void reserve_page(const Run& run, const VariantPage& page) {
   run.reserve({"table.csv"});
   if (page.setup.options.no_images) return;
-  run.reserve({"sheet.png"});
+  run.reserve({"sheet.png", kKeptSheet});
   for (const TablePlot& plot : page.plots) run.reserve({plot.name});
 }
 

@@ -6,16 +6,25 @@
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/gallery_exhibit.h"
+#include "experiments/workbench/pages/pictures.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/parallel.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
+namespace fs = std::filesystem;
+
+// "cpu: CPU", whatever the number of threads.
+std::string without_threads(const std::string& device) {
+  const std::size_t comma = device.rfind(", ");
+  return comma != device.npos && device.ends_with("threads") ? device.substr(0, comma) : device;
+}
 
 void gather(const Exhibit& exhibit, std::set<std::string>& devices, std::set<std::string>& dates) {
   const auto take = [&](const std::optional<Manifest>& manifest) {
     if (!manifest) return;
-    if (manifest->device) devices.insert(*manifest->device);
+    if (manifest->device) devices.insert(without_threads(*manifest->device));
     dates.insert(manifest->started.substr(0, 10));
   };
   take(exhibit.manifest);
@@ -52,6 +61,24 @@ std::string title_of(std::string experiment) {
   return first_upper(experiment);
 }
 
+// The picture that the README above the gallery shows first, if it is one of the gallery's: what a reader saw
+// who comes from there.
+std::string teaser_of(const fs::path& folder, PageForm form) {
+  constexpr int kWidth = 1200;  // [pixels] of an embedded picture
+  const fs::path above = fs::absolute(folder).lexically_normal(), readme = above.parent_path() / "README.md";
+  const std::string name = above.filename().string() + "/";
+  if (!is_there(readme)) return "";
+  const std::string text = whole_file(readme, "cannot read " + readme.string());
+  const std::size_t image = text.find("!["), open = text.find("](", image), close = text.find(')', open);
+  if (close == text.npos || text.compare(open + 2, name.size(), name) != 0) return "";
+  const std::string path = text.substr(open + 2 + name.size(), close - open - 2 - name.size()),
+                    words = text.substr(image + 2, open - image - 2);
+  if (!path.ends_with(".png") || !is_there(folder / path)) return "";
+  return filled("teaser.html", {{"link", form == PageForm::linked ? url_of(path) : ""},
+                                {"image", image_of({folder / path, path, words, kWidth}, form)},
+                                {"words", words}});
+}
+
 // Pictures that are embedded take seconds to shrink: exhibits are made at the same time.
 std::vector<std::string> all_html(const std::vector<ExhibitGroup>& groups, PageForm form) {
   std::vector<const Exhibit*> all;
@@ -75,12 +102,15 @@ std::string gallery_page(const std::filesystem::path& folder, PageForm form) {
     std::vector<Fields> exhibits;
     for (const Exhibit& exhibit : group.exhibits)
       exhibits.push_back({{"anchor", anchor_of(exhibit)}, {"name", exhibit.name}, {"html", html[next++]}});
-    sections.push_back({{"title", title_of(group.experiment)},
-                        {"question", question_of(group.experiment)},
+    sections.push_back({{"experiment", group.experiment},
+                        {"title", title_of(group.experiment)},
+                        {"question", first_upper(question_of(group.experiment))},
                         {"exhibits", exhibits}});
   }
-  const std::string body =
-      filled("gallery.html", {{"facts", facts_of(groups)}, {"from", origin_of(form)}, {"groups", sections}});
+  const std::string body = filled("gallery.html", {{"facts", facts_of(groups)},
+                                                   {"from", origin_of(form)},
+                                                   {"teaser", teaser_of(folder, form)},
+                                                   {"groups", sections}});
   return html_page("hysteron: results", body, "gallery");
 }
 

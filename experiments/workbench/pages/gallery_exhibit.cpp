@@ -15,50 +15,46 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 16, kMostColumns = 12;  // of a table that is shown; larger ones are linked
-constexpr std::size_t kOpenRows = 24;                     // longer ones are folded away
-constexpr std::size_t kMostCards = 8;
+constexpr std::size_t kMostRows = 8, kMostColumns = 8;  // of a table that is shown; larger ones are linked
+constexpr std::size_t kMostCards = 4;
 constexpr std::size_t kMostWarnings = 4;  // of many runs in one, most are alike; the manifest has all
 
 std::string file_name(const fs::path& file) { return file.filename().string(); }
 
-// How the solver fared, and what every simulated run counts beside its own question.
-bool is_aside(const std::string& key) {
-  const auto ends = [&](const char* ending) { return key.ends_with(ending); };
-  return ends("_per_step") || ends("steps_count") || ends("_relative") || key == "parts_count" ||
-         (key.starts_with("recovery_") && ends("_count")) || key.starts_with("newton_") ||
-         key == "integrator_share_percent" || key == "sharp_edges_percent" ||
-         key == "residual_curvature_formula_rms_per_m";
+// A table of a readable size, or nothing.
+std::string small_table(const Metrics& compared) {
+  std::set<std::string> names, keys;
+  for (const auto& [key, value] : compared) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    names.insert(key.substr(0, dot));
+    keys.insert(key.substr(dot + 1));
+  }
+  const bool readable = names.size() <= kMostRows && keys.size() <= kMostColumns;
+  return readable && !names.empty() ? html_details("Metrics", metric_table(compared), true) : "";
 }
 
 // Of laws, fabrics, problems: "prandtl.recovery_angle_deg".
 Metrics without_asides(const Metrics& compared) {
   Metrics kept;
   for (const auto& [key, value] : compared)
-    if (!is_aside(key.substr(key.rfind('.') + 1))) kept.set(key, value);
+    if (!is_numerics(key.substr(key.rfind('.') + 1))) kept.set(key, value);
   return kept;
 }
 
-std::string metrics_html(const Metrics& metrics, bool has_table) {
-  Metrics first, others;
-  std::set<std::string> compared;  // laws, fabrics, problems
-  std::size_t cards = 0, more = 0;
-  for (const auto& [key, value] : metrics) {
-    if (const std::size_t dot = key.rfind('.'); dot != key.npos) {
-      compared.insert(key.substr(0, dot));
-    } else if (const std::string headline = headline_of(metrics, key); !headline.empty()) {
-      (first.contains(headline) ? first : others).set(key, value);
-    } else {
-      const bool aside = is_aside(key) || cards == kMostCards;
-      ++(aside ? more : cards);
-      (aside ? others : first).set(key, value);
-    }
+// What the experiment is asked for, else the first of what it found; the manifest has all.
+std::string metrics_html(const Manifest& manifest, bool has_table) {
+  if (const std::string answers = answer_cards(manifest); !answers.empty()) return answers;
+  Metrics first;
+  std::size_t cards = 0, compared = 0;
+  for (const auto& [key, value] : manifest.metrics) {
+    if (key.find('.') != key.npos)
+      ++compared;
+    else if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMostCards))
+      first.set(key, value);
   }
   std::string html = metric_cards(first);
-  const bool said = has_table || (compared.size() == 1 && !first.empty());
-  if (!compared.empty() && !said)
-    html += html_details("Metrics", metric_table(without_asides(metrics)), true);
-  if (!others.empty()) html += html_details(counted(more, "more metric"), metric_cards(others), false);
+  if (compared > 0 && !has_table) html += small_table(without_asides(manifest.metrics));
   return html;
 }
 
@@ -76,8 +72,7 @@ std::string warning(const Manifest& manifest) { return manifest.complete ? "" : 
 std::string table_html(const std::string& caption, TextTable table, std::size_t columns) {
   const std::string common = take_common(table);
   if (table.head.size() > columns || table.rows.size() > kMostRows) return "";
-  return html_details(caption + (common.empty() ? "" : ". In all rows " + common), html_of(table),
-                      table.rows.size() <= kOpenRows);
+  return html_details(caption + (common.empty() ? "" : ". In all rows " + common), html_of(table), true);
 }
 
 // Tables of a readable size, and links to all of them.
@@ -129,18 +124,21 @@ Tables lists_of(const Exhibit& exhibit, PageForm form) {
       tables.html += table_html(file_name(list.file), *list.table, kMostColumns);
     }
   }
-  const std::string compared = metric_table(without_asides(metrics));
-  tables.html = runs_table(runs, form) +
-                (compared.empty() ? "" : html_details("Metrics", compared, runs.size() > 1)) + tables.html;
+  tables.html = (runs.size() <= kMostRows ? runs_table(runs, form) : "") +
+                small_table(without_asides(metrics)) + tables.html;
   return tables;
 }
 
-std::string parts_table(const Exhibit& exhibit, PageForm form) {
-  std::vector<std::pair<std::string, const Manifest*>> runs;
+// Manifests of the runs that it is the summary of.
+std::string parts_links(const Exhibit& exhibit, PageForm form) {
+  std::string links;
   for (const Exhibit& part : exhibit.parts) {
-    if (part.manifest) runs.emplace_back(part.name + "/manifest.json", &*part.manifest);
+    if (part.manifest)
+      links += " · " +
+               file_link(part.name + "/manifest.json", fs::path(part.name).filename().string(), form) +
+               warning(*part.manifest);
   }
-  return runs.empty() ? "" : html_details(counted(runs.size(), "run"), runs_table(runs, form), false);
+  return links;
 }
 
 // Links to files, apart by dots.
@@ -167,20 +165,21 @@ std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
   const Tables tables = tables_of(exhibit, form), lists = lists_of(exhibit, form);
   const std::optional<Manifest>& manifest = exhibit.manifest;
   const std::string metrics =
-      manifest ? metrics_html(manifest->metrics, !tables.html.empty()) + missing_errors(*manifest) : "";
+      manifest ? metrics_html(*manifest, !tables.html.empty()) + missing_errors(*manifest) : "";
   const std::vector<Fields> warnings = manifest ? shown_warnings(manifest->warnings) : std::vector<Fields>();
-  return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
-                                 {"name", exhibit.name},
-                                 {"badge", manifest ? warning(*manifest) : ""},
-                                 {"warnings", warnings},
-                                 {"about", manifest ? about_html(*manifest) : ""},
-                                 {"pictures", pictures_html(exhibit, form)},
-                                 {"metrics", metrics},
-                                 {"series", series_charts(exhibit.folder, false)},
-                                 {"tables", tables.html + lists.html + parts_table(exhibit, form)},
-                                 {"has_command", manifest.has_value()},
-                                 {"command", manifest ? manifest->command : ""},
-                                 {"links", links_of(exhibit, tables.links + lists.links, form)}});
+  return filled(
+      "exhibit.html",
+      {{"anchor", anchor_of(exhibit)},
+       {"name", exhibit.name},
+       {"badge", manifest ? warning(*manifest) : ""},
+       {"warnings", warnings},
+       {"about", manifest ? about_html(*manifest) : ""},
+       {"pictures", pictures_html(exhibit, form)},
+       {"metrics", metrics},
+       {"tables", tables.html + lists.html},
+       {"has_command", manifest.has_value()},
+       {"command", manifest ? manifest->command : ""},
+       {"links", links_of(exhibit, tables.links + lists.links + parts_links(exhibit, form), form)}});
 }
 
 }  // namespace hysteron::experiments

@@ -54,6 +54,13 @@ std::map<std::string, std::string> written_captions(const fs::path& folder) {
   return captions;
 }
 
+// The first sentences of a caption; README.md has the others.
+std::string first_sentences(const std::string& caption) {
+  constexpr std::size_t kEnough = 100;  // letters
+  const std::size_t end = caption.find(". ", kEnough);
+  return caption.substr(0, end == caption.npos ? end : end + 1);
+}
+
 // ": cotton-broad, law prandtl, 0 to 3.67 s"
 std::string subject_words(const Manifest& manifest) {
   std::string words = subject_of(manifest.scene);
@@ -112,7 +119,7 @@ std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form
   return filled("picture.html",
                 {{"link", linked ? url_of(shown) : ""},
                  {"image", image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form)},
-                 {"caption", picture.caption},
+                 {"caption", first_sentences(picture.caption)},
                  {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
 }
 

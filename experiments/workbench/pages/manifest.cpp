@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <vector>
 
 namespace hysteron::experiments {
@@ -33,6 +35,36 @@ NamedUnit split_unit(std::string key) {
 std::string metric_text(const std::string& key, double value) {
   const NamedUnit what = split_unit(key);
   return fmt::format("{} {:.4g}{}{}", what.name, value, what.unit.empty() ? "" : " ", what.unit);
+}
+
+ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit) {
+  if (!value.is_number() || value.is_integer()) return {shown(value), unit};
+  static const std::set<std::string> kPrefixed = {"m", "N", "J", "s", "N m", "J/m²", "m/s"};
+  static constexpr const char* kPrefixes[] = {"p", "n", "µ", "m", "", "k", "M"};
+  constexpr int kNone = 4, kLast = 6;
+  constexpr double kZero = 1e-12;
+  double number = value.number();
+  if (!kPrefixed.contains(unit)) return {fmt::format("{:.4g}", number), unit};
+  if (std::abs(number) < kZero) return {"0", unit};
+  int prefix = kNone;
+  for (; std::abs(number) < 1 && prefix > 0; --prefix) number *= 1e3;
+  for (; std::abs(number) >= 1e3 && prefix < kLast; ++prefix) number /= 1e3;
+  return {fmt::format("{:.4g}", number), kPrefixes[prefix] + unit};
+}
+
+bool is_numerics(const std::string& key) {
+  static const std::set<std::string> kOthers = {"parts_count",
+                                                "integrator_share_percent",
+                                                "sharp_edges_percent",
+                                                "residual_curvature_formula_rms_per_m",
+                                                "setup_seconds",
+                                                "fastest_m_per_s",
+                                                "settling_limit_m_per_s",
+                                                "hand_lag_m",
+                                                "settled"};
+  const auto ends = [&](const char* ending) { return key.ends_with(ending); };
+  return ends("_per_step") || ends("steps_count") || ends("_relative") || key.starts_with("newton_") ||
+         (key.starts_with("recovery_") && ends("_count")) || kOthers.contains(key);
 }
 
 std::string state_badge(const Manifest& manifest) {

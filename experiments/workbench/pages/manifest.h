@@ -19,6 +19,15 @@ NamedUnit split_unit(std::string key);
 // "drape coefficient 86 %": four significant digits.
 std::string metric_text(const std::string& key, double value);
 
+// Value and unit of a result as readers want them: four digits, the prefix of SI that leaves 1 to 999 before
+// the point, zero below 1e-12 of a unit that is one of mechanics: "0.94" "mN" of 0.00094 N.
+struct ShownQuantity {
+  std::string value, unit;
+};
+ShownQuantity shown_quantity(const MetricValue& value, const std::string& unit);
+// How the solver fared, and what every simulated run counts beside its own question.
+bool is_numerics(const std::string& metric);
+
 // "complete" or "incomplete".
 std::string state_badge(const Manifest& manifest);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
@@ -20,10 +21,50 @@ std::string metric_cards(const Metrics& metrics) {
   std::vector<Card> cards;
   for (const auto& [key, value] : metrics) {
     if (key.find('.') != key.npos || !headline_of(metrics, key).empty()) continue;
-    const HeadlineWords words = metric_words(metrics, key);
+    HeadlineWords words = metric_words(metrics, key);
+    if (!is_headline(metrics, key)) {
+      const ShownQuantity quantity = shown_quantity(metrics[key], words.unit);
+      words.value = quantity.value, words.unit = quantity.unit;
+    }
     cards.push_back({words.value, joined({words.unit, words.errors}, " "), split_unit(key).name});
   }
   return html_cards(cards);
+}
+
+std::string answer_cards(const Manifest& manifest) {
+  std::vector<Card> cards;
+  for (const Headline& headline : headlines_of(manifest.experiment).all) {
+    const std::string key = headline.metric;
+    const MetricValue& value = manifest.metrics[key];
+    if (value.is_text() && value.text() != "unknown") cards.push_back({value.text(), "", headline.words});
+    if (!value.is_number()) continue;
+    HeadlineWords words = headline_words(manifest.metrics, headline);
+    if (!is_headline(manifest.metrics, key) && !manifest.metrics.contains(key + kStandardError) &&
+        headline.scale != 1) {
+      const ShownQuantity quantity = shown_quantity(value, split_unit(key).unit);
+      words.value = quantity.value, words.unit = quantity.unit;
+    }
+    cards.push_back({words.value, joined({words.unit, words.errors}, " "), headline.words});
+  }
+  return html_cards(cards);
+}
+
+Metrics further_metrics(const Manifest& manifest) {
+  std::set<std::string> answers;
+  for (const Headline& headline : headlines_of(manifest.experiment).all) answers.insert(headline.metric);
+  Metrics further;
+  for (const auto& [key, value] : manifest.metrics) {
+    const std::string headline = headline_of(manifest.metrics, key);
+    if (!answers.contains(headline.empty() ? key : headline) && !is_numerics(key)) further.set(key, value);
+  }
+  return further;
+}
+
+Metrics numerics(const Metrics& metrics) {
+  Metrics solver;
+  for (const auto& [key, value] : metrics)
+    if (is_numerics(key)) solver.set(key, value);
+  return solver;
 }
 
 std::string metric_table(const Metrics& metrics) {

@@ -13,6 +13,11 @@ HeadlineWords metric_words(const Metrics& metrics, const std::string& key);
 
 // Metrics of the run itself.
 std::string metric_cards(const Metrics& metrics);
+// What the experiment is asked for, in its own words and units; "" if the run has found none of it.
+std::string answer_cards(const Manifest& manifest);
+// The others: what tells of the cloth, and how the solver fared.
+Metrics further_metrics(const Manifest& manifest);
+Metrics numerics(const Metrics& metrics);
 // Metrics of several laws or fabrics, "prandtl.2HB_N": a row for each, a column for each metric.  "" if none.
 std::string metric_table(const Metrics& metrics);
 // Why some errors of the manifest's headlines are not known.  "" if all are.

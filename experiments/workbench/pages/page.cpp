@@ -151,11 +151,13 @@ std::string html_section(const std::string& title, const std::string& body) {
 
 std::string html_page(const std::string& title, const std::string& body, const std::string& kind) {
   const bool moves = body.find("class=\"player\"") != body.npos || body.find("class=\"zoom\"") != body.npos;
+  const bool turns = body.find("class=\"turn\"") != body.npos;
   return filled("page.html", {{"title", title},
                               {"style", embedded_text("page.css")},
                               {"kind", kind},
                               {"body", body},
-                              {"script", moves ? embedded_text("page.js") : ""}});
+                              {"script", (moves ? embedded_text("page.js") : "") +
+                                             (turns ? embedded_text("turn.js") : "")}});
 }
 
 }  // namespace hysteron::experiments

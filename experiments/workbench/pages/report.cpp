@@ -2,11 +2,13 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/study_tables.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
@@ -71,22 +73,62 @@ std::string picture(const fs::path& file, const std::string& words, PageForm for
   return html_figure(image_of({file, file.filename().string(), words}, form), words);
 }
 
-std::string plots(const fs::path& folder, PageForm form) {
+// Moment against curvature: of a probe, of cycles, of a law.
+bool is_loop(const fs::path& file) {
+  const std::string name = file.stem().string();
+  return name == "plot_probe_moment" || name.find("_moment") != name.npos || name.find("loop") != name.npos;
+}
+
+// SVG where there is one.
+std::string plots(const fs::path& folder, bool loops, PageForm form) {
   std::string html;
-  for (const fs::path& file : files_ending(folder, ".svg")) html += picture(file, file.stem().string(), form);
+  for (const fs::path& file : files_ending(folder, ".svg"))
+    if (is_loop(file) == loops) html += picture(file, file.stem().string(), form);
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (is_plot(file) && !is_there(fs::path(file).replace_extension(".svg")))
+    if (is_plot(file) && is_loop(file) == loops && !is_there(fs::path(file).replace_extension(".svg")))
       html += picture(file, file.stem().string(), form);
   }
   return html.empty() ? "" : "<div class=\"plot\">" + html + "</div>\n";
 }
 
+bool is_sheet(const fs::path& file) { return file.filename() == "sheet.png"; }
+
+// What else was drawn.
 std::string pictures(const fs::path& folder, PageForm form) {
   std::string html;
   for (const fs::path& file : files_ending(folder, ".png")) {
-    if (!is_plot(file)) html += picture(file, file.filename().string(), form);
+    if (!is_plot(file) && !is_sheet(file)) html += picture(file, file.filename().string(), form);
   }
   return html;
+}
+
+// Kept geometry of a usual size stands in the page, which a script shows.
+std::string turning_cloth(const fs::path& folder) {
+  constexpr std::uintmax_t kMost = 400000;  // [byte]
+  const fs::path file = folder / kKeptSheet;
+  if (!is_there(file) || fs::file_size(file) > kMost) return "";
+  return filled("turn.html",
+                {{"caption", "The cloth, to be turned: drag it, or use the arrow keys, + and -."},
+                 {"data", base64(bytes_of(file))}});
+}
+
+// The question, the numbers and the picture that answer it.
+std::string answer(const fs::path& folder, const Manifest& manifest, PageForm form) {
+  const fs::path sheet = folder / "sheet.png";
+  return "<div class=\"answer\">" +
+         filled("answer.html", {{"question", question_of(manifest.experiment)},
+                                {"numbers", answer_cards(manifest) + missing_errors(manifest)},
+                                {"picture", is_there(sheet) ? picture(sheet, "contact sheet", form) : ""},
+                                {"turn", turning_cloth(folder)}}) +
+         "</div>\n";
+}
+
+// How the solver fared, for who doubts the numbers above.
+std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
+  const std::string all =
+      metric_cards(numerics(manifest.metrics)) + html_section("Energy", energy_table(manifest)) +
+      html_section("Run", run_table(manifest)) + html_section("Time series", series_charts(folder, true));
+  return html_details("Numerics: solver, energy, times", all, false);
 }
 
 Manifest manifest_in(const fs::path& folder) {
@@ -103,20 +145,19 @@ std::string report_page(const fs::path& folder, PageForm form) {
   const bool study = manifest.experiment == "sweep";
   if (study) form = PageForm::self_contained;  // plots and tables only, made to be sent
   const std::pair<const char*, std::string> sections[] = {
-      {"Results", metric_cards(metrics) + missing_errors(manifest) + metric_table(metrics)},
       {"Not complete", study ? study_failures(folder) : ""},
+      {"Loop", plots(folder, true, form)},
+      {"Plots", plots(folder, false, form)},
+      {"Results", metric_cards(further_metrics(manifest)) + metric_table(metrics)},
       {"Pictures", pictures(folder, form)},
-      {"Plots", plots(folder, form)},
       {"Means", study ? study_means(folder) : ""},
       {"Runs", study ? study_runs(folder) : ""},
       {"Sequence", player(folder, "", kMostFrames, form)},
-      {"Time series", series_charts(folder, true)},
-      {"Energy", energy_table(manifest)},
       {"Study", study ? study_keys(manifest) : ""},
-      {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)},
-      {"Run", run_table(manifest)}};
-  std::string all;
+      {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)}};
+  std::string all = answer(folder, manifest, form);
   for (const auto& [title, html] : sections) all += html_section(title, html);
+  all += numerics_html(folder, manifest);
   std::vector<Fields> warnings;
   for (const std::string& text : manifest.warnings) warnings.push_back({{"text", text}});
   // A cloth that still moves has no shape that could be measured: the page says so before any number.

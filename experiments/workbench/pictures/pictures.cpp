@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "sim/base/archive.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
-#include "sim/bending/vertex_curvature.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -47,25 +45,29 @@ class Stopwatch {
 std::vector<std::string> picture_files(const Options& options) {
   std::vector<std::string> names = {"sheet.png"};
   for (const std::string& look : options.looks()) names.push_back(frame_file(look, names.size() == 1, 0));
+  names.insert(names.end(), {kKeptFrames, kKeptSheet});
   return names;
 }
 
 Pictures::Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
                    std::optional<float> floor)
+    : Pictures(setup, simulated(setup.scene, cloth, simulation, setup.options.reference), bounds, floor) {}
+
+Pictures::Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const render::Box& bounds,
+                   std::optional<float> floor)
     : scene_(setup.scene),
       options_(setup.options),
-      cloth_(cloth),
-      simulation_(simulation),
+      subject_(std::move(subject)),
       bounds_(bounds),
+      kept_(setup, subject_->mesh(), bounds, floor),
       scene_renderer_([this, floor] {
-        return std::make_unique<SceneRenderer>(scene_, options_, cloth_, bounds_, floor,
-                                               simulation_.cuda_device());
+        return std::make_unique<SceneRenderer>(scene_, options_, subject_->mesh(), bounds_, floor,
+                                               subject_->cuda_device());
       }) {
-  if (!options_.reference.empty()) reference_.emplace(options_.reference);
   scene_renderer_.run([this](SceneRenderer& studio) {
     renderer_ = studio.offscreen().description();
-    studio.view().share_positions(simulation_.share_positions(studio.view().position_buffer(),
-                                                              studio.offscreen().cuda_device(), why_host_));
+    studio.view().share_positions(subject_->share_positions(studio.view().position_buffer(),
+                                                            studio.offscreen().cuda_device(), why_host_));
   });
 }
 
@@ -78,23 +80,10 @@ void Pictures::set_light(const std::string& light) {
 }
 
 // The simulation stands still meanwhile, because the studio's thread reads its positions where they are.
-void Pictures::take_positions() {
+void Pictures::take_positions(const std::vector<float>& xyz) {
   if (scene_renderer_.run([this](SceneRenderer& studio) { return studio.view().write_positions(why_host_); }))
     return;
-  const std::vector<float> xyz = flat_points(simulation_.positions());
   scene_renderer_.run([&](SceneRenderer& studio) { studio.view().set_positions(xyz); });
-}
-
-std::vector<float> Pictures::values(const std::string& look) const {
-  const int d = simulation_.dimension();
-  if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
-  if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
-  if (look != "curvature" && look != "difference") return {};
-  std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
-  if (look == "curvature") return curvature;
-  const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
-  std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
-  return curvature;
 }
 
 std::string Pictures::when(double time) const {
@@ -113,8 +102,8 @@ std::string Pictures::captioned(const std::string& text) const {
 
 render::Image Pictures::picture(const std::string& look, const render::Camera& camera,
                                 const std::string& text) {
-  take_positions();
-  const SceneRenderer::Shown shown{simulation_.time(), values(look)};
+  take_positions(rounded(subject_->positions(), subject_->mesh().quantum));
+  const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
     render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
@@ -129,7 +118,7 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
-  Frames::Instant instant{simulation_.time(), scene_.phase_at(simulation_.time())};
+  Frames::Instant instant{subject_->time(), scene_.phase_at(subject_->time())};
   for (const Order& order : orders) {
     frames->looks.push_back({order.look});
     if (const auto bar = color_bar_of(scene_, options_, order.look))
@@ -148,22 +137,30 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file,
   run.warn(
       fmt::format("from t = {:.3f} s on ({}) the cloth is cut off at the border of pictures: --camera.box "
                   "frames more",
-                  simulation_.time(), file.lexically_relative(run.folder()).string()));
+                  subject_->time(), file.lexically_relative(run.folder()).string()));
 }
 
 void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x) {
   const Stopwatch waited(waited_seconds_);
-  take_positions();
-  const double time = simulation_.time();
+  KeptState instant{subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}};
+  take_positions(instant.xyz);
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
-    orders.push_back({look, run.path(frame_file(look, orders.empty(), frames_)), {time, values(look)}});
+    orders.push_back(
+        {look, run.path(frame_file(look, orders.empty(), frames_)), {instant.time, subject_->values(look)}});
   }
   watch_border(run, orders.front().file, x);
   ++frames_;
   note_frame(run, orders);
-  scene_renderer_.post([this, orders = std::move(orders)](SceneRenderer& studio) {
+  for (Order& order : orders) {
+    if (order.shown.values.empty()) continue;
+    order.shown.values = rounded(order.shown.values, kept_.quantum(order.look));
+    instant.values[order.look] = order.shown.values;
+  }
+  scene_renderer_.post([this, orders = std::move(orders), instant = std::move(instant),
+                        file = run.path(kKeptFrames)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
+    kept_.add(file, instant);
     for (const Order& order : orders) fill(studio, order, &order == orders.data());
   });
 }
@@ -187,9 +184,9 @@ render::Image Pictures::silhouette(double half_width, int pixels, double& metres
   const render::Box box{{-r, -r, bounds_.low.z()}, {r, r, bounds_.high.z()}};
   const render::Camera camera = render::Camera::top(box, 1);
   metres_per_pixel = camera.metres_per_pixel(box.center(), pixels);
-  const std::vector<float> xyz = flat_points(simulation_.positions());
+  const std::vector<float> xyz = subject_->positions();
   return scene_renderer_.run(
-      [&](SceneRenderer& studio) { return studio.silhouette(cloth_, xyz, camera, pixels); });
+      [&](SceneRenderer& studio) { return studio.silhouette(subject_->mesh(), xyz, camera, pixels); });
 }
 
 void Pictures::visit(Archive& archive, Run& run) {
@@ -211,17 +208,28 @@ void Pictures::visit(Archive& archive, Run& run) {
   }
   if (!archive.loads()) return;
   encode_seconds_ = encode;
+  if (frames_ > 0) kept_.go_on(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
   for (int i = 0; i < frames_; ++i)
     thumbnails_.push_back({thumbnail(render::read_png(run.folder() / fmt::format("frames/{:04}.png", i))),
                            when(instants[i].time)});
+}
+
+void Pictures::keep_sheet(Run& run, const std::vector<int>& instants, const std::string& title) {
+  const std::filesystem::path frames = run.folder() / kKeptFrames;
+  const KeptRecord sheet{{{"record", "sheet"}, {"title", title}}, {}};
+  std::vector<KeptRecord> records = chosen_records(frames, instants);
+  records.push_back(sheet);
+  write_records(run.path(kKeptSheet), records);
+  KeptFrames::end(frames, sheet);
 }
 
 void Pictures::finish(Run& run, const std::string& title) {
   scene_renderer_.wait();
   writer_.finish();
   std::vector<render::SheetEntry> cells;
-  for (int i : render::spread(static_cast<int>(thumbnails_.size()), kSheetCells))
-    cells.push_back(std::move(thumbnails_[i]));
+  const std::vector<int> shown = render::spread(static_cast<int>(thumbnails_.size()), kSheetCells);
+  for (const int i : shown) cells.push_back(std::move(thumbnails_[i]));
+  if (!cells.empty()) keep_sheet(run, shown, title);
   if (cells.empty())
     run.warn("there is no contact sheet: no instant was pictured");
   else

@@ -10,13 +10,12 @@
 #include <vector>
 
 #include "experiments/workbench/app/run.h"
-#include "experiments/workbench/pictures/reference_run.h"
+#include "experiments/workbench/pictures/kept_frames.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "experiments/workbench/pictures/subject.h"
 #include "render/contact_sheet.h"
 #include "render/png_writer.h"
 #include "sim/base/own_thread.h"
-#include "sim/scene/cloth.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
@@ -29,6 +28,9 @@ class Pictures {
   // frames; `floor`: height of the visible ground [m].
   Pictures(const Setup& setup, const Cloth& cloth, Simulation& simulation, const render::Box& bounds,
            std::optional<float> floor);
+  // Of any subject, which becomes the pictures'.
+  Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const render::Box& bounds,
+           std::optional<float> floor);
 
   const std::string& renderer() const { return renderer_; }
   // How positions reach the renderer: "CUDA-GL" without passing the host, or "host (why)".
@@ -37,7 +39,7 @@ class Pictures {
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
   // wrong with an earlier one, Error::run where it shows no cloth.  `x`: the positions, of which the first
-  // beyond the picture's border is a warning.
+  // beyond the picture's border is a warning.  What it is drawn from is added to frames.hyg.
   void frame(Run& run, const std::vector<Eigen::Vector3d>& x);
   // Draws the present state in a look of its own, with caption and colour bar.  Error::run where it shows no
   // cloth.
@@ -50,7 +52,7 @@ class Pictures {
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files so far.  A run that goes on reads its thumbnails from them.  Throws Error::machine.
   void visit(Archive& archive, Run& run);
-  // Waits for the files and writes sheet.png.
+  // Waits for the files and writes sheet.png and what its pictures were drawn from, sheet.hyg.
   void finish(Run& run, const std::string& title);
 
  private:
@@ -61,21 +63,20 @@ class Pictures {
     SceneRenderer::Shown shown;
   };
 
-  void take_positions();
-  std::vector<float> values(const std::string& look) const;  // at present, one a vertex
+  void take_positions(const std::vector<float>& xyz);
   void note_frame(Run& run, const std::vector<Order>& orders);
   void watch_border(Run& run, const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& x);
   void fill(SceneRenderer& studio, const Order& order, bool on_sheet);
+  static void keep_sheet(Run& run, const std::vector<int>& instants, const std::string& title);
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
 
   Scene scene_;
   Options options_;
-  const Cloth& cloth_;
-  Simulation& simulation_;
+  std::unique_ptr<Subject> subject_;
   render::Box bounds_;
-  std::optional<ReferenceRun> reference_;
+  KeptFrames kept_;
   std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
   int frames_ = 0;

@@ -2,7 +2,6 @@
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/fabric_look.h"
-#include "experiments/workbench/pictures/ridge_metrics.h"
 #include "render/shapes.h"
 #include "sim/base/error.h"
 #include "sim/scene/motion.h"
@@ -13,26 +12,20 @@ namespace {
 
 constexpr double kCurvatureRange = 2;  // colours span this many K0 on either side
 
-// None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
-std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
-  std::vector<float> uv;
-  if (mesh.sewn) return uv;
-  if (shape.shape == "tube") {
-    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
-      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
-    return uv;
-  }
-  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
-  for (int i = 0; i < mesh.vertices(); ++i) {
-    Eigen::Vector3d at = mesh.rest[i];
-    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
-    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
-    uv.push_back(static_cast<float>(at.dot(weft)));
-  }
-  return uv;
+render::Look base_look(const std::string& name) {
+  const bool of_curvature = name == "residual" || name == "difference";
+  return render::look_named(of_curvature ? "curvature" : name);
 }
 
-// None of what is drawn otherwise, or not at all.
+// [1/m].  What stays and what differs is half of what bends.
+double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
+  const double range = options.curvature_range > 0 ? options.curvature_range
+                                                   : kCurvatureRange * scene.fabric.friction_curvature();
+  return look == "curvature" ? range : range / 2;
+}
+
+}  // namespace
+
 std::optional<render::TriangleMesh> body_of(const Obstacle& o) {
   const auto f = [](double x) { return static_cast<float>(x); };
   switch (o.kind) {
@@ -60,20 +53,6 @@ Eigen::Matrix4f placed_at(const Obstacle& o, double time) {
   motion.topRightCorner<3, 1>() = at.translation.cast<float>();
   return motion * render::placed(o.center.cast<float>(), o.axis.normalized().cast<float>());
 }
-
-render::Look base_look(const std::string& name) {
-  const bool of_curvature = name == "residual" || name == "difference";
-  return render::look_named(of_curvature ? "curvature" : name);
-}
-
-// [1/m].  What stays and what differs is half of what bends.
-double curvature_range(const Scene& scene, const Options& options, const std::string& look) {
-  const double range = options.curvature_range > 0 ? options.curvature_range
-                                                   : kCurvatureRange * scene.fabric.friction_curvature();
-  return look == "curvature" ? range : range / 2;
-}
-
-}  // namespace
 
 render::ColorMap map_of(const std::string& look) { return base_look(look).map; }
 
@@ -104,14 +83,12 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
   return {};
 }
 
-SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const Cloth& cloth,
+SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const DrawnMesh& mesh,
                              const render::Box& bounds, std::optional<float> floor, int cuda_device)
     : scenery_(scene.obstacle),
       offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
       view_(*offscreen_, picture_size(options)) {
-  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
-  const std::vector<float> pattern = pattern_of(cloth.mesh, scene.cloth);
-  view_.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, pattern});
+  view_.set_cloth({mesh.vertices, mesh.triangles, mesh.pattern});
   for (const Obstacle& o : scenery_) {
     const auto body = body_of(o);
     body_.push_back(body && o.visible ? view_.add_obstacle(*body, placed_at(o, 0)) : -1);
@@ -134,11 +111,10 @@ render::Image SceneRenderer::draw(const render::Look& look, const render::Camera
   return view_.draw(camera);
 }
 
-render::Image SceneRenderer::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
+render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz,
                                         const render::Camera& camera, int pixels) {
   render::ClothView view(*offscreen_, {pixels, pixels});
-  const std::vector<int> triangles = flat_triangles(cloth.mesh.face);
-  view.set_cloth({static_cast<size_t>(cloth.mesh.vertices()), triangles, {}});
+  view.set_cloth({mesh.vertices, mesh.triangles, {}});
   view.set_look(render::look_named("silhouette"));
   view.set_positions(xyz);
   render::Image image = view.draw(camera);

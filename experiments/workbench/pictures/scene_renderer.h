@@ -7,13 +7,19 @@
 #include <vector>
 
 #include "experiments/workbench/app/options.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
 #include "render/camera.h"
 #include "render/caption.h"
 #include "render/cloth_view.h"
-#include "sim/scene/cloth.h"
+#include "render/shapes.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron::experiments {
+
+// An obstacle's surface before it is placed; none of what is drawn otherwise, or not at all.
+std::optional<render::TriangleMesh> body_of(const Obstacle& obstacle);
+// Where it is at `time` [s].
+Eigen::Matrix4f placed_at(const Obstacle& obstacle, double time);
 
 // The colours of a look that shows a value.
 render::ColorMap map_of(const std::string& look);
@@ -29,7 +35,7 @@ class SceneRenderer {
  public:
   // `bounds`: what casts shadows in the whole sequence [m]; `floor`: height of the visible ground [m];
   // `cuda_device`: tried first, -1: none.
-  SceneRenderer(const Scene& scene, const Options& options, const Cloth& cloth, const render::Box& bounds,
+  SceneRenderer(const Scene& scene, const Options& options, const DrawnMesh& mesh, const render::Box& bounds,
                 std::optional<float> floor, int cuda_device);
 
   const render::Offscreen& offscreen() const { return *offscreen_; }
@@ -42,7 +48,7 @@ class SceneRenderer {
   };
   render::Image draw(const render::Look& look, const render::Camera& camera, const Shown& shown);
   // The cloth alone from straight above, black on white; `xyz` of its vertices [m].
-  render::Image silhouette(const Cloth& cloth, const std::vector<float>& xyz, const render::Camera& camera,
+  render::Image silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz, const render::Camera& camera,
                            int pixels);
 
  private:

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include "experiments/workbench/pictures/ridge_metrics.h"
+#include "experiments/workbench/pictures/scene_renderer.h"
+#include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/vtk.h"
 
@@ -13,12 +15,15 @@ constexpr const char* kInstants = "mesh/cloth.pvd";
 constexpr const char* kAnimation = "mesh/cloth.glb";
 
 std::string mesh_name(std::size_t number, const std::string& format) {
-  return fmt::format("{:04}.{}", number, format == "vtk" ? "vtp" : format);
+  return fmt::format("{:04}.{}", number, format == "vtk" ? "vtp" : format == "mitsuba" ? "ply" : format);
 }
 
 std::string mesh_file(std::size_t number, const std::string& format) {
   return "mesh/" + mesh_name(number, format);
 }
+
+std::string scene_file(std::size_t number) { return fmt::format("mesh/{:04}.xml", number); }
+std::string body_file(std::size_t number) { return fmt::format("bodies/{:04}.ply", number); }
 
 VtkField velocities(Simulation& simulation) {
   VtkField field{"velocity", 3, {}};
@@ -62,7 +67,20 @@ std::vector<std::string> MeshExport::files(const std::string& format) {
   if (format == "none") return {};
   if (format == "gltf") return {kAnimation};
   if (format == "vtk") return {mesh_file(0, format), kInstants};
+  if (format == "mitsuba") return {mesh_file(0, format), scene_file(0), "mesh/" + body_file(0)};
   return {mesh_file(0, format)};
+}
+
+// Bodies keep their shape: they are written with the first scene.
+void MeshExport::write_scene(Run& run, std::size_t number, double time) {
+  std::vector<std::string> bodies;
+  for (std::size_t i = 0; i < scene_->obstacle.size(); ++i) {
+    const auto body = scene_->obstacle[i].visible ? body_of(scene_->obstacle[i]) : std::nullopt;
+    bodies.push_back(body ? body_file(i) : "");
+    if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body);
+  }
+  write_text(run.path(scene_file(number)),
+             mitsuba_scene(*view_, *scene_, time, mesh_name(number, "ply"), bodies));
 }
 
 void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
@@ -73,7 +91,8 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
   const std::string file = run.path(mesh_file(times_.size(), format)).string();
   times_.push_back(simulation.time());
   if (format == "obj") return write_obj(file, cloth.mesh, x);
-  if (format == "ply") {
+  if (view_) write_scene(run, times_.size() - 1, simulation.time());
+  if (format == "ply" || format == "mitsuba") {
     const std::vector<float> k = vertex_curvature(cloth.mesh, simulation.curvature(), simulation.dimension());
     return write_ply(file, cloth.mesh, x, {k.begin(), k.end()});
   }

@@ -340,8 +340,11 @@ render::Box Session::framed(const Question& question) {
 
 bool Session::simulate(const Question& question) {
   run_->progress(opening_words(question));
+  const bool staged = setup_.options.export_format == "mitsuba";
+  const render::Box bounds = staged || !setup_.options.no_images ? framed(question) : question.bounds;
+  if (staged) meshes_.stage(mitsuba_view(setup_, bounds, question.floor), setup_.scene);
   if (!setup_.options.no_images) {
-    pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, framed(question), question.floor);
+    pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, bounds, question.floor);
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
   }
   const bool draws = pictures_ || setup_.options.export_format == "gltf";

@@ -217,6 +217,22 @@ TEST_F(Gallery, TakesCaptionsThatTheRunWrote) {
   EXPECT_NE(page().find("<figcaption>The sheet. Let down by a plate.</figcaption>"), std::string::npos);
 }
 
+TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
+  EXPECT_EQ(count_of(page(), "class=\"teaser\""), 0);
+  write_text(folder_.path() / "README.md", "# Cloth\n\n![One cloth](results/z-drape/sheet.png)\n");
+  const std::string html = page(),
+                    teaser = "<figure class=\"teaser\"><a class=\"zoom\" href=\"z-drape/sheet.png\">";
+  EXPECT_EQ(count_of(html, teaser), 1);
+  EXPECT_LT(html.find(teaser), html.find("<nav"));
+  EXPECT_EQ(count_of(html, "<figcaption>One cloth</figcaption>"), 1);
+  write_text(folder_.path() / "README.md", "![elsewhere](../secret/sheet.png)\n");
+  EXPECT_EQ(count_of(page(), "class=\"teaser\""), 0);
+}
+
+TEST_F(Gallery, IsLedByQuestions) {
+  EXPECT_EQ(count_of(page(), "<h2>Drape test after Cusick"), 1) << question_of("drape");
+}
+
 TEST_F(Gallery, IsTheSameWhereverItLies) {
   const std::string html = page();
   EXPECT_EQ(page(), html);

@@ -111,7 +111,7 @@ TEST_F(PageForms, ByDefaultEveryPictureOfARunIsAFileThatExists) {
 TEST_F(PageForms, LinkedPicturesAreLazyAndKeepTheirPlace) {
   const std::string html = report_page(run_);
   for (const char* image :
-       {"<img loading=\"lazy\" width=\"1800\" height=\"300\" alt=\"sheet.png\" src=\"sheet.png\">",
+       {"<img loading=\"lazy\" width=\"1800\" height=\"300\" alt=\"contact sheet\" src=\"sheet.png\">",
         "<img loading=\"lazy\" width=\"1200\" height=\"800\" alt=\"plot_energy\" src=\"plot_energy.svg\">",
         "<img loading=\"lazy\" width=\"600\" height=\"100\" alt=\"frames/0000.png\" "
         "src=\"frames/0000.png\">"})

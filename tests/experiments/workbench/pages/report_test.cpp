@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
 #include "experiments/workbench/session/record.h"
 #include "render/image.h"
@@ -36,6 +37,7 @@ class Report : public testing::Test {
   Report() {
     ExperimentRun run(drape_line(), setup_in(folder_.path()));
     run.metric("drape_coefficient_percent", 49.8);
+    run.metric("energy_remainder_relative", 2.60106e-16);
     run.manifest().energy = {{"bending_friction", 0.25}};
     Record record(run.path("metrics.csv"), {"time [s]", "kinetic [J]"});
     for (int i = 0; i < 5; ++i) record.row({0.1 * i, 1.0 - 0.1 * i});
@@ -64,12 +66,56 @@ TEST_F(Report, NamesTheCommandTheResultsAndTheSources) {
 
 TEST_F(Report, ShowsTheSheetThePlotOnceAndPlaysItsFrames) {
   const std::string page = html();
-  EXPECT_EQ(count_of(page, "alt=\"sheet.png\""), 1);
+  EXPECT_EQ(count_of(page, "alt=\"contact sheet\""), 1);
   EXPECT_EQ(count_of(page, "alt=\"plot_energy\""), 1);
   EXPECT_EQ(count_of(page, "class=\"player\""), 1);
   EXPECT_EQ(count_of(page, "alt=\"frames/"), 24);
   EXPECT_NE(page.find("alt=\"frames/1000.png\""), std::string::npos);
   EXPECT_NE(page.find("alt=\"frames/1049.png\""), std::string::npos);
+}
+
+TEST_F(Report, OpensWithTheQuestionTheNumberAndThePictureThatAnswerIt) {
+  const std::string page = html();
+  std::size_t at = 0;
+  for (const char* part :
+       {"Cusick", ">49.8 <small>%</small>", "src=\"sheet.png\"", "src=\"plot_energy.svg\""}) {
+    const std::size_t found = page.find(part);
+    ASSERT_NE(found, std::string::npos) << part;
+    EXPECT_GT(found, at) << part;
+    at = found;
+  }
+}
+
+TEST_F(Report, FoldsTheSolversFiguresAway) {
+  const std::string page = html(), fold = "<details><summary>Numerics";
+  ASSERT_EQ(count_of(page, fold), 1);
+  EXPECT_GT(page.find("energy remainder relative"), page.find(fold));
+  EXPECT_GT(page.find("kinetic [J]"), page.find(fold));
+  EXPECT_LT(page.find("drape coefficient"), page.find(fold));
+  EXPECT_EQ(count_of(page, "2.60106e-16"), 0);
+}
+
+TEST_F(Report, HasTheClothInItThatTheRunKept) {
+  EXPECT_EQ(count_of(html(), "class=\"turn\""), 0);
+  std::ofstream(folder_.path() / "sheet.hyg") << "foobar";
+  const std::string page = html();
+  EXPECT_EQ(count_of(page, "<script type=\"text/plain\">Zm9vYmFy</script>"), 1);
+  EXPECT_EQ(count_of(page, "DecompressionStream"), 1);
+}
+
+TEST(ShownQuantity, HasThePrefixThatLeavesOneToThreeDigits) {
+  const auto text = [](double value, const char* unit) {
+    const ShownQuantity shown = shown_quantity(value, unit);
+    return shown.value + " " + shown.unit;
+  };
+  EXPECT_EQ(text(0.0009377, "N"), "937.7 µN");
+  EXPECT_EQ(text(-0.0123456, "m"), "-12.35 mm");
+  EXPECT_EQ(text(3.5e-5, "N m"), "35 µN m");
+  EXPECT_EQ(text(1500, "J"), "1.5 kJ");
+  EXPECT_EQ(text(0, "J"), "0 J");
+  EXPECT_EQ(text(2.6e-16, "J"), "0 J");
+  EXPECT_EQ(text(31.02345, "1/m"), "31.02 1/m");
+  EXPECT_EQ(text(86.03, "%"), "86.03 %");
 }
 
 TEST(ReportOfSeveralLaws, HasARowForEachAndAColumnForEachMetric) {

@@ -1,0 +1,121 @@
+#include "experiments/render/kept_pictures.h"
+
+#include <algorithm>
+
+#include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/kept_page.h"
+#include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pictures/kept_frames.h"
+#include "experiments/workbench/pictures/pictures.h"
+#include "sim/base/error.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* kOut = "out/render";
+
+// What the flags ask for in place of what the run was drawn with.
+void apply_flags(const CommandLine& line, Options& options) {
+  const Keys keys = bind_options(options);
+  for (const Flag& flag : line.flags) {
+    const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
+    if (path.starts_with("render.") || path == "fps")
+      throw Error::request(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
+          .of(flag.path, flag.text);
+    const BoundKey& key = find_key(keys, path, "--" + flag.path);
+    assign(key, parse_text(key.description, flag.text), "--" + flag.path);
+  }
+  if (options.out.empty()) options.out = kOut;
+}
+
+// Every instant, then the sheet.
+void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const KeptCloth& cloth,
+                   const std::string& title) {
+  auto subject = std::make_unique<KeptSubject>(mesh, cloth.instants);
+  KeptSubject& shown = *subject;
+  Pictures pictures(setup, std::move(subject), cloth.bounds, cloth.floor);
+  for (std::size_t i = 0; i < cloth.instants.size(); ++i) {
+    shown.go_to(i);
+    const std::vector<float> xyz = shown.positions();
+    std::vector<Eigen::Vector3d> x;
+    for (std::size_t k = 0; k + 2 < xyz.size(); k += 3) x.emplace_back(xyz[k], xyz[k + 1], xyz[k + 2]);
+    pictures.frame(run, x);
+  }
+  pictures.finish(run, title);
+}
+
+Json keys_of_kept(const fs::path& file, const KeptCloth& cloth) {
+  return {{"kept", file.string()}, {"scene", cloth.setup.at("scene")}};
+}
+
+void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
+  const KeptCloth& cloth = kept.cloths.at(0);
+  Setup setup = setup_of(cloth, file.string());
+  apply_flags(line, setup.options);
+  Run run(line, setup.options, keys_of_kept(file, cloth));
+  // A run that has not ended has no sheet yet.
+  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth,
+                kept.sheet.is_object() ? kept.sheet.value("title", "") : "");
+  finish_with_report(run);
+}
+
+// Beside the look that is asked for, those that the page needs.
+std::string looks_of(const ComparisonPage& page, const std::string& asked, const std::string& recorded) {
+  if (asked.empty()) return recorded;
+  std::string looks = asked;
+  if (page.outlines) looks += ",silhouette";
+  if (page.to >= 0 && page.curvature) looks += ",difference";
+  return looks;
+}
+
+SweepColumn draw_column(const CommandLine& line, const fs::path& file, const Kept& kept,
+                        const KeptCloth& cloth, const ComparisonPage& page, const fs::path& out) {
+  Setup setup = setup_of(cloth, file.string());
+  const std::string recorded = setup.options.look;
+  apply_flags(line, setup.options);
+  setup.options.out = (out / cloth.name).string();
+  setup.options.look = looks_of(page, last_text(line.flags, "look", ""), recorded);
+  setup.options.json = false;
+  Run run(line, setup.options, keys_of_kept(file, cloth));
+  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, cloth.name);
+  run.finish();
+  return column_of(cloth, run.folder(), run.manifest().frames);
+}
+
+void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& kept) {
+  ComparisonPage page = page_of(kept.sheet);
+  Options options;
+  apply_flags(line, options);
+  page.look = last_text(line.flags, "look", page.look);
+  Run run(line, options, {{"kept", file.string()}});
+  std::vector<SweepColumn> columns;
+  for (const KeptCloth& cloth : kept.cloths) {
+    run.progress(cloth.name + ": " + std::to_string(cloth.instants.size()) + " instants");
+    columns.push_back(draw_column(line, file, kept, cloth, page, run.folder()));
+  }
+  draw_comparison_page(run, page, columns);
+  finish_with_report(run);
+}
+
+}  // namespace
+
+fs::path kept_file_of(const CommandLine& line) {
+  if (line.names.size() != 1) return {};
+  const fs::path name = line.names[0];
+  if (name.extension() == ".hyg") return name;
+  std::error_code ignored;
+  return fs::is_directory(name / "mesh", ignored) ? fs::path() : kept_file_in(name);
+}
+
+void draw_kept(const CommandLine& line, const fs::path& file) {
+  const Kept kept = read_kept(file);
+  if (kept.cloths.empty()) throw Error::request(file.string() + " keeps no cloth");
+  try {
+    is_page(kept.sheet) ? draw_comparison(line, file, kept) : draw_run(line, file, kept);
+  } catch (const Json::exception& e) {
+    throw Error::request(file.string() + ": " + e.what());
+  }
+}
+
+}  // namespace hysteron::experiments

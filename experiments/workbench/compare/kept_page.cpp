@@ -1,0 +1,95 @@
+#include "experiments/workbench/compare/kept_page.h"
+
+#include <algorithm>
+
+#include "experiments/workbench/app/manifest_file.h"
+#include "experiments/workbench/pictures/kept_frames.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+// What a page reads of a column's manifest; the scene stands beside it, pictures are noted anew.
+Json page_manifest(const Manifest& manifest) {
+  Json json = to_json(manifest);
+  for (const char* key : {"scene", "options", "asked", "meshes", "frames", "files"}) json.erase(key);
+  return json;
+}
+
+KeptRecord with_column(KeptRecord record, const SweepColumn& column, std::size_t mesh) {
+  Json setup = Json::parse(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
+  setup["manifest"] = page_manifest(*column.manifest);
+  setup["stopped"] = column.stopped;
+  const std::string text = setup.dump();
+  record.head["name"] = column.name;
+  record.head["mesh"] = mesh;
+  record.head["setup_bytes"] = text.size();
+  record.blocks[0] = deflated(text);
+  return record;
+}
+
+// The place of the mesh among those that are written already, where it is appended if it is new.
+std::size_t place_of(const KeptRecord& mesh, std::vector<KeptRecord>& known, std::vector<KeptRecord>& all) {
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i].head == mesh.head && known[i].blocks == mesh.blocks) return i;
+  known.push_back(mesh);
+  all.push_back(mesh);
+  return known.size() - 1;
+}
+
+Json page_json(const ComparisonPage& page) {
+  return {{"title", page.title}, {"notes", page.notes},         {"rows", page.rows},
+          {"times", page.times}, {"metrics", page.metrics},     {"look", page.look},
+          {"to", page.to},       {"curvature", page.curvature}, {"outlines", page.outlines}};
+}
+
+}  // namespace
+
+void keep_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+               const std::vector<std::vector<int>>& frames) {
+  std::vector<KeptRecord> meshes, all;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::error_code ignored;
+    if (frames[c].empty() || !fs::exists(columns[c].folder / kKeptFrames, ignored)) continue;
+    std::size_t mesh = 0;
+    for (const KeptRecord& record : chosen_records(columns[c].folder / kKeptFrames, frames[c])) {
+      if (record.kind() == "mesh")
+        mesh = place_of(record, meshes, all);
+      else
+        all.push_back(record.kind() == "cloth" ? with_column(record, columns[c], mesh) : record);
+    }
+  }
+  if (all.empty()) return;
+  all.push_back({{{"record", "sheet"}, {"page", page_json(page)}}, {}});
+  write_records(run.path(kKeptSheet), all);
+}
+
+bool is_page(const Json& sheet) { return sheet.is_object() && sheet.contains("page"); }
+
+ComparisonPage page_of(const Json& sheet) {
+  const Json& json = sheet.at("page");
+  ComparisonPage page;
+  page.title = json.at("title");
+  page.notes = json.at("notes");
+  page.rows = json.at("rows");
+  page.times = json.at("times").get<std::vector<double>>();
+  page.metrics = json.at("metrics");
+  page.look = json.at("look");
+  page.to = json.at("to");
+  page.curvature = json.at("curvature");
+  page.outlines = json.at("outlines");
+  page.video = "none";
+  return page;
+}
+
+SweepColumn column_of(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
+  SweepColumn column{cloth.name, {}, folder};
+  column.stopped = cloth.setup.at("stopped");
+  Json json = cloth.setup.at("manifest");
+  json["scene"] = cloth.setup.at("scene");
+  column.manifest = manifest_of(json);
+  column.manifest->frames = frames;
+  return column;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,116 @@
+#include "experiments/workbench/pictures/kept_frames.h"
+
+#include <fstream>
+#include <set>
+
+#include "experiments/workbench/pictures/scene_renderer.h"
+#include "sim/base/atomic_file.h"
+#include "sim/base/error.h"
+#include "sim/scene/keys.h"
+#include "sim/scene/recorded_scene.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr double kStepsAcross = 1024;  // quanta from end to end of a look's colours
+
+bool draws(const std::string& option) {
+  static const std::set<std::string> kOptions = {"size",  "quality", "look",      "curvature-range",
+                                                 "plain", "light",   "background"};
+  return kOptions.contains(option) || option.starts_with("camera.");
+}
+
+// What decides how a state is drawn: sources of numbers do not.
+Json setup_json(const Setup& setup) {
+  Json scene = to_json(setup.scene);
+  scene.erase("origin");
+  for (const char* key : {"provenance", "published"}) scene["fabric"].erase(key);
+  Options options = setup.options;
+  Keys keys = bind_options(options);
+  std::erase_if(keys, [](const BoundKey& key) { return !draws(key.description.path); });
+  return {{"scene", scene}, {"options", to_json(keys)}};
+}
+
+std::map<std::string, double> quanta_of(const Setup& setup) {
+  std::map<std::string, double> quanta;
+  for (const std::string& name : setup.options.looks()) {
+    const render::Look look = look_of(setup.scene, setup.options, name);
+    quanta[name] = (look.value_high - look.value_low) / kStepsAcross;
+  }
+  return quanta;
+}
+
+void assign_all(const Keys& keys, const Json& tree, const std::string& above, const std::string& file) {
+  for (const auto& [name, value] : tree.items()) {
+    const std::string path = above.empty() ? name : above + "." + name;
+    if (value.is_object())
+      assign_all(keys, value, path, file);
+    else
+      assign(find_key(keys, path, file), recorded_value(value, path, file), file);
+  }
+}
+
+void append(const fs::path& file, std::ios::openmode mode, const std::string& text) {
+  std::ofstream stream(file, mode | std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream.flush()) throw Error::machine("cannot write " + file.string());
+}
+
+}  // namespace
+
+KeptFrames::KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
+                       std::optional<float> floor)
+    : mesh_(mesh),
+      packer_(mesh.vertices, mesh.triangles),
+      cloth_{"", 0, setup_json(setup), bounds, floor, {}},
+      quanta_(quanta_of(setup)) {}
+
+void KeptFrames::add(const fs::path& file, KeptState instant) {
+  if (!has_begun_) append(file, std::ios::trunc, text_of(mesh_record(mesh_)) + text_of(cloth_record(cloth_)));
+  has_begun_ = true;
+  append(file, std::ios::app, text_of(instant_record(mesh_, packer_, instant, quanta_)));
+}
+
+void KeptFrames::end(const fs::path& file, const KeptRecord& sheet) {
+  append(file, std::ios::app, text_of(sheet));
+}
+
+void KeptFrames::go_on(const fs::path& file, std::size_t instants) {
+  std::vector<int> all(instants);
+  for (std::size_t i = 0; i < instants; ++i) all[i] = static_cast<int>(i);
+  write_records(file, chosen_records(file, all));
+  has_begun_ = true;
+}
+
+std::vector<KeptRecord> chosen_records(const fs::path& frames, const std::vector<int>& instants) {
+  const std::vector<KeptRecord> all = read_records(frames);
+  std::vector<KeptRecord> head, found;
+  for (const KeptRecord& record : all) {
+    if (record.kind() == "instant")
+      found.push_back(record);
+    else if (record.kind() != "sheet")
+      head.push_back(record);
+  }
+  for (const int i : instants) {
+    if (i < 0 || i >= static_cast<int>(found.size()))
+      throw Error::request(frames.string() + " keeps no instant " + std::to_string(i));
+    head.push_back(found[static_cast<std::size_t>(i)]);
+  }
+  return head;
+}
+
+void write_records(const fs::path& file, const std::vector<KeptRecord>& records) {
+  std::string text;
+  for (const KeptRecord& record : records) text += text_of(record);
+  write_text(file, text);
+}
+
+Setup setup_of(const KeptCloth& cloth, const std::string& file) {
+  Setup setup{default_scene(), {}};
+  apply_recorded_scene(setup.scene, cloth.setup.at("scene"), file);
+  assign_all(bind_options(setup.options), cloth.setup.at("options"), "", file);
+  return setup;
+}
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,191 @@
+#include "experiments/workbench/pictures/kept_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/base/whole_file.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+constexpr std::size_t kMostHead = 1 << 20;  // [byte] of a record's line
+
+std::vector<int> all_steps(std::span<const float> values, double quantum) {
+  std::vector<int> steps;
+  steps.reserve(values.size());
+  for (const float value : values) steps.push_back(steps_of(value, quantum));
+  return steps;
+}
+
+std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
+  std::vector<float> values;
+  values.reserve(steps.size());
+  for (const int step : steps) values.push_back(value_of(step, quantum));
+  return values;
+}
+
+// The next record, taken off the text; nothing where it is not whole.
+std::optional<KeptRecord> next_record(std::string_view& text) {
+  const std::size_t end = text.substr(0, kMostHead).find('\n');
+  if (end == text.npos) return {};
+  KeptRecord record{Json::parse(text.substr(0, end), nullptr, false), {}};
+  if (!record.head.is_object()) throw Error::request("a record is no JSON");
+  std::size_t at = end + 1;
+  for (const Json& size : record.head.value("bytes", Json::array())) {
+    const auto bytes = size.get<std::size_t>();
+    if (bytes > text.size() - at) return {};
+    record.blocks.emplace_back(text.substr(at, bytes));
+    at += bytes;
+  }
+  text.remove_prefix(at);
+  return record;
+}
+
+const std::string& block(const KeptRecord& record, std::size_t i) {
+  if (i >= record.blocks.size()) throw Error::request("a record lacks a block");
+  return record.blocks[i];
+}
+
+DrawnMesh mesh_of(const KeptRecord& record) {
+  DrawnMesh mesh;
+  mesh.vertices = record.head.at("vertices");
+  mesh.quantum = record.head.at("quantum");
+  mesh.triangles = unpacked_triangles(block(record, 0), record.head.at("triangles"), mesh.vertices);
+  if (!block(record, 1).empty())
+    mesh.pattern =
+        all_values(MeshPacker(mesh.vertices, mesh.triangles).unpacked(block(record, 1), 2), mesh.quantum);
+  return mesh;
+}
+
+KeptCloth cloth_of(const KeptRecord& record, std::size_t meshes) {
+  KeptCloth cloth;
+  cloth.name = record.head.at("name");
+  cloth.mesh = record.head.at("mesh");
+  if (cloth.mesh >= meshes) throw Error::request("a record names a mesh that is not there");
+  cloth.setup = Json::parse(inflated(block(record, 0), record.head.at("setup_bytes")));
+  const auto corners = record.head.at("bounds").get<std::vector<float>>();
+  if (corners.size() != 6) throw Error::request("bounds have other than six numbers");
+  cloth.bounds = render::box_of(corners);
+  if (!record.head.at("floor").is_null()) cloth.floor = record.head.at("floor").get<float>();
+  return cloth;
+}
+
+KeptState instant_of(const KeptRecord& record, const DrawnMesh& mesh, const MeshPacker& packer) {
+  KeptState instant;
+  instant.time = record.head.at("time");
+  instant.xyz = all_values(packer.unpacked(block(record, 0), 3), mesh.quantum);
+  std::size_t next = 1;
+  for (const auto& [look, quantum] : record.head.at("values").items())
+    instant.values[look] = all_values(packer.unpacked(block(record, next++), 1), quantum);
+  return instant;
+}
+
+Kept kept_of(const std::vector<KeptRecord>& records) {
+  Kept kept;
+  std::vector<MeshPacker> packers;
+  for (const KeptRecord& record : records) {
+    const std::string kind = record.kind();
+    if (kind == "mesh") {
+      kept.meshes.push_back(mesh_of(record));
+      packers.emplace_back(kept.meshes.back().vertices, kept.meshes.back().triangles);
+    } else if (kind == "cloth") {
+      kept.cloths.push_back(cloth_of(record, kept.meshes.size()));
+    } else if (kind == "instant") {
+      if (kept.cloths.empty()) throw Error::request("an instant stands before its cloth");
+      KeptCloth& cloth = kept.cloths.back();
+      cloth.instants.push_back(instant_of(record, kept.meshes[cloth.mesh], packers[cloth.mesh]));
+    } else if (kind == "sheet") {
+      kept.sheet = record.head;
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+int steps_of(double value, double quantum) { return static_cast<int>(std::lround(value / quantum)); }
+
+std::vector<float> rounded(std::span<const float> values, double quantum) {
+  std::vector<float> result;
+  result.reserve(values.size());
+  for (const float value : values) result.push_back(value_of(steps_of(value, quantum), quantum));
+  return result;
+}
+
+KeptRecord mesh_record(const DrawnMesh& mesh) {
+  const MeshPacker packer(mesh.vertices, mesh.triangles);
+  return {{{"record", "mesh"},
+           {"format", kFormat},
+           {"vertices", mesh.vertices},
+           {"triangles", mesh.triangles.size() / 3},
+           {"quantum", mesh.quantum}},
+          {packed_triangles(mesh.triangles),
+           mesh.pattern.empty() ? "" : packer.packed(all_steps(mesh.pattern, mesh.quantum), 2)}};
+}
+
+KeptRecord cloth_record(const KeptCloth& cloth) {
+  const std::string setup = cloth.setup.dump();
+  const Eigen::Vector3f &low = cloth.bounds.low, &high = cloth.bounds.high;
+  return {{{"record", "cloth"},
+           {"name", cloth.name},
+           {"mesh", cloth.mesh},
+           {"bounds", {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}},
+           {"floor", cloth.floor ? Json(*cloth.floor) : Json()},
+           {"setup_bytes", setup.size()}},
+          {deflated(setup)}};
+}
+
+KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
+                          const std::map<std::string, double>& quanta) {
+  KeptRecord record{{{"record", "instant"}, {"time", instant.time}, {"values", Json::object()}},
+                    {packer.packed(all_steps(instant.xyz, mesh.quantum), 3)}};
+  for (const auto& [look, values] : instant.values) {
+    record.head["values"][look] = quanta.at(look);
+    record.blocks.push_back(packer.packed(all_steps(values, quanta.at(look)), 1));
+  }
+  return record;
+}
+
+std::string text_of(const KeptRecord& record) {
+  Json head = record.head;
+  head["bytes"] = Json::array();
+  for (const std::string& block : record.blocks) head["bytes"].push_back(block.size());
+  std::string text = head.dump() + "\n";
+  for (const std::string& block : record.blocks) text += block;
+  return text;
+}
+
+std::vector<KeptRecord> read_records(const fs::path& file) {
+  const std::string bytes = whole_file(file, "cannot read " + file.string());
+  std::string_view text = bytes;
+  std::vector<KeptRecord> records;
+  try {
+    while (auto record = next_record(text)) records.push_back(std::move(*record));
+  } catch (const std::exception& e) {
+    throw Error::request(file.string() + ": " + e.what());
+  }
+  if (records.empty() || records[0].head.value("format", 0) != kFormat)
+    throw Error::request(file.string() + " holds no kept geometry of this program's format");
+  return records;
+}
+
+Kept read_kept(const fs::path& file) {
+  const std::vector<KeptRecord> records = read_records(file);
+  try {
+    return kept_of(records);
+  } catch (const std::exception& e) {
+    throw Error::request(file.string() + ": " + e.what());
+  }
+}
+
+fs::path kept_file_in(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {kKeptFrames, kKeptSheet})
+    if (fs::exists(folder / name, ignored)) return folder / name;
+  return {};
+}
+
+}  // namespace hysteron::experiments

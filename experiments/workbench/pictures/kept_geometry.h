@@ -1,0 +1,89 @@
+// What pictures were drawn from, in one file: cloth at each instant, with the scene and options that draw it.
+//
+//   {"record": "mesh", ...}      triangles and pattern, once for all cloth that has them
+//   {"record": "cloth", ...}     scene, options, what is framed; the instants that follow are its
+//   {"record": "instant", ...}   positions and values at the vertices
+//   {"record": "sheet", ...}     how the contact sheet, or a comparison's page, is headed
+//
+// Each record is a line of JSON and, behind it, as many packed blocks (packing.h) as its "bytes" has lengths.
+// Records are appended while a run goes on: a file that ends within one has all before it, and the last comes
+// with the sheet.  Numbers are whole
+// multiples of a "quantum": pictures are drawn from positions that are rounded so, unless they go from CUDA
+// to OpenGL on one GPU.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/manifest.h"
+#include "experiments/workbench/pictures/packing.h"
+#include "render/camera.h"
+
+namespace hysteron::experiments {
+
+inline constexpr const char* kKeptFrames = "frames.hyg";  // of all pictures of a run
+inline constexpr const char* kKeptSheet = "sheet.hyg";    // of those on its sheet
+
+// The nearest multiple.
+int steps_of(double value, double quantum);
+inline float value_of(int steps, double quantum) { return static_cast<float>(quantum * steps); }
+std::vector<float> rounded(std::span<const float> values, double quantum);
+
+struct DrawnMesh {
+  std::size_t vertices = 0;
+  std::vector<int> triangles;  // 3 each, counter-clockwise seen from the front
+  std::vector<float> pattern;  // warp and weft coordinates, 2 a vertex [m]; may be empty
+  double quantum = 0;          // of positions [m]
+};
+
+struct KeptState {
+  double time = 0;                                   // [s]
+  std::vector<float> xyz;                            // 3 a vertex [m]
+  std::map<std::string, std::vector<float>> values;  // by look, one a vertex
+};
+
+struct KeptCloth {
+  std::string name;  // of a comparison's column
+  std::size_t mesh = 0;
+  Json setup;  // "scene", "options"; of a column also "manifest" and "stopped"
+  render::Box bounds;
+  std::optional<float> floor;  // [m]
+  std::vector<KeptState> instants;
+};
+
+struct Kept {
+  std::vector<DrawnMesh> meshes;
+  std::vector<KeptCloth> cloths;
+  Json sheet;  // null: the file has none
+};
+
+// A record as it stands in the file.
+struct KeptRecord {
+  Json head;
+  std::vector<std::string> blocks;
+  std::string kind() const { return head.value("record", ""); }
+};
+
+KeptRecord mesh_record(const DrawnMesh& mesh);
+// Without the number of its mesh.
+KeptRecord cloth_record(const KeptCloth& cloth);
+// `quanta`: of each look's values.
+KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
+                          const std::map<std::string, double>& quanta);
+
+std::string text_of(const KeptRecord& record);
+// Whole records; what stands behind the last one is left out.  Throws Error::request, naming the file, for
+// what is no file of these, Error::machine if it cannot be read.
+std::vector<KeptRecord> read_records(const std::filesystem::path& file);
+// Throws Error::request, naming the file, for damaged records.
+Kept read_kept(const std::filesystem::path& file);
+
+// Of a run's or a recorded folder: all frames, else those of the sheet; "" if it keeps none.
+std::filesystem::path kept_file_in(const std::filesystem::path& folder);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,111 @@
+#include "experiments/workbench/pictures/subject.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "experiments/workbench/pictures/drawing.h"
+#include "experiments/workbench/pictures/reference_run.h"
+#include "experiments/workbench/pictures/ridge_metrics.h"
+#include "sim/base/error.h"
+#include "sim/bending/vertex_curvature.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr double kStepsAnEdge = 256;  // quanta in the mean edge: normals turn by 0.2 degrees at most
+
+// None of panels that are sewn together: a vertex on a seam is at several places of the pattern.
+std::vector<float> pattern_of(const ClothMesh& mesh, const ClothShape& shape) {
+  std::vector<float> uv;
+  if (mesh.sewn) return uv;
+  if (shape.shape == "tube") {
+    for (const Eigen::Vector2d& p : unrolled(mesh, shape))
+      uv.insert(uv.end(), {static_cast<float>(p.x()), static_cast<float>(p.y())});
+    return uv;
+  }
+  const Eigen::Vector3d weft = Eigen::Vector3d::UnitZ().cross(mesh.warp_axis);
+  for (int i = 0; i < mesh.vertices(); ++i) {
+    Eigen::Vector3d at = mesh.rest[i];
+    if (!mesh.pattern.empty()) at << mesh.pattern[i], 0;
+    uv.push_back(static_cast<float>(at.dot(mesh.warp_axis)));
+    uv.push_back(static_cast<float>(at.dot(weft)));
+  }
+  return uv;
+}
+
+double mean_edge(const ClothMesh& mesh) {
+  double sum = 0;
+  for (std::size_t e = 0; e < mesh.edge.size(); ++e) sum += mesh.edge_length(static_cast<int>(e));
+  return sum / static_cast<double>(mesh.edge.size());
+}
+
+DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
+  DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_of(mesh, shape),
+                  mean_edge(mesh) / kStepsAnEdge};
+  drawn.pattern = rounded(drawn.pattern, drawn.quantum);
+  return drawn;
+}
+
+class SimulatedSubject : public Subject {
+ public:
+  SimulatedSubject(const Scene& scene, const Cloth& cloth, Simulation& simulation,
+                   const std::string& reference)
+      : cloth_(cloth), simulation_(simulation), mesh_(drawn_mesh(cloth.mesh, scene.cloth)) {
+    if (!reference.empty()) reference_.emplace(reference);
+  }
+
+  const DrawnMesh& mesh() const override { return mesh_; }
+  double time() const override { return simulation_.time(); }
+  std::vector<float> positions() override { return flat_points(simulation_.positions()); }
+  std::vector<float> values(const std::string& look) override;
+  int cuda_device() const override { return simulation_.cuda_device(); }
+  std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
+                                               std::string& reason) override {
+    return simulation_.share_positions(gl_buffer, gl_device, reason);
+  }
+
+ private:
+  const Cloth& cloth_;
+  Simulation& simulation_;
+  DrawnMesh mesh_;
+  std::optional<ReferenceRun> reference_;
+};
+
+std::vector<float> SimulatedSubject::values(const std::string& look) {
+  const int d = simulation_.dimension();
+  if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
+  if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
+  if (look != "curvature" && look != "difference") return {};
+  std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
+  if (look == "curvature") return curvature;
+  const std::vector<float> other = reference_->curvature(cloth_.mesh, simulation_.time());
+  std::transform(curvature.begin(), curvature.end(), other.begin(), curvature.begin(), std::minus<>());
+  return curvature;
+}
+
+}  // namespace
+
+std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
+                                   const std::string& reference) {
+  return std::make_unique<SimulatedSubject>(scene, cloth, simulation, reference);
+}
+
+std::vector<float> KeptSubject::values(const std::string& look) {
+  const KeptState& instant = instants_[now_];
+  if (const auto kept = instant.values.find(look); kept != instant.values.end()) return kept->second;
+  if (look == "residual" || look == "friction" || look == "difference")
+    throw Error::request("look = " + look + " needs values that were not kept: run with --look " + look +
+                         " (--look)")
+        .of("look", look);
+  if (look != "curvature") return {};
+  std::vector<Eigen::Vector3d> x;
+  for (std::size_t i = 0; i + 2 < instant.xyz.size(); i += 3)
+    x.emplace_back(instant.xyz[i], instant.xyz[i + 1], instant.xyz[i + 2]);
+  std::vector<Eigen::Vector3i> face;
+  for (std::size_t i = 0; i + 2 < mesh_.triangles.size(); i += 3)
+    face.emplace_back(mesh_.triangles[i], mesh_.triangles[i + 1], mesh_.triangles[i + 2]);
+  return surface_curvature(x, face, "kept geometry");
+}
+
+}  // namespace hysteron::experiments

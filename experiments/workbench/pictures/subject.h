@@ -1,0 +1,59 @@
+// What is pictured: a cloth that is simulated, or one that was kept.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/experiment.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
+#include "sim/device/gl_positions.h"
+#include "sim/scene/cloth.h"
+#include "sim/time/simulation.h"
+
+namespace hysteron::experiments {
+
+class Subject {
+ public:
+  virtual ~Subject() = default;
+  virtual const DrawnMesh& mesh() const = 0;
+  virtual double time() const = 0;             // [s]
+  virtual std::vector<float> positions() = 0;  // x, y, z of each vertex [m]
+  // One a vertex, in looks that show a value; none in others.
+  virtual std::vector<float> values(const std::string& look) = 0;
+  virtual int cuda_device() const { return -1; }
+  // As Simulation::share_positions().
+  virtual std::unique_ptr<GlPositions> share_positions(unsigned gl_buffer, int gl_device,
+                                                       std::string& reason) = 0;
+};
+
+// `reference`: the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
+// outlive it.
+std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
+                                   const std::string& reference);
+
+// Cloth as it was kept, one instant after the other.  What was kept must outlive it.
+class KeptSubject : public Subject {
+ public:
+  KeptSubject(const DrawnMesh& mesh, const std::vector<KeptState>& instants)
+      : mesh_(mesh), instants_(instants) {}
+
+  void go_to(std::size_t instant) { now_ = instant; }
+
+  const DrawnMesh& mesh() const override { return mesh_; }
+  double time() const override { return instants_[now_].time; }
+  std::vector<float> positions() override { return instants_[now_].xyz; }
+  // Curvature that was not kept is that of the shape.  Throws Error::request for other values that were not.
+  std::vector<float> values(const std::string& look) override;
+  std::unique_ptr<GlPositions> share_positions(unsigned, int, std::string& reason) override {
+    reason = "kept geometry";
+    return nullptr;
+  }
+
+ private:
+  const DrawnMesh& mesh_;
+  const std::vector<KeptState>& instants_;
+  std::size_t now_ = 0;
+};
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,37 @@
+// A picture's scene for the path tracer Mitsuba 3 (Jakob et al. 2022), whose plugins and parameters are those
+// of https://mitsuba.readthedocs.io: for the last per cent of light that a rasteriser leaves out.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/app/experiment.h"
+#include "render/camera.h"
+#include "render/look.h"
+#include "render/shapes.h"
+#include "sim/scene/scene.h"
+
+namespace hysteron::experiments {
+
+struct MitsubaView {
+  render::Camera camera;
+  render::Look look;
+  int width = 0, height = 0;   // [pixels]
+  render::Box bounds;          // of what is lit [m]
+  std::optional<float> floor;  // height of the visible ground [m]
+};
+
+// What the options' pictures show.
+MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::optional<float> floor);
+
+// XML of a scene: the cloth in the file `cloth`, diffuse on both sides, and `bodies`, a file for each visible
+// obstacle and "" for others, where they are at `time` [s]; key light, sky and ground of a figure.  The sky
+// is as bright from below where there is no ground; where no surface is, the picture is transparent.
+std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
+                          const std::vector<std::string>& bodies);
+
+// An obstacle's surface, before it is placed, as a PLY file.  Throws Error::machine.
+void write_body(const std::string& file, const render::TriangleMesh& mesh);
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,71 @@
+// A run's folder drawn again without simulating.
+#include <nlohmann/json.hpp>
+
+#include "render/compare.h"
+#include "render/image.h"
+#include "tests/experiments/program.h"
+
+namespace hysteron::experiments {
+namespace {
+namespace fs = std::filesystem;
+
+const std::string kSmall = " --quick --fps 10 --seconds 0.3 --size 240x180 --device cpu --quiet";
+
+// A folder as results/ has it: no frames.
+struct Recorded {
+  Folder folder;
+  fs::path run = folder.path() / "run", kept = folder.path() / "kept", again = folder.path() / "again";
+
+  explicit Recorded(const std::string& command) {
+    const Outcome outcome = program(command + kSmall + " --out " + run.string());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    fs::create_directories(kept);
+    for (const char* name : {"manifest.json", "sheet.hyg"}) fs::copy_file(run / name, kept / name);
+  }
+  Outcome drawn(const fs::path& from, const std::string& flags = "") const {
+    return program("render " + from.string() + " --quiet --out " + again.string() + flags);
+  }
+};
+
+TEST(KeptPictures, ARunsFolderIsDrawnAgainToTheByte) {
+  const Recorded swing("swing --look curvature,cloth");
+  const Outcome outcome = swing.drawn(swing.run);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* name :
+       {"sheet.png", "frames/0002.png", "frames-cloth/0003.png", "frames.hyg", "sheet.hyg"})
+    EXPECT_EQ(text_of(swing.again / name), text_of(swing.run / name)) << name;
+}
+
+TEST(KeptPictures, ARecordedFolderGivesItsSheet) {
+  const Recorded swing("swing");
+  ASSERT_EQ(swing.drawn(swing.kept).exit_code, 0);
+  EXPECT_EQ(text_of(swing.again / "sheet.png"), text_of(swing.run / "sheet.png"));
+}
+
+TEST(KeptPictures, AComparisonsFolderGivesItsSheet) {
+  const Recorded page("compare swing --laws linear,prandtl");
+  const Outcome outcome = page.drawn(page.kept);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(text_of(page.again / "sheet.png"), text_of(page.run / "sheet.png"));
+}
+
+TEST(KeptPictures, FlagsWinOverWhatTheRunWasDrawnWith) {
+  const Recorded swing("swing");
+  ASSERT_EQ(swing.drawn(swing.kept, " --look curvature --size 160x120").exit_code, 0);
+  const render::Image image = render::read_png(swing.again / "frames/0003.png");
+  EXPECT_EQ(image.width(), 160);
+  const Json manifest = Json::parse(text_of(swing.again / "manifest.json"));
+  EXPECT_EQ(manifest.at("frames").at("looks").begin().key(), "curvature");
+}
+
+TEST(KeptPictures, ValuesThatWereNotKeptAreRefused) {
+  const Recorded swing("swing");
+  const Outcome outcome = swing.drawn(swing.kept, " --look friction");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("look = friction needs values that were not kept"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(swing.drawn(swing.kept, " --render.ground 0").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

@@ -1,0 +1,97 @@
+// What pictures are drawn from, packed and back.
+#include "experiments/workbench/pictures/kept_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/experiments/folder.h"
+#include "tests/sim/base/refusal.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr int kSide = 20;
+constexpr double kQuantum = 2e-5;  // [m]
+
+// A square grid of 1 cm on a wave, cut by parallel diagonals.
+DrawnMesh grid() {
+  DrawnMesh mesh{kSide * kSide, {}, {}, kQuantum};
+  for (int j = 0; j + 1 < kSide; ++j)
+    for (int i = 0; i + 1 < kSide; ++i) {
+      const int v = j * kSide + i;
+      for (const int corner : {v, v + 1, v + kSide + 1, v, v + kSide + 1, v + kSide})
+        mesh.triangles.push_back(corner);
+    }
+  return mesh;
+}
+
+std::vector<float> wave() {
+  std::vector<float> xyz;
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i)
+      for (const double x : {0.01 * i, 0.01 * j, 0.01 * std::sin(0.4 * i + 0.3 * j)})
+        xyz.push_back(static_cast<float>(x));
+  return rounded(xyz, kQuantum);
+}
+
+std::vector<int> steps(const std::vector<float>& values) {
+  std::vector<int> all;
+  for (const float value : values) all.push_back(steps_of(value, kQuantum));
+  return all;
+}
+
+TEST(KeptGeometry, NumbersComeBackAsTheyWere) {
+  const DrawnMesh mesh = grid();
+  const MeshPacker packer(mesh.vertices, mesh.triangles);
+  const std::vector<int> values = steps(wave());
+  EXPECT_EQ(packer.unpacked(packer.packed(values, 3), 3), values);
+  EXPECT_EQ(unpacked_triangles(packed_triangles(mesh.triangles), mesh.triangles.size() / 3, mesh.vertices),
+            mesh.triangles);
+  std::vector<int> extreme(mesh.vertices, 0);
+  extreme[3] = 1 << 29, extreme[7] = -(1 << 29);
+  EXPECT_EQ(packer.unpacked(packer.packed(extreme, 1), 1), extreme);
+}
+
+TEST(KeptGeometry, AVertexTakesLessThanFourBytes) {
+  const DrawnMesh mesh = grid();
+  const std::string packed = MeshPacker(mesh.vertices, mesh.triangles).packed(steps(wave()), 3);
+  EXPECT_LT(static_cast<double>(packed.size()) / static_cast<double>(mesh.vertices), 4);
+}
+
+TEST(KeptGeometry, RoundingTwiceIsRoundingOnce) {
+  const std::vector<float> once = wave();
+  EXPECT_EQ(rounded(once, kQuantum), once);
+}
+
+TEST(KeptGeometry, DamagedBytesAreRefused) {
+  const DrawnMesh mesh = grid();
+  const MeshPacker packer(mesh.vertices, mesh.triangles);
+  const std::string good = packer.packed(steps(wave()), 3);
+  std::string bad = good;
+  bad[bad.size() / 2] = static_cast<char>(~bad[bad.size() / 2]);
+  for (const std::string& bytes : {bad, good.substr(0, good.size() / 2), std::string()})
+    EXPECT_NE(test::refusal([&] { packer.unpacked(bytes, 3); }), "");
+  EXPECT_NE(test::refusal([&] { unpacked_triangles(packed_triangles(mesh.triangles), 722, 10); }), "");
+  EXPECT_NE(test::refusal([&] { inflated(deflated("hysteron"), std::size_t{1} << 60); }), "");
+}
+
+// A file that was being written when its run was killed.
+TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
+  const Folder folder;
+  const DrawnMesh mesh = grid();
+  const MeshPacker packer(mesh.vertices, mesh.triangles);
+  const KeptCloth cloth{"", 0, {{"scene", Json::object()}}, {{-1, -2, -3}, {1, 2, 3}}, -0.5f, {}};
+  std::string text = text_of(mesh_record(mesh)) + text_of(cloth_record(cloth));
+  for (const double time : {0.0, 0.1}) text += text_of(instant_record(mesh, packer, {time, wave(), {}}, {}));
+  std::ofstream(folder.path() / "frames.hyg", std::ios::binary) << text.substr(0, text.size() - 5);
+  const Kept kept = read_kept(folder.path() / "frames.hyg");
+  ASSERT_EQ(kept.cloths.size(), 1u);
+  ASSERT_EQ(kept.cloths[0].instants.size(), 1u);
+  EXPECT_EQ(kept.cloths[0].instants[0].xyz, wave());
+  EXPECT_EQ(kept.cloths[0].floor, -0.5f);
+  EXPECT_EQ(kept.cloths[0].bounds.high.z(), 3);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments
