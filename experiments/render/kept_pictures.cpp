@@ -76,6 +76,7 @@ SweepColumn draw_column(const CommandLine& line, const fs::path& file, const Kep
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
   setup.options.look = looks_of(page, last_text(line.flags, "look", ""), recorded);
+  setup.options.plain = true;  // the page has the letters
   setup.options.json = false;
   Run run(line, setup.options, keys_of_kept(file, cloth));
   draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, cloth.name);
