@@ -43,6 +43,8 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
+constexpr double kOnion = 0.5;  // of a swing: there and back, with what is left after it [s]
+
 // "Swing: cotton-broad, bdf2": what all columns share.
 std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& columns) {
   std::string title = line.names[0];
@@ -119,6 +121,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
                             .look = options.looks().front(),
                             .to = plan.to,
                             .curvature = choice.difference == "curvature",
+                            .onion = experiment == "swing" ? kOnion : 0,
                             .outlines = !choice.no_outlines,
                             .video = choice.video};
   const auto stage = run.stage("render");

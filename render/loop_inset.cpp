@@ -1,0 +1,133 @@
+#include "render/loop_inset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "render/srgb.h"
+
+namespace hysteron::render {
+namespace {
+
+constexpr Rgb8 kPlate{255, 255, 255}, kAxis{150, 153, 158}, kGhost{176, 178, 182}, kLetter{70, 73, 78};
+constexpr float kOpacity = 0.86f;  // of the white behind the loop
+constexpr float kAir = 1.12f;      // of the frame beyond the largest values
+constexpr float kEdge = 0.02f;     // between the inset and the picture's border, of the shorter side
+
+struct Frame {
+  float left, top, side;     // [pixels]
+  double curvature, moment;  // at its right and upper ends
+  float x(double k) const { return left + side * static_cast<float>(0.5 + 0.5 * k / curvature); }
+  float y(double m) const { return top + side * static_cast<float>(0.5 - 0.5 * m / moment); }
+};
+
+float side_of(const Image& image, float share) {
+  return share * static_cast<float>(std::min(image.width(), image.height()));
+}
+
+Frame frame_of(const Image& image, Corner corner, float share) {
+  const float side = side_of(image, share), edge = side_of(image, kEdge);
+  const bool right = corner == Corner::top_right || corner == Corner::bottom_right,
+             bottom = corner == Corner::bottom_left || corner == Corner::bottom_right;
+  return {right ? static_cast<float>(image.width()) - edge - side : edge,
+          bottom ? static_cast<float>(image.height()) - edge - side : edge, side, 1, 1};
+}
+
+void mix(std::uint8_t* pixel, const Rgb8& color, float share) {
+  const auto& linear = linear_of_srgb8();
+  for (int c = 0; c < 3; ++c)
+    pixel[c] = srgb8_of_linear(linear[pixel[c]] + share * (linear[color[c]] - linear[pixel[c]]));
+}
+
+void pale(Image& image, const Frame& at) {
+  const int right = std::min(image.width(), static_cast<int>(at.left + at.side)),
+            bottom = std::min(image.height(), static_cast<int>(at.top + at.side));
+  for (int y = std::max(0, static_cast<int>(at.top)); y < bottom; ++y)
+    for (int x = std::max(0, static_cast<int>(at.left)); x < right; ++x)
+      mix(image.at(x, y), kPlate, kOpacity);
+}
+
+void draw_path(Image& image, const Frame& at, const Path& path, float width, const Rgb8& color) {
+  for (std::size_t i = 1; i < path.curvature.size(); ++i) {
+    const float x0 = at.x(path.curvature[i - 1]), y0 = at.y(path.moment[i - 1]), x1 = at.x(path.curvature[i]),
+                y1 = at.y(path.moment[i]);
+    if (std::isfinite(x0 + y0 + x1 + y1)) draw_line(image, x0, y0, x1, y1, width, color);
+  }
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (double v : values)
+    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  return most;
+}
+
+// How much of the square is not white, in pixels of the picture's own darkness.
+double hidden(const Image& image, Corner corner, float share) {
+  const Frame at = frame_of(image, corner, share);
+  double sum = 0;
+  for (int y = static_cast<int>(at.top); y < static_cast<int>(at.top + at.side); ++y)
+    for (int x = static_cast<int>(at.left); x < static_cast<int>(at.left + at.side); ++x)
+      sum += 255 - image.at(x, y)[1];
+  return sum / (at.side * at.side);
+}
+
+}  // namespace
+
+void widen(LoopInset& inset, const Path& path) {
+  inset.most_curvature = std::max(inset.most_curvature, largest(path.curvature));
+  inset.most_moment = std::max(inset.most_moment, largest(path.moment));
+}
+
+void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color) {
+  const float half = width / 2, dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy;
+  const auto from = [&](float a, float b) { return static_cast<int>(std::floor(std::min(a, b) - half - 1)); };
+  const auto to = [&](float a, float b) { return static_cast<int>(std::ceil(std::max(a, b) + half + 1)); };
+  for (int y = std::max(0, from(y0, y1)); y < std::min(image.height(), to(y0, y1)); ++y)
+    for (int x = std::max(0, from(x0, x1)); x < std::min(image.width(), to(x0, x1)); ++x) {
+      const float px = static_cast<float>(x) + 0.5f - x0, py = static_cast<float>(y) + 0.5f - y0;
+      const float t = length2 > 0 ? std::clamp((px * dx + py * dy) / length2, 0.f, 1.f) : 0;
+      const float cover = half + 0.5f - std::hypot(px - t * dx, py - t * dy);
+      if (cover > 0) mix(image.at(x, y), color, std::min(cover, 1.f));
+    }
+}
+
+void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters) {
+  if (inset.empty()) return;
+  LoopInset drawn = inset;
+  if (!(drawn.most_curvature > 0 && drawn.most_moment > 0))
+    widen(drawn, drawn.path), widen(drawn, drawn.reference);
+  Frame at = frame_of(image, corner, share);
+  at.curvature = drawn.most_curvature > 0 ? kAir * drawn.most_curvature : 1;
+  at.moment = drawn.most_moment > 0 ? kAir * drawn.most_moment : 1;
+  pale(image, at);
+  const float thin = std::max(1.f, at.side / 110), bold = std::max(1.5f, at.side / 48);
+  draw_line(image, at.left, at.y(0), at.left + at.side, at.y(0), thin, kAxis);
+  draw_line(image, at.x(0), at.top, at.x(0), at.top + at.side, thin, kAxis);
+  draw_text(image, "M", at.x(0) - letters * 1.35f, at.top + letters, {kLetter, letters});
+  draw_text(image, "κ", at.left + at.side - text_width("κ", letters), at.y(0) + 1.25f * letters,
+            {kLetter, letters});
+  draw_path(image, at, drawn.reference, bold, kGhost);
+  draw_path(image, at, drawn.path, bold, drawn.color);
+  const float x = at.x(drawn.path.curvature.back()), y = at.y(drawn.path.moment.back());
+  if (std::isfinite(x + y)) {
+    draw_line(image, x, y, x, y, 4.6f * bold, kPlate);
+    draw_line(image, x, y, x, y, 3.4f * bold, drawn.color);
+  }
+}
+
+Corner emptiest_corner(const std::vector<const Image*>& pictures, float share) {
+  constexpr std::array kOrder = {Corner::bottom_right, Corner::top_right, Corner::top_left,
+                                 Corner::bottom_left};
+  Corner best = kOrder[0];
+  double least = INFINITY;
+  for (const Corner corner : kOrder) {
+    double sum = 0;
+    for (const Image* picture : pictures) sum += hidden(*picture, corner, share);
+    if (sum < 0.9 * least) best = corner, least = sum;
+  }
+  return best;
+}
+
+}  // namespace hysteron::render

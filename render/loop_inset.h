@@ -1,0 +1,41 @@
+// Moment against curvature so far, drawn small into a corner of a picture: which way a material came to where
+// it is.
+#pragma once
+
+#include <vector>
+
+#include "render/caption.h"
+#include "render/image.h"
+
+namespace hysteron::render {
+
+// Pairs of curvature [1/m] and moment per width [N], in the order in which they were visited.
+struct Path {
+  std::vector<double> curvature, moment;
+};
+
+struct LoopInset {
+  Path path;                                   // up to this instant; the last point carries a dot
+  Path reference{};                            // in grey behind it; may be empty
+  Rgb8 color{38, 40, 44};                      // of the path
+  double most_curvature = 0, most_moment = 0;  // at the frame, on either side of zero; 0: from the paths
+
+  bool empty() const { return path.curvature.empty(); }
+};
+
+// Largest absolute values in the paths, for insets that are compared.
+void widen(LoopInset& inset, const Path& path);
+
+// A straight line with round ends, blended in linear light.
+void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color);
+
+// A square of `share` of the picture's shorter side in that corner, with axes through zero named M and κ,
+// whose capitals are `letters` pixels high.  Points that are not finite make gaps.  An empty path draws
+// nothing.
+void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters);
+
+// The corner in which a square of that share hides least of what is not white in all of these pictures;
+// lower right where several hide as little.
+Corner emptiest_corner(const std::vector<const Image*>& pictures, float share);
+
+}  // namespace hysteron::render
