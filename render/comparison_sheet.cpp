@@ -32,7 +32,8 @@ struct Page {
   int line() const { return static_cast<int>(std::lround(kLine * letters)); }
   int left(std::size_t place) const { return gap + margin + static_cast<int>(place) * (cell_width + gap); }
   int head() const {
-    return gap + title_lines * static_cast<int>(std::lround(kTitle * kLine * letters)) + note_lines * line();
+    return 2 * gap + title_lines * static_cast<int>(std::lround(kTitle * kLine * letters)) +
+           note_lines * line();
   }
   int block_height() const {
     int height = (families ? line() : 0) + line() + gap / 2;
@@ -145,13 +146,24 @@ std::vector<int> row_heights(const ComparisonSheet& sheet, int cell_width) {
   return heights;
 }
 
+// Of the pictures in row r [m]; 0 of a row without scale or pictures.
+double metres_across(const ComparisonSheet& sheet, std::size_t r) {
+  for (const ComparisonColumn& column : sheet.columns)
+    if (const Image& image = column.cells[r].image; !image.empty())
+      return sheet.rows[r].metres_per_pixel * image.width();
+  return 0;
+}
+
 // Rows have a scale each, or one that stands for all at the foot.
 bool has_one_scale(const ComparisonSheet& sheet) {
   constexpr double kSame = 0.02;
-  for (const ComparisonRow& row : sheet.rows)
-    if (std::abs(row.metres_per_pixel - sheet.rows[0].metres_per_pixel) >
-        kSame * sheet.rows[0].metres_per_pixel)
-      return false;
+  double first = 0;
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    const double across = metres_across(sheet, r);
+    if (across == 0) continue;
+    if (first > 0 && std::abs(across - first) > kSame * first) return false;
+    first = across;
+  }
   return true;
 }
 
@@ -187,14 +199,14 @@ Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
 double want(const ComparisonSheet& sheet, const Page& page) {
   const double aspect = page.aspect();
   double want = 10 * std::max({0.0, std::log(aspect / kWidest), std::log(kTallest / aspect)});
+  std::size_t columns = 1;
+  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
+  const double places = static_cast<double>(columns * page.blocks.size());
+  want += 1 - static_cast<double>(sheet.columns.size()) / places;
   if (sheet.in_sequence) return want + std::abs(std::log(aspect / kPleasant));
   if (widest_caption(sheet, 0, page.letters) > static_cast<float>(page.cell_width)) want += 5;
   if (page.numbers < std::min<std::size_t>(1, most_numbers(sheet))) want += 3;
-  std::size_t columns = 1, places = 0;
-  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
-  places = columns * page.blocks.size();
-  return want + static_cast<double>(places - sheet.columns.size()) / static_cast<double>(places) +
-         0.3 * static_cast<double>(page.blocks.size() - 1);
+  return want + 0.3 * static_cast<double>(page.blocks.size() - 1);
 }
 
 Page best_page(const ComparisonSheet& sheet) {
@@ -254,7 +266,7 @@ class Drawing {
       : sheet_(sheet), page_(std::move(page)), image_(page_.width, page_.height(), kPaper) {}
 
   Image draw() {
-    choose_corner();
+    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) corners_.push_back(corner_of(r));
     head();
     for (const Places& block : page_.blocks) draw_block(block);
     foot();
@@ -268,16 +280,13 @@ class Drawing {
               {color, letters});
   }
 
-  // The pictures' sizes on the page decide where insets hide least.
-  void choose_corner() {
-    std::vector<Image> cells;
-    for (const ComparisonColumn& column : sheet_.columns)
-      for (std::size_t r = 0; r < sheet_.rows.size(); ++r)
-        if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
-          cells.push_back(fitted(cell.image, page_.cell_width, page_.row_height[r]));
+  // Of a row: where insets hide least of its pictures.
+  Corner corner_of(std::size_t r) const {
     std::vector<const Image*> pictures;
-    for (const Image& cell : cells) pictures.push_back(&cell);
-    corner_ = emptiest_corner(pictures, kInsetShare);
+    for (const ComparisonColumn& column : sheet_.columns)
+      if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
+        pictures.push_back(&cell.image);
+    return emptiest_corner(pictures, kInsetShare);
   }
 
   void head() {
@@ -292,6 +301,7 @@ class Drawing {
         text(line, x, y_, kGrey, room);
         y_ += page_.line();
       }
+    y_ += page_.gap;
   }
 
   void draw_block(const Places& block) {
@@ -307,7 +317,7 @@ class Drawing {
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
       instant(sheet_.rows[r], r);
       for (std::size_t i = 0; i < block.size(); ++i)
-        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r]);
+        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r], corners_[r]);
       y_ += page_.row_height[r] + page_.gap;
     }
     y_ += page_.gap;
@@ -341,14 +351,14 @@ class Drawing {
     return 1;
   }
 
-  void cell(const ComparisonCell& from, int left, int height) {
+  void cell(const ComparisonCell& from, int left, int height, Corner corner) {
     if (from.image.empty()) return;
     Image cell = fitted(from.image, page_.cell_width, height);
     if (!from.note.empty())
       draw_text(cell, fitting(from.note, page_.letters, static_cast<float>(cell.width()) - page_.letters),
                 0.5f * page_.letters, static_cast<float>(cell.height()) - 0.6f * page_.letters,
                 {kInk, page_.letters});
-    draw_loop(cell, from.loop, corner_, kInsetShare, page_.letters);
+    draw_loop(cell, from.loop, corner, kInsetShare, page_.letters);
     paste(image_, cell, left + (page_.cell_width - cell.width()) / 2, y_ + (height - cell.height()) / 2);
   }
 
@@ -385,7 +395,7 @@ class Drawing {
   const ComparisonSheet& sheet_;
   Page page_;
   Image image_;
-  Corner corner_ = Corner::bottom_right;
+  std::vector<Corner> corners_;  // of insets, by row
   int y_ = 0;
 };
 
@@ -416,6 +426,30 @@ Image draw_comparison(const ComparisonSheet& sheet) {
                          std::to_string(page.cell_width) + " for a picture; at least " +
                          std::to_string(kLeastCell) + " are needed");
   return Drawing(sheet, std::move(page)).draw();
+}
+
+void fade_to_page(Image& image) {
+  constexpr int kNearlyWhite = 244;
+  constexpr float kBand = 0.04f;
+  const int w = image.width(), h = image.height();
+  long white = 0;
+  for (int x = 0; x < w; ++x)
+    white += (image.at(x, 0)[1] >= kNearlyWhite) + (image.at(x, h - 1)[1] >= kNearlyWhite);
+  for (int y = 0; y < h; ++y)
+    white += (image.at(0, y)[1] >= kNearlyWhite) + (image.at(w - 1, y)[1] >= kNearlyWhite);
+  if (white < w + h) return;
+  const float band_x = std::max(1.f, kBand * static_cast<float>(w)),
+              band_y = std::max(1.f, kBand * static_cast<float>(h));
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const float in = std::min(static_cast<float>(std::min(x, w - 1 - x)) / band_x,
+                                static_cast<float>(std::min(y, h - 1 - y)) / band_y);
+      if (in >= 1) continue;
+      const float share = in * in * (3 - 2 * in);
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y)[c] =
+            static_cast<std::uint8_t>(std::lround(255 - share * static_cast<float>(255 - image.at(x, y)[c])));
+    }
 }
 
 void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width) {

@@ -59,6 +59,10 @@ float sheet_letters(int width);
 // or less than 32 pixels are left for a cell.
 Image draw_comparison(const ComparisonSheet& sheet);
 
+// Cells without edges: where most of a picture's border is nearly white, its outer 4 % go over into the page,
+// and what is left of shadows there.  What is cropped to its cloth with 6 % of room keeps all of it.
+void fade_to_page(Image& image);
+
 // The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels.
 // Error::request if the sizes differ.
 void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width);

@@ -12,18 +12,23 @@ namespace {
 
 constexpr Rgb8 kPlate{255, 255, 255}, kAxis{150, 153, 158}, kGhost{176, 178, 182}, kLetter{70, 73, 78};
 constexpr float kOpacity = 0.86f;  // of the white behind the loop
-constexpr float kAir = 1.12f;      // of the frame beyond the largest values
+constexpr double kAir = 0.12;      // of the extent, beyond the largest values
 constexpr float kEdge = 0.02f;     // between the inset and the picture's border, of the shorter side
 
 struct Frame {
-  float left, top, side;     // [pixels]
-  double curvature, moment;  // at its right and upper ends
-  float x(double k) const { return left + side * static_cast<float>(0.5 + 0.5 * k / curvature); }
-  float y(double m) const { return top + side * static_cast<float>(0.5 - 0.5 * m / moment); }
+  float left, top, side;  // [pixels]
+  LoopFrame shown;
+  float x(double k) const {
+    return left + side * static_cast<float>((k - shown.low_curvature) /
+                                            (shown.high_curvature - shown.low_curvature));
+  }
+  float y(double m) const {
+    return top + side * static_cast<float>((shown.high_moment - m) / (shown.high_moment - shown.low_moment));
+  }
 };
 
 float side_of(const Image& image, float share) {
-  return share * static_cast<float>(std::min(image.width(), image.height()));
+  return share * static_cast<float>(std::min(image.width(), 2 * image.height()));
 }
 
 Frame frame_of(const Image& image, Corner corner, float share) {
@@ -31,7 +36,9 @@ Frame frame_of(const Image& image, Corner corner, float share) {
   const bool right = corner == Corner::top_right || corner == Corner::bottom_right,
              bottom = corner == Corner::bottom_left || corner == Corner::bottom_right;
   return {right ? static_cast<float>(image.width()) - edge - side : edge,
-          bottom ? static_cast<float>(image.height()) - edge - side : edge, side, 1, 1};
+          bottom ? static_cast<float>(image.height()) - edge - side : edge,
+          side,
+          {}};
 }
 
 void mix(std::uint8_t* pixel, const Rgb8& color, float share) {
@@ -56,11 +63,16 @@ void draw_path(Image& image, const Frame& at, const Path& path, float width, con
   }
 }
 
-double largest(const std::vector<double>& values) {
-  double most = 0;
+void include(double& low, double& high, const std::vector<double>& values) {
   for (double v : values)
-    if (std::isfinite(v)) most = std::max(most, std::abs(v));
-  return most;
+    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+}
+
+void give_air(double& low, double& high) {
+  if (low == high) low -= 1, high += 1;
+  const double air = kAir * (high - low);
+  low -= air;
+  high += air;
 }
 
 // How much of the square is not white, in pixels of the picture's own darkness.
@@ -75,9 +87,9 @@ double hidden(const Image& image, Corner corner, float share) {
 
 }  // namespace
 
-void widen(LoopInset& inset, const Path& path) {
-  inset.most_curvature = std::max(inset.most_curvature, largest(path.curvature));
-  inset.most_moment = std::max(inset.most_moment, largest(path.moment));
+void LoopFrame::include(const Path& path) {
+  render::include(low_curvature, high_curvature, path.curvature);
+  render::include(low_moment, high_moment, path.moment);
 }
 
 void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color) {
@@ -95,25 +107,30 @@ void draw_line(Image& image, float x0, float y0, float x1, float y1, float width
 
 void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters) {
   if (inset.empty()) return;
-  LoopInset drawn = inset;
-  if (!(drawn.most_curvature > 0 && drawn.most_moment > 0))
-    widen(drawn, drawn.path), widen(drawn, drawn.reference);
   Frame at = frame_of(image, corner, share);
-  at.curvature = drawn.most_curvature > 0 ? kAir * drawn.most_curvature : 1;
-  at.moment = drawn.most_moment > 0 ? kAir * drawn.most_moment : 1;
+  at.shown = inset.frame;
+  if (at.shown.empty()) {
+    at.shown.include(inset.path);
+    at.shown.include(inset.reference);
+  }
+  give_air(at.shown.low_curvature, at.shown.high_curvature);
+  give_air(at.shown.low_moment, at.shown.high_moment);
   pale(image, at);
-  const float thin = std::max(1.f, at.side / 110), bold = std::max(1.5f, at.side / 48);
+  const float thin = std::max(1.f, at.side / 110), bold = std::max(1.5f, at.side / 40);
   draw_line(image, at.left, at.y(0), at.left + at.side, at.y(0), thin, kAxis);
   draw_line(image, at.x(0), at.top, at.x(0), at.top + at.side, thin, kAxis);
-  draw_text(image, "M", at.x(0) - letters * 1.35f, at.top + letters, {kLetter, letters});
-  draw_text(image, "κ", at.left + at.side - text_width("κ", letters), at.y(0) + 1.25f * letters,
-            {kLetter, letters});
-  draw_path(image, at, drawn.reference, bold, kGhost);
-  draw_path(image, at, drawn.path, bold, drawn.color);
-  const float x = at.x(drawn.path.curvature.back()), y = at.y(drawn.path.moment.back());
+  const bool left = at.x(0) - at.left > at.side / 2;  // of which there is more room
+  const bool below = at.y(0) - at.top < at.side / 2;
+  draw_text(image, "M", left ? at.x(0) - 1.3f * letters : at.x(0) + 0.35f * letters,
+            below ? at.top + at.side : at.top + letters, {kLetter, letters});
+  draw_text(image, "κ", left ? at.left : at.left + at.side - text_width("κ", letters),
+            at.y(0) - 0.4f * letters, {kLetter, letters});
+  draw_path(image, at, inset.reference, bold, kGhost);
+  draw_path(image, at, inset.path, bold, inset.color);
+  const float x = at.x(inset.path.curvature.back()), y = at.y(inset.path.moment.back());
   if (std::isfinite(x + y)) {
     draw_line(image, x, y, x, y, 4.6f * bold, kPlate);
-    draw_line(image, x, y, x, y, 3.4f * bold, drawn.color);
+    draw_line(image, x, y, x, y, 3.4f * bold, inset.color);
   }
 }
 

@@ -178,9 +178,19 @@ void Crop::include(const Frames::Instant& instant) {
           std::max(box_[3], box[3])};
 }
 
+void Crop::widen(double to) {
+  constexpr double kWasted = 1.8;
+  const double more = (to - width()) / 2;
+  if (width() == 0 || more <= 0 || to > kWasted * width()) return;
+  // Within the picture: what is beyond one border is added at the other.
+  const double left = std::max(0.0, box_[0] - more), right = std::min(1.0, box_[2] + more);
+  box_[0] = std::max(0.0, std::min(left, right - to));
+  box_[2] = std::min(1.0, std::max(right, left + to));
+}
+
 render::Image Crop::of(const render::Image& picture) const {
-  constexpr double kRoom = 0.06;                  // of either side
-  constexpr double kWidest = 3, kTallest = 0.75;  // width over height
+  constexpr double kRoom = 0.06;                 // of either side
+  constexpr double kWidest = 3, kTallest = 0.9;  // width over height
   const double w = picture.width(), h = picture.height();
   double left = box_[0] * w, top = box_[1] * h, right = box_[2] * w, bottom = box_[3] * h;
   if (right <= left || bottom <= top) return picture;
@@ -201,6 +211,7 @@ render::Image Crop::of(const render::Image& picture) const {
   render::Image part(x_end - x, y_end - y, picture.channels());
   for (int row = 0; row < part.height(); ++row)
     std::copy_n(picture.at(x, y + row), part.row_bytes(), part.at(0, row));
+  render::fade_to_page(part);
   return part;
 }
 
@@ -240,7 +251,7 @@ ProbedLoops::ProbedLoops(const std::vector<SweepColumn>& columns)
       loops_[c] = {curvature.x, {curvature.y, render::series_from_csv(file, "time", curve.y, "").y}};
     }
     if (law_of(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
-    render::widen(frame_, loops_[c].path);
+    frame_.include(loops_[c].path);
   }
 }
 
@@ -254,9 +265,7 @@ render::Path ProbedLoops::Loop::until(double end) const {
 }
 
 render::LoopInset ProbedLoops::at(std::size_t c, double time) const {
-  render::LoopInset inset = frame_;
-  inset.path = loops_[c].until(time);
-  inset.color = colors_[c];
+  render::LoopInset inset{loops_[c].until(time), {}, colors_[c], frame_};
   if (reference_ && *reference_ != c) inset.reference = loops_[*reference_].until(time);
   return inset;
 }

@@ -2,6 +2,8 @@
 // pictures, the pictures themselves.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +49,10 @@ std::filesystem::path picture_of(const SweepColumn& column, const std::string& l
 class Crop {
  public:
   void include(const Frames::Instant& instant);
+  // In shares of the picture; 0 where nothing is included.
+  double width() const { return std::max(0.0, box_[2] - box_[0]); }
+  // As wide as that, unless it is nearly twice its own width: rows have one scale where that wastes little.
+  void widen(double width);
   render::Image of(const render::Image& picture) const;
 
  private:
@@ -70,7 +76,7 @@ class ProbedLoops {
   std::vector<Loop> loops_;
   std::vector<render::Rgb8> colors_;
   std::optional<std::size_t> reference_;
-  render::LoopInset frame_;  // as large as all
+  render::LoopFrame frame_;  // as large as all
 };
 
 }  // namespace hysteron::experiments

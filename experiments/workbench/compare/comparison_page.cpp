@@ -90,6 +90,12 @@ class Table {
       if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
     return crop;
   }
+  Crop crop_until(double end) const {
+    Crop crop;
+    for (const SweepColumn& c : columns_)
+      for (std::size_t f = 0; has_frames(c) && f <= frame_at(c, end); ++f) crop.include(instants(c)[f]);
+    return crop;
+  }
 
   void add_row(double time, const Crop& crop) {
     const InstantText text = text_of(page_, columns_, time);
@@ -100,10 +106,7 @@ class Table {
   }
 
   // What moves up to then, in one picture.
-  void add_onion(double end) {
-    Crop crop;
-    for (const SweepColumn& c : columns_)
-      for (std::size_t f = 0; has_frames(c) && f <= frame_at(c, end); ++f) crop.include(instants(c)[f]);
+  void add_onion(double end, const Crop& crop) {
     sheet_.rows.push_back({fmt::format("0–{:.2f} s", end), "", scale()});
     for (std::size_t c = 0; c < columns_.size(); ++c) sheet_.columns[c].cells.push_back(onion(c, end, crop));
     if (sheet_.columns.size() > columns_.size()) sheet_.columns.back().cells.emplace_back();
@@ -212,9 +215,17 @@ std::vector<render::ColorBar> bars_of(const ComparisonPage& page, const std::vec
 Table table_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns,
                const std::vector<double>& times) {
   Table table(page, columns);
-  if (page.onion > 0) table.add_onion(std::min(page.onion, times.back()));
-  for (double time : times) {
-    const Crop crop = table.crop_at(time);
+  std::vector<Crop> crops;
+  for (double time : times) crops.push_back(table.crop_at(time));
+  const double onion = std::min(page.onion, times.back());
+  if (onion > 0) crops.push_back(table.crop_until(onion));
+  double widest = 0;
+  for (const Crop& crop : crops) widest = std::max(widest, crop.width());
+  for (Crop& crop : crops) crop.widen(widest);
+  if (onion > 0) table.add_onion(onion, crops.back());
+  for (std::size_t r = 0; r < times.size(); ++r) {
+    const double time = times[r];
+    const Crop& crop = crops[r];
     table.add_row(time, crop);
     if (page.to >= 0) table.add_differences(time, crop);
   }

@@ -286,7 +286,9 @@ render::Look Pictures::sheet_look() const {
 render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& instant,
                                       const SheetView& view) const {
   studio.view().set_positions(instant.xyz);
-  return studio.draw_with_ghosts(sheet_look(), view.camera, {instant.time, instant.values});
+  render::Image image = studio.draw_with_ghosts(sheet_look(), view.camera, {instant.time, instant.values});
+  render::fade_to_page(image);
+  return image;
 }
 
 // Instants that look like one before are left out, but for the last.
@@ -299,11 +301,13 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
     studio.take_size({width, height, picture_size(options_).samples});
     std::vector<render::SheetEntry> cells;
     std::vector<render::Image> skins;
-    if (onion_until_ > 0)
-      for (const KeptInstant& instant : kept_.chosen(kSkins, onion_until_))
-        skins.push_back(sheet_picture(studio, instant, view));
+    const std::vector<KeptInstant> motion =
+        onion_until_ > 0 ? kept_.chosen(kSkins, onion_until_) : std::vector<KeptInstant>{};
+    for (const KeptInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
     if (!skins.empty())
-      cells.push_back({render::onion_skin(skins), fmt::format("0–{:.2f} s, over each other", onion_until_)});
+      cells.push_back({render::onion_skin(skins),
+                       fmt::format("0–{:.2f} s, over each other", motion.back().time),
+                       {motion.back().loop, {}, color_of_law(scene_.law), {}}});
     for (const KeptInstant& instant : instants) {
       render::Image image = sheet_picture(studio, instant, view);
       const auto is_alike = [&](const render::SheetEntry& other) {
@@ -312,7 +316,7 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
       if (&instant == &instants.back() && cells.size() > 1)
         cells.erase(std::remove_if(cells.begin() + 1, cells.end(), is_alike), cells.end());
       if (std::any_of(cells.begin(), cells.end(), is_alike)) continue;
-      cells.push_back({std::move(image), instant.caption, {instant.loop, {}, color_of_law(scene_.law)}});
+      cells.push_back({std::move(image), instant.caption, {instant.loop, {}, color_of_law(scene_.law), {}}});
     }
     for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
     return cells;
@@ -330,7 +334,9 @@ render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherVi
   const render::Camera camera =
       render::Camera::perspective(near.target() + distance * from.direction.normalized(), near.target(), fov);
   studio.view().set_positions(last.xyz);
-  return {studio.draw(sheet_look(), camera, {last.time, last.values}), from.words};
+  render::Image image = studio.draw(sheet_look(), camera, {last.time, last.values});
+  render::fade_to_page(image);
+  return {std::move(image), from.words};
 }
 
 void Pictures::write_sheet(Run& run, const std::string& title) {
@@ -338,12 +344,9 @@ void Pictures::write_sheet(Run& run, const std::string& title) {
   const std::vector<KeptInstant> instants = kept_.chosen(kSheetCells);
   const SheetView view = sheet_view(kept_.all());
   std::vector<render::SheetEntry> cells = sheet_cells(instants, view);
-  render::LoopInset frame;
-  for (const render::SheetEntry& cell : cells) render::widen(frame, cell.loop.path);
-  for (render::SheetEntry& cell : cells) {
-    cell.loop.most_curvature = frame.most_curvature;
-    cell.loop.most_moment = frame.most_moment;
-  }
+  render::LoopFrame frame;
+  for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
+  for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
   render::SheetLayout layout{.title = title, .scale_note = "at the cloth's middle"};
   layout.metres_per_pixel = view.camera.metres_per_pixel(render::box_of(instants.back().xyz).center(),
                                                          cells.front().image.height());
