@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 
 #include "sim/base/error.h"
@@ -12,6 +14,7 @@ namespace {
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
 constexpr float kLine = 1.65f;                                  // from baseline to baseline, in letters
 constexpr float kTitle = 1.35f;                                 // letters of the title
+constexpr float kPlateEdge = 0.02f;                             // of an inset, around its frame
 constexpr float kInsetShare = 0.28f;                            // of a cell's shorter side
 constexpr int kLeastCell = 32;                                  // [pixels]
 constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
@@ -260,13 +263,71 @@ double bar_metres(double metres_per_pixel, double room) {
   return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
 }
 
+int inset_side(const Image& cell) {
+  return std::max(1, static_cast<int>(kInsetShare * std::min(cell.width(), 2 * cell.height())));
+}
+
+// Of a square within a picture, in shares of the room that it has.
+struct Place {
+  double x = 1, y = 1;
+};
+
+// Sums of what is not white over rectangles of a picture, by the sums from its upper left corner.
+class Darkness {
+ public:
+  explicit Darkness(const Image& image) : width_(image.width()), side_(inset_side(image)) {
+    sum_.assign(static_cast<std::size_t>(width_ + 1) * (image.height() + 1), 0);
+    for (int y = 0; y < image.height(); ++y) {
+      long row = 0;
+      for (int x = 0; x < width_; ++x) {
+        row += 255 - image.at(x, y)[1];
+        sum_[index(x + 1, y + 1)] = sum_[index(x + 1, y)] + row;
+      }
+    }
+    height_ = image.height();
+  }
+
+  // Mean over an inset there, in 8-bit steps.
+  double under(const Place& place) const {
+    const int x = static_cast<int>(place.x * (width_ - side_)),
+              y = static_cast<int>(place.y * (height_ - side_));
+    const long sum = sum_[index(x + side_, y + side_)] - sum_[index(x, y + side_)] -
+                     sum_[index(x + side_, y)] + sum_[index(x, y)];
+    return static_cast<double>(sum) / side_ / side_;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
+  }
+
+  int width_, height_ = 0, side_;
+  std::vector<long> sum_;
+};
+
+// Lower right, unless it hides less elsewhere.
+Place emptiest_place(const std::vector<Darkness>& pictures) {
+  constexpr int kSteps = 8;
+  constexpr double kFar = 3;  // 8-bit steps for all of the way from the lower right corner
+  Place best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = kSteps; j >= 0; --j)
+    for (int i = kSteps; i >= 0; --i) {
+      const Place place{1.0 * i / kSteps, 1.0 * j / kSteps};
+      double cost = kFar * std::hypot(1 - place.x, 1 - place.y);
+      for (const Darkness& picture : pictures) cost += picture.under(place);
+      if (cost < least) least = cost, best = place;
+    }
+  return best;
+}
+
 class Drawing {
  public:
   Drawing(const ComparisonSheet& sheet, Page page)
       : sheet_(sheet), page_(std::move(page)), image_(page_.width, page_.height(), kPaper) {}
 
   Image draw() {
-    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) corners_.push_back(corner_of(r));
+    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) places_.push_back(inset_place(r));
     head();
     for (const Places& block : page_.blocks) draw_block(block);
     foot();
@@ -280,13 +341,13 @@ class Drawing {
               {color, letters});
   }
 
-  // Of a row: where insets hide least of its pictures.
-  Corner corner_of(std::size_t r) const {
-    std::vector<const Image*> pictures;
+  // Of a row: where insets hide least of all its pictures.
+  Place inset_place(std::size_t r) const {
+    std::vector<Darkness> pictures;
     for (const ComparisonColumn& column : sheet_.columns)
       if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
-        pictures.push_back(&cell.image);
-    return emptiest_corner(pictures, kInsetShare);
+        pictures.emplace_back(cell.image);
+    return emptiest_place(pictures);
   }
 
   void head() {
@@ -317,7 +378,7 @@ class Drawing {
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
       instant(sheet_.rows[r], r);
       for (std::size_t i = 0; i < block.size(); ++i)
-        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r], corners_[r]);
+        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r], places_[r]);
       y_ += page_.row_height[r] + page_.gap;
     }
     y_ += page_.gap;
@@ -351,15 +412,24 @@ class Drawing {
     return 1;
   }
 
-  void cell(const ComparisonCell& from, int left, int height, Corner corner) {
+  void cell(const ComparisonCell& from, int left, int height, const Place& place) {
     if (from.image.empty()) return;
     Image cell = fitted(from.image, page_.cell_width, height);
     if (!from.note.empty())
       draw_text(cell, fitting(from.note, page_.letters, static_cast<float>(cell.width()) - page_.letters),
                 0.5f * page_.letters, static_cast<float>(cell.height()) - 0.6f * page_.letters,
                 {kInk, page_.letters});
-    draw_loop(cell, from.loop, corner, kInsetShare, page_.letters);
+    inset(cell, from.loop, place);
     paste(image_, cell, left + (page_.cell_width - cell.width()) / 2, y_ + (height - cell.height()) / 2);
+  }
+
+  void inset(Image& cell, const LoopInset& loop, const Place& place) {
+    if (loop.empty()) return;
+    const int side = inset_side(cell);
+    Image plate(side, side, kPaper);
+    draw_loop(plate, loop, Corner::bottom_right, 1 - 2 * kPlateEdge, page_.letters);
+    paste(cell, plate, static_cast<int>(std::lround(place.x * (cell.width() - side))),
+          static_cast<int>(std::lround(place.y * (cell.height() - side))));
   }
 
   // A bar with its length behind it; returns where that ends.
@@ -395,7 +465,7 @@ class Drawing {
   const ComparisonSheet& sheet_;
   Page page_;
   Image image_;
-  std::vector<Corner> corners_;  // of insets, by row
+  std::vector<Place> places_;  // of insets, by row
   int y_ = 0;
 };
 

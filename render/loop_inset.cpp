@@ -1,7 +1,6 @@
 #include "render/loop_inset.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -75,16 +74,6 @@ void give_air(double& low, double& high) {
   high += air;
 }
 
-// How much of the square is not white, in pixels of the picture's own darkness.
-double hidden(const Image& image, Corner corner, float share) {
-  const Frame at = frame_of(image, corner, share);
-  double sum = 0;
-  for (int y = static_cast<int>(at.top); y < static_cast<int>(at.top + at.side); ++y)
-    for (int x = static_cast<int>(at.left); x < static_cast<int>(at.left + at.side); ++x)
-      sum += 255 - image.at(x, y)[1];
-  return sum / (at.side * at.side);
-}
-
 }  // namespace
 
 void LoopFrame::include(const Path& path) {
@@ -132,19 +121,6 @@ void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share,
     draw_line(image, x, y, x, y, 4.6f * bold, kPlate);
     draw_line(image, x, y, x, y, 3.4f * bold, inset.color);
   }
-}
-
-Corner emptiest_corner(const std::vector<const Image*>& pictures, float share) {
-  constexpr std::array kOrder = {Corner::bottom_right, Corner::top_right, Corner::top_left,
-                                 Corner::bottom_left};
-  Corner best = kOrder[0];
-  double least = INFINITY;
-  for (const Corner corner : kOrder) {
-    double sum = 0;
-    for (const Image* picture : pictures) sum += hidden(*picture, corner, share);
-    if (sum < 0.9 * least) best = corner, least = sum;
-  }
-  return best;
 }
 
 }  // namespace hysteron::render

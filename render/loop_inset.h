@@ -39,8 +39,4 @@ void draw_line(Image& image, float x0, float y0, float x1, float y1, float width
 // make gaps.  An empty path draws nothing.
 void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters);
 
-// The corner in which a square of that share hides least of what is not white in all of these pictures;
-// lower right where several hide as little.
-Corner emptiest_corner(const std::vector<const Image*>& pictures, float share);
-
 }  // namespace hysteron::render

@@ -62,11 +62,11 @@ Series series_from_csv(const std::filesystem::path& csv, const std::string& x, c
 std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
                                  const std::vector<std::vector<double>>& values, double bar_width);
 
-// Writes BASE.png and BASE.svg, each whole or not at all.  Numbers that are not finite make gaps.  Several
-// series have their labels at the right, in their colours, each at the height at which its line ends; one
-// alone has none.  Axes in N, J, m, s, Pa and their products take a prefix where all their numbers are small.
-// Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to
-// draw or x and y differ in length.
+// Writes BASE.png, BASE.svg and, where gnuplot can, BASE.pdf, each whole or not at all.  Numbers that are not
+// finite make gaps.  Several series have their labels at the right, in their colours, each at the height at
+// which its line ends; one alone has none.  Axes in N, J, m, s, Pa and their products take a prefix where all
+// their numbers are small. Error::machine if gnuplot is missing (install gnuplot-nox) or fails;
+// Error::request if there is nothing to draw or x and y differ in length.
 void write_plot(const std::filesystem::path& base, const Plot& plot);
 
 }  // namespace hysteron::render

@@ -119,22 +119,31 @@ TEST(ComparisonSheet, SaysAScaleOnce) {
   EXPECT_LT(draw_comparison(sheet).height(), once);
 }
 
-TEST(LoopInset, EndsInADotOfItsColorInTheEmptiestCorner) {
-  ComparisonSheet sheet = sheet_of(1, 1);
+TEST(LoopInset, EndsInADotOfItsColorWithinItsSquare) {
   Image picture(400, 300, Rgb8{255, 255, 255});
-  draw_rectangle(picture, 200, 100, 400, 300, {90, 90, 90});
   LoopInset loop{.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
-  EXPECT_EQ(emptiest_corner({&picture}, 0.28f), Corner::top_right);
   draw_loop(picture, loop, Corner::top_right, 0.28f, 10);
   int blue = 0, beyond = 0;
   for (int y = 0; y < 300; ++y)
     for (int x = 0; x < 400; ++x) {
       const bool is_blue = picture.at(x, y)[2] > picture.at(x, y)[0] + 100;
       blue += is_blue;
-      beyond += is_blue && (x < 400 - 100 || y > 100);
+      beyond += is_blue && (x < 400 - 122 || y > 122);
     }
   EXPECT_GT(blue, 40);
-  EXPECT_EQ(beyond, 0) << "28 % of the shorter side";
+  EXPECT_EQ(beyond, 0) << "28 % of the width";
+}
+
+// In a cell whose right half is cloth the inset is drawn in the left one, though it belongs to the right.
+TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
+  ComparisonSheet sheet = sheet_of(1, 1);
+  Image& picture = sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{255, 255, 255});
+  draw_rectangle(picture, 200, 0, 400, 300, {90, 91, 92});
+  sheet.columns[0].cells[0].loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
+  const Image page = draw_comparison(sheet);
+  const Extent cloth = extent_of(page, {90, 91, 92}), loop = extent_of(page, {0, 0, 220});
+  EXPECT_GT(loop.right, 0);
+  EXPECT_LT(loop.right, cloth.left);
 }
 
 TEST(LoopInset, OfNoPathDrawsNothing) {

@@ -50,7 +50,7 @@ class PlotTest : public testing::Test {
 
 TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
   write_plot(folder_.file("p"), parabola());
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const Image image = read_png(folder_.file("p.png"));
   EXPECT_EQ(image.width(), 600);
   EXPECT_EQ(image.height(), 400);

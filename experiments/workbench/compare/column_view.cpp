@@ -24,7 +24,9 @@ const ShownNumber* shown_number(const std::string& metric) {
   return nullptr;
 }
 
-bool is_shown(const MetricValue& value) { return value.is_number() || value.is_text(); }
+bool is_shown(const MetricValue& value) {
+  return value.is_number() || (value.is_text() && value.text() != "unknown");
+}
 
 // Three digits and no exponent, for 0.001 to 999999.
 std::string three_digits(double value) {
