@@ -107,10 +107,12 @@ Axis bounded(Axis axis, const std::vector<Series>& all, std::vector<double> Seri
 struct EndLabel {
   std::size_t series;
   double at, end;  // of its middle and of the line's end, in heights of the plot
+  bool reaches;    // the border on the right, where the label is
 };
 
 // Where each line ends, from the lowest; then apart by `step`, as near to there as order allows.
 std::vector<EndLabel> end_labels(const Plot& plot, double step) {
+  constexpr double kNear = 0.01;  // of the axis
   const auto height = [&](double y) {
     const double t = plot.y.logarithmic ? std::log(y / plot.y.low) / std::log(plot.y.high / plot.y.low)
                                         : (y - plot.y.low) / (plot.y.high - plot.y.low);
@@ -122,7 +124,8 @@ std::vector<EndLabel> end_labels(const Plot& plot, double step) {
     double end = 0;
     for (double y : plot.series[s].y)
       if (std::isfinite(y) && (!plot.y.logarithmic || y > 0)) end = height(y);
-    labels.push_back({s, end, end});
+    const double last = plot.series[s].x.back(), near = plot.x.high - kNear * (plot.x.high - plot.x.low);
+    labels.push_back({s, end, end, last >= near});
   }
   std::stable_sort(labels.begin(), labels.end(),
                    [](const EndLabel& a, const EndLabel& b) { return a.end < b.end; });
@@ -138,7 +141,7 @@ std::string color_of(const Plot& plot, std::size_t series) {
   return plot.series[series].color.empty() ? hex(method_color(series)) : plot.series[series].color;
 }
 
-// Labels beside the plot with leaders to where lines that reach the right border end.
+// Labels beside the plot, with leaders to lines that end at the right border.
 std::string end_label_commands(const Plot& plot) {
   constexpr double kLetters = 14, kLeader = 0.018, kAir = 0.006;
   const double step = 1.35 * kLetters / (0.8 * plot.height);
@@ -147,9 +150,10 @@ std::string end_label_commands(const Plot& plot) {
   std::string script = "set rmargin " + std::to_string(longest + 5) + "\n";
   for (const EndLabel& label : end_labels(plot, step)) {
     const std::string color = color_of(plot, label.series);
-    script += "set arrow from graph 1," + gnuplot::number(label.end) + " to graph " +
-              gnuplot::number(1 + kLeader) + "," + gnuplot::number(label.at) + " nohead lw 1.2 lc rgb '" +
-              color + "'\nset label " + gnuplot::label_text(plot.series[label.series].label) + " at graph " +
+    script += "set arrow from graph 1," + gnuplot::number(label.reaches ? label.end : label.at) +
+              " to graph " + gnuplot::number(1 + kLeader) + "," + gnuplot::number(label.at) +
+              " nohead lw 1.2 lc rgb '" + color + "'\nset label " +
+              gnuplot::label_text(plot.series[label.series].label) + " at graph " +
               gnuplot::number(1 + kLeader + kAir) + "," + gnuplot::number(label.at) +
               " left font ',14' textcolor rgb '" + color + "'\n";
   }

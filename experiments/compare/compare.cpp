@@ -140,7 +140,8 @@ int run_compare(const CommandLine& line) {
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
   check_batch({{inner.experiment, inner, options.out}}, choice.batch);
-  if (!options.no_images) check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
+  if (!options.no_images && !choice.times.empty())
+    check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;

@@ -37,7 +37,7 @@ std::string three_digits(double value) {
 // Of a unit that takes prefixes, "0.94 mN"; of others as it is.
 std::string with_unit(double value, const std::string& unit) {
   constexpr double kNothing = 1e-9;
-  if (std::abs(value) < kNothing) return "0" + (unit.empty() || unit == "°" ? unit : " " + unit);
+  if (std::abs(value) < kNothing) value = 0;
   if (unit == "°") return fmt::format("{:.0f}°", value);
   if (unit == "%") return fmt::format("{:.3g} %", value);
   if (unit == "1/m") return fmt::format("{:.3g} /m", value);

@@ -17,15 +17,20 @@ List first_list(const std::vector<SweepColumn>& columns, List (*noted)(const Man
   return {};
 }
 
+// "probe1_curvature_warp [1/m]" as an axis says it.
+std::string words_of(std::string column) {
+  std::replace(column.begin(), column.end(), '_', ' ');
+  return column;
+}
+
 // The experiment's own columns of metrics.csv against time.
 void plot_series(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
   using Names = std::vector<std::string>;
   for (const std::string& name :
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
     const std::string word = name.substr(0, name.find(" ["));
-    TablePlot plot{"plot_" + word, {title, {"time [s]"}, {name}}, "metrics.csv", "time", word};
-    std::replace(plot.plot.y.label.begin(), plot.plot.y.label.end(), '_', ' ');
-    draw(run, plot, columns);
+    draw(run, TablePlot{"plot_" + word, {title, {"time [s]"}, {words_of(name)}}, "metrics.csv", "time", word},
+         columns);
   }
 }
 
@@ -36,7 +41,7 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
     const bool probed = curve.plot.starts_with("plot_probe");
     draw(run,
          TablePlot{curve.plot,
-                   {title, {curve.x}, {curve.y, curve.logarithmic}},
+                   {title, {words_of(curve.x)}, {words_of(curve.y), curve.logarithmic}},
                    curve.file,
                    curve.x,
                    curve.y,

@@ -28,7 +28,7 @@ constexpr double kAlike = 0.02;            // FLIP of two of them that show the 
 constexpr double kCellPixels = 560 * 420;  // drawn for each of them
 constexpr float kSheetRoom = 0.06f;        // around what is shown there, of either side
 constexpr int kSkins = 14;                 // of a motion in one picture
-constexpr float kInsetShare = 0.28f;       // of a picture's shorter side
+constexpr float kInsetShare = 0.18f;       // of a picture, which is wide
 
 // "frames/0012.png"; of further looks "frames-LOOK/0012.png".
 std::string frame_file(const std::string& look, bool first, int number) {
@@ -42,6 +42,12 @@ Error no_cloth_in(const std::string& picture, double time) {
 
 float aspect_of(const Options& options) {
   return static_cast<float>(options.width()) / static_cast<float>(options.height());
+}
+
+// As a front page shows a cell: what cannot be told apart there need not be shown twice.
+render::Image small_copy(const render::Image& cell) {
+  constexpr int kSmaller = 3;
+  return render::shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
 }
 
 // The light as low over the plane that is nearest to all points, on the eye's side of it.
@@ -310,8 +316,9 @@ std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInst
                        {motion.back().loop, {}, color_of_law(scene_.law), {}}});
     for (const KeptInstant& instant : instants) {
       render::Image image = sheet_picture(studio, instant, view);
+      const render::Image small = small_copy(image);
       const auto is_alike = [&](const render::SheetEntry& other) {
-        return render::flip(image, other.image) < kAlike;
+        return render::flip(small, small_copy(other.image)) < kAlike;
       };
       if (&instant == &instants.back() && cells.size() > 1)
         cells.erase(std::remove_if(cells.begin() + 1, cells.end(), is_alike), cells.end());

@@ -153,16 +153,17 @@ void SceneRenderer::take_size(const render::PictureSize& size) {
 }
 
 bool SceneRenderer::place_obstacles(double time, bool visible) {
-  bool seen = false;
+  bool may_hide = false;  // what stands below all cloth does not
   for (std::size_t i = 0; i < body_.size(); ++i) {
     if (body_[i] < 0) continue;
     const Obstacle& o = scenery_[i];
     const bool there = o.from <= time && time < o.until;
-    view_->move_obstacle(body_[i], placed_at(o, time));
+    const Eigen::Matrix4f placement = placed_at(o, time);
+    view_->move_obstacle(body_[i], placement);
     view_->show_obstacle(body_[i], visible && there);
-    seen |= there;
+    may_hide |= there && placement(2, 3) > bounds_.low.z();
   }
-  return seen;
+  return may_hide;
 }
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,

@@ -50,7 +50,7 @@ class SceneRenderer {
                            int pixels);
 
  private:
-  bool place_obstacles(double time, bool visible);  // whether any is to be seen
+  bool place_obstacles(double time, bool visible);  // whether any may hide cloth
 
   const Cloth& cloth_;
   ClothShape shape_;

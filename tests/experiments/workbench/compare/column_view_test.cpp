@@ -16,6 +16,8 @@ TEST(ShortNumber, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(short_number("residual_curvature_rms_per_m", 30.98), "κ 31 /m");
   EXPECT_EQ(short_number("bending_friction_J", 0.0009377), "0.94 mJ");
   EXPECT_EQ(short_number("2HB_N", 8.4e-5), "2HB 84.0 µN");
+  EXPECT_EQ(short_number("residual_curvature_rms_per_m", 1e-12), "κ 0 /m");
+  EXPECT_EQ(short_number("bending_friction_J", 0.0), "0 J");
   EXPECT_EQ(short_number("node_count", 6), "6 folds");
   EXPECT_EQ(short_number("decay_shape", "two-step"), "two-step");
   EXPECT_EQ(short_number("max_stretch_percent", 8.216e-13), "stretch 0 %") << "what sums of doubles leave";
