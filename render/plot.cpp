@@ -143,8 +143,9 @@ std::string color_of(const Plot& plot, std::size_t series) {
 
 // Labels beside the plot, with leaders to lines that end at the right border.
 std::string end_label_commands(const Plot& plot) {
-  constexpr double kLetters = 14, kLeader = 0.018, kAir = 0.006;
-  const double step = 1.35 * kLetters / (0.8 * plot.height);
+  constexpr double kLetters = 14, kAround = 160;  // [pixels]; title and axes
+  constexpr double kLeader = 0.018, kAir = 0.006;
+  const double step = 1.35 * kLetters / std::max(1.0, plot.height - kAround);
   std::size_t longest = 0;
   for (const Series& series : plot.series) longest = std::max(longest, series.label.size());
   std::string script = "set rmargin " + std::to_string(longest + 5) + "\n";

@@ -46,7 +46,8 @@ std::string camera_text(const render::Camera& camera, const std::string& size) {
 }
 
 void read_camera(const std::string& file, Options& options) {
-  for (const auto& [name, value] : parsed(file).items()) {
+  const Json camera = parsed(file);
+  for (const auto& [name, value] : camera.items()) {
     if (name == "direction") {
       options.camera_direction = camera_vector(value, name, file);
     } else if (name == "fov") {
