@@ -205,7 +205,8 @@ double want(const ComparisonSheet& sheet, const Page& page) {
   std::size_t columns = 1;
   for (const Places& block : page.blocks) columns = std::max(columns, block.size());
   const double places = static_cast<double>(columns * page.blocks.size());
-  want += 1 - static_cast<double>(sheet.columns.size()) / places;
+  const double empty = 1 - static_cast<double>(sheet.columns.size()) / places;
+  want += sheet.in_sequence ? 2 * empty : empty;
   if (sheet.in_sequence) return want + std::abs(std::log(aspect / kPleasant));
   if (widest_caption(sheet, 0, page.letters) > static_cast<float>(page.cell_width)) want += 5;
   if (page.numbers < std::min<std::size_t>(1, most_numbers(sheet))) want += 3;
@@ -368,8 +369,8 @@ class Drawing {
   void draw_block(const Places& block) {
     if (page_.families) {
       for (std::size_t i = 0; i < block.size(); ++i)
-        if (i == 0 || sheet_.columns[block[i]].family != sheet_.columns[block[i - 1]].family)
-          text(sheet_.columns[block[i]].family, static_cast<float>(page_.left(i)), y_, kGrey,
+        if (const std::string& family = sheet_.columns[block[i]].family; family != family_)
+          text(family_ = family, static_cast<float>(page_.left(i)), y_, kGrey,
                static_cast<float>(page_.cell_width));
       y_ += page_.line();
     }
@@ -419,12 +420,12 @@ class Drawing {
       draw_text(cell, fitting(from.note, page_.letters, static_cast<float>(cell.width()) - page_.letters),
                 0.5f * page_.letters, static_cast<float>(cell.height()) - 0.6f * page_.letters,
                 {kInk, page_.letters});
-    inset(cell, from.loop, place);
+    if (!from.loop.empty())
+      inset(cell, from.loop, sheet_.in_sequence ? emptiest_place({Darkness(cell)}) : place);
     paste(image_, cell, left + (page_.cell_width - cell.width()) / 2, y_ + (height - cell.height()) / 2);
   }
 
   void inset(Image& cell, const LoopInset& loop, const Place& place) {
-    if (loop.empty()) return;
     const int side = inset_side(cell);
     Image plate(side, side, kPaper);
     draw_loop(plate, loop, Corner::bottom_right, 1 - 2 * kPlateEdge, page_.letters);
@@ -466,6 +467,7 @@ class Drawing {
   Page page_;
   Image image_;
   std::vector<Place> places_;  // of insets, by row
+  std::string family_;         // that was named last
   int y_ = 0;
 };
 

@@ -34,14 +34,14 @@ std::string three_digits(double value) {
   return fmt::format("{:.{}f}", value, size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2);
 }
 
-// Of a unit that takes prefixes, "0.94 mN"; of others as it is.
+// Of a unit that takes prefixes from half of one on, "0.94 mN"; of others as it is.
 std::string with_unit(double value, const std::string& unit) {
   constexpr double kNothing = 1e-9;
   if (std::abs(value) < kNothing) value = 0;
   if (unit == "°") return fmt::format("{:.0f}°", value);
   if (unit == "%") return fmt::format("{:.3g} %", value);
   if (unit == "1/m") return fmt::format("{:.3g} /m", value);
-  const auto [prefix, factor] = unit.empty() ? render::SiPrefix{} : render::si_prefix(value);
+  const auto [prefix, factor] = unit.empty() ? render::SiPrefix{} : render::si_prefix(2 * value);
   return three_digits(value / factor) + (unit.empty() ? "" : " " + std::string(prefix) + unit);
 }
 
@@ -115,7 +115,8 @@ std::string short_number(const std::string& metric, const MetricValue& value) {
   const std::string number = value.is_text()      ? value.text()
                              : value.is_integer() ? shown(value)
                                                   : with_unit(value.number(), unit.unit);
-  if (symbol == "folds" || symbol == "turns") return number + " " + symbol;
+  if (symbol == "folds" || symbol == "turns")
+    return number + " " + (number == "1" ? symbol.substr(0, symbol.size() - 1) : symbol);
   return symbol.empty() ? number : symbol + " " + number;
 }
 
