@@ -217,7 +217,7 @@ void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const rend
 
 // On the studio's thread.
 void Pictures::fill(SceneRenderer& studio, const Order& order) {
-  render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
+  render::Image image = studio.draw_with_ghosts(look_of(scene_, options_, order.look), camera(), order.shown);
   if (!studio.view().shows_cloth()) {
     writer_.write(order.file, std::move(image));
     throw no_cloth_in(order.file.string(), order.shown.time);

@@ -177,9 +177,11 @@ render::Image SceneRenderer::draw(const render::Look& look, const render::Camera
 render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const render::Camera& camera,
                                               const Shown& shown) {
   render::Image whole = draw(look, camera, shown);
-  if (!place_obstacles(shown.time, false)) return whole;
+  const bool cloth_is_seen = view_->shows_cloth();
+  if (look.show == render::Show::silhouette || !place_obstacles(shown.time, false)) return whole;
   const render::Image bare = view_->draw(camera);
-  return hidden_share(bare, whole) > kMuch ? between(bare, whole, kGhost) : whole;
+  if (cloth_is_seen && hidden_share(bare, whole) <= kMuch) return whole;
+  return between(bare, whole, kGhost);
 }
 
 render::Image SceneRenderer::silhouette(const Cloth& cloth, const std::vector<float>& xyz,
