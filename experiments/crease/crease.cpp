@@ -111,7 +111,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
   const bool pressed = crease.scene.obstacle.size() == 2;
   const float low = (pressed ? 0 : -0.35f) * length;
-  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.5f : 0.85f) * length}};
+  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
   question.floor = low;
   question.step_lengths = crease.step_lengths;
   question.columns = {"opening [degree]", "plate_force [N]"};
