@@ -36,7 +36,8 @@ render::Path loop_until(const Json& sheet, std::size_t points) {
   render::Path path;
   if (!sheet.is_object() || !sheet.contains("loop")) return path;
   for (auto [values, name] : {std::pair(&path.curvature, "curvature"), std::pair(&path.moment, "moment")})
-    for (const Json& value : sheet.at("loop").at(name)) values->push_back(value.is_null() ? NAN : value.get<double>());
+    for (const Json& value : sheet.at("loop").at(name))
+      values->push_back(value.is_null() ? NAN : value.get<double>());
   path.curvature.resize(std::min(points, path.curvature.size()));
   path.moment.resize(path.curvature.size());
   return path;

@@ -197,7 +197,8 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file, const s
 
 void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
-  KeptState instant{subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}, loop.curvature.size()};
+  KeptState instant{
+      subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}, loop.curvature.size()};
   take_positions(instant.xyz);
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
@@ -357,7 +358,9 @@ render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherVi
 
 void Pictures::write_sheet(Run& run, const std::string& title) {
   if (kept_.empty()) return run.warn("there is no contact sheet: no instant was pictured");
-  const std::vector<KeptInstant> instants = chosen(cell_times_, kSheetCells, INFINITY), skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_) : std::vector<KeptInstant>{};
+  const std::vector<KeptInstant> instants = chosen(cell_times_, kSheetCells, INFINITY),
+                                 skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_)
+                                                          : std::vector<KeptInstant>{};
   std::vector<KeptInstant> shown = instants;
   shown.insert(shown.end(), skins.begin(), skins.end());
   const SheetView view = sheet_view(shown);
@@ -393,8 +396,8 @@ std::vector<KeptInstant> Pictures::chosen(const std::vector<double>& times, int 
 }
 
 // Those of the sheet, of frames by their times.
-void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells, const std::vector<KeptInstant>& skins,
-                          const std::string& title) const {
+void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
+                          const std::vector<KeptInstant>& skins, const std::string& title) const {
   const std::filesystem::path frames = run.folder() / kKeptFrames;
   std::vector<int> instants;
   const std::vector<double> cell_times = times_of(cells), skin_times = times_of(skins);
@@ -403,14 +406,15 @@ void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells, const
     if (std::count(cell_times.begin(), cell_times.end(), all[f].time) +
         std::count(skin_times.begin(), skin_times.end(), all[f].time))
       instants.push_back(static_cast<int>(f));
-  KeptRecord sheet{{{"record", "sheet"},
-                    {"title", title},
-                    {"cells", cell_times},
-                    {"skins", skin_times},
-                    {"onion", onion_until_},
-                    {"further", Json::array()},
-                    {"loop", {{"curvature", kept_.last().loop.curvature}, {"moment", kept_.last().loop.moment}}}},
-                   {}};
+  KeptRecord sheet{
+      {{"record", "sheet"},
+       {"title", title},
+       {"cells", cell_times},
+       {"skins", skin_times},
+       {"onion", onion_until_},
+       {"further", Json::array()},
+       {"loop", {{"curvature", kept_.last().loop.curvature}, {"moment", kept_.last().loop.moment}}}},
+      {}};
   for (const FurtherView& from : further_)
     sheet.head["further"].push_back(
         {{"direction", {from.direction.x(), from.direction.y(), from.direction.z()}}, {"words", from.words}});

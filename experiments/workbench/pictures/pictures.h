@@ -117,11 +117,11 @@ class Pictures {
   int frames_ = 0;
   KeptInstants kept_;  // for the contact sheet
   std::vector<FurtherView> further_;
-  double onion_until_ = 0;     // [s]; 0: none
+  double onion_until_ = 0;                       // [s]; 0: none
   std::vector<double> cell_times_, skin_times_;  // of a kept sheet [s]; empty: found
-  bool is_cut_off_ = false;    // of one of them the border cuts off cloth
-  double encode_seconds_ = 0;  // before the run was interrupted
-  double waited_seconds_ = 0;  // of the simulation, for its pictures
+  bool is_cut_off_ = false;                      // of one of them the border cuts off cloth
+  double encode_seconds_ = 0;                    // before the run was interrupted
+  double waited_seconds_ = 0;                    // of the simulation, for its pictures
   // The studio's thread writes these while a picture is drawn.
   double render_seconds_ = 0;
   std::string renderer_;
