@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sim/base/error.h"
@@ -81,6 +82,33 @@ Camera Camera::framing(const Box& box, const Eigen::Vector3f& direction, float f
   return camera;
 }
 
+// The eye keeps to the planes that bound the picture: along each axis of the view, the points nearest to the
+// two borders say how far it has to be and where between them.
+Camera Camera::around(std::span<const float> points, const Eigen::Vector3f& direction, float fov_degree,
+                      float aspect, float margin) {
+  const Box box = box_of(points);
+  const Eigen::Vector3f backward = direction.normalized(), center = box.center();
+  const Eigen::Matrix3f axes = view_axes(-backward, up_for(backward));
+  const float slope = std::tan(fov_degree * std::numbers::pi_v<float> / 360) * (1 - 2 * margin);
+  const Eigen::Vector2f slopes(slope * aspect, slope);
+  const float inf = std::numeric_limits<float>::infinity();
+  Eigen::Vector2f high(-inf, -inf), low(inf, inf);
+  float nearest = -inf;
+  for (size_t i = 0; i + 2 < points.size(); i += 3) {
+    const Eigen::Vector3f p = axes * (Eigen::Vector3f(points[i], points[i + 1], points[i + 2]) - center);
+    high = high.cwiseMax(p.head<2>() + slopes * p.z());
+    low = low.cwiseMin(p.head<2>() - slopes * p.z());
+    nearest = std::max(nearest, p.z());
+  }
+  const float distance =
+      std::max(((high - low).array() / (2 * slopes.array())).maxCoeff(), nearest + 1e-3f * box.radius());
+  const Eigen::Vector2f across = 0.5f * (high + low);
+  const Eigen::Vector3f target = center + axes.transpose() * Eigen::Vector3f(across.x(), across.y(), 0);
+  Camera camera = perspective(target + std::max(distance, 1e-6f) * backward, target, fov_degree);
+  camera.near_ = std::min(camera.near_, std::max(0.5f * (distance - nearest), 1e-3f * camera.near_));
+  return camera;
+}
+
 Camera Camera::top(const Box& box, float aspect) {
   const Eigen::Vector3f size = box.high - box.low, center = box.center();
   // Far above: nothing that leaves the box a little is cut off by the near plane.
@@ -145,6 +173,21 @@ Eigen::Vector3f Camera::beside(float azimuth, float elevation) const {
 float Camera::metres_per_pixel(int height) const {
   return 2 * (is_orthographic() ? half_height_ : tan_half_fov_) / static_cast<float>(height);
 }
+Window Camera::window_of(std::span<const float> points, float aspect) const {
+  if (points.size() < 3) throw Error::request("window of a picture: there are no points");
+  const Eigen::Matrix4f clip = projection(aspect) * view();
+  const double inf = std::numeric_limits<double>::infinity();
+  Window window{inf, inf, -inf, -inf};
+  for (size_t i = 0; i + 2 < points.size(); i += 3) {
+    const Eigen::Vector4f at = clip * Eigen::Vector4f(points[i], points[i + 1], points[i + 2], 1);
+    const double x = 0.5 + 0.5 * at.x() / at.w(), y = 0.5 + 0.5 * at.y() / at.w();
+    window = {std::min(window.left, x), std::min(window.bottom, y), std::max(window.right, x),
+              std::max(window.top, y)};
+  }
+  return window;
+}
+
+float Camera::fov_degree() const { return 360 * std::atan(tan_half_fov_) / std::numbers::pi_v<float>; }
 
 float Camera::metres_per_pixel(const Eigen::Vector3f& point, int height) const {
   const float distance = is_orthographic() ? 1 : (point - eye_).dot((target_ - eye_).normalized());

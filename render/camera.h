@@ -31,6 +31,12 @@ class Camera {
   // whole in a picture of this aspect (width / height).  For a sequence give the box of all its frames.
   static Camera framing(const Box& box, const Eigen::Vector3f& direction, float fov_degree, float aspect);
 
+  // Perspective; looks against `direction`, as near as the points, given as x, y, z each, stay whole in a
+  // picture of this aspect with `margin` of its width and height free on every side: they touch two of its
+  // borders.  Error::request if there are none.
+  static Camera around(std::span<const float> points, const Eigen::Vector3f& direction, float fov_degree,
+                       float aspect, float margin);
+
   // Orthographic from above (against gravity), x to the right, y up in the picture: Cusick's view.
   static Camera top(const Box& box, float aspect);
 
@@ -40,7 +46,11 @@ class Camera {
   Eigen::Matrix4f projection(float aspect, const Window& window = {}) const;
   // Whether all points, given as x, y, z each, lie within a picture of this aspect.
   bool frames(std::span<const float> positions, float aspect) const;
+  // Box of the points' images, which may reach beyond the picture.  Error::request if there are none.
+  Window window_of(std::span<const float> points, float aspect) const;
   const Eigen::Vector3f& eye() const { return eye_; }
+  const Eigen::Vector3f& target() const { return target_; }
+  float fov_degree() const;  // full vertical angle, of a perspective one
   Eigen::Vector3f forward() const { return (target_ - eye_).normalized(); }
   bool is_orthographic() const { return half_height_ > 0; }
   // Direction to a key light beside the camera: `azimuth` counted from the camera around gravity, to the left

@@ -34,14 +34,6 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 std::string number_text(double value) { return fmt::format("{:.3g}", value == 0 ? 0.0 : value); }
 
-// With the unit that leaves a number from 1 to below 1000.
-std::string length_text(double metres) {
-  if (metres < 0.99e-3) return number_text(metres * 1e6) + " µm";
-  if (metres < 0.99e-2) return number_text(metres * 1e3) + " mm";
-  if (metres < 0.99) return number_text(metres * 1e2) + " cm";
-  return number_text(metres) + " m";
-}
-
 // Transparent pictures are meant for white pages.
 const Rgb8& rim_color(const Image& image) { return image.channels() == 4 ? kWhite : kPaper; }
 
@@ -149,6 +141,13 @@ void draw_ramp(Image& image, ColorMap map, const ColorBarPlace& at) {
 }
 
 }  // namespace
+
+std::string length_text(double metres) {
+  if (metres < 0.99e-3) return number_text(metres * 1e6) + " µm";
+  if (metres < 0.99e-2) return number_text(metres * 1e3) + " mm";
+  if (metres < 0.99) return number_text(metres * 1e2) + " cm";
+  return number_text(metres) + " m";
+}
 
 float text_size(const Image& image) {
   return std::max(9.0f,

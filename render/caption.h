@@ -35,6 +35,8 @@ void draw_rectangle(Image& image, float left, float top, float right, float bott
 // between words, then set smaller; what still does not fit inside the margins is left out.
 void draw_caption(Image& image, std::string_view text, Corner corner);
 
+// With the unit that leaves a number from 1 to below 1000: "5 cm".
+std::string length_text(double metres);
 // The length 1, 2 or 5 times a power of ten [m] whose bar is nearest to a sixth of the picture's width.
 double scale_bar_length(const Image& image, double metres_per_pixel);
 // A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's

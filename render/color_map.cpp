@@ -66,6 +66,15 @@ Rgb8 method_color(std::size_t index) {
   return kColors[index % kMethodColors];
 }
 
+Rgb8 family_color(int family, int member, int members) {
+  static constexpr float kHues[] = {255, 48, 152, 325};
+  constexpr float kDark = 0.46f, kLight = 0.78f, kTurn = 18, kChroma = 0.14f;
+  const float t = members > 1 ? static_cast<float>(member) / static_cast<float>(members - 1) : 0.25f;
+  const Eigen::Vector3f color =
+      shown({kDark + (kLight - kDark) * t, kChroma, kHues[family % 4] + kTurn * (2 * t - 1)});
+  return {srgb8_of_linear(color.x()), srgb8_of_linear(color.y()), srgb8_of_linear(color.z())};
+}
+
 std::string hex(const Rgb8& color) {
   return fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
 }

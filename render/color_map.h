@@ -30,6 +30,10 @@ Rgb8 map_color8(ColorMap map, float t);
 inline constexpr int kMethodColors = 7;
 Rgb8 method_color(std::size_t index);
 
+// Shades of one hue for methods of one kind: blue, orange, green or purple by `family`; `member` of as many
+// as `members`, from dark to light with a turn of the hue.  No two are the same for fewer than 5 families.
+Rgb8 family_color(int family, int member, int members);
+
 std::string hex(const Rgb8& color);  // "#RRGGBB"
 
 }  // namespace hysteron::render

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
 
 #include "sim/base/error.h"
 
@@ -9,49 +12,79 @@ namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr double kLine = 1.6;     // from baseline to baseline, in letters
-constexpr int kFootHeight = 120;  // [pixels] at a cell of 420: colour bars and the scale bar
-constexpr int kFootLetters = 6;   // heights of the foot in the picture whose letters its bars have
+constexpr float kLine = 1.65f;                                  // from baseline to baseline, in letters
+constexpr float kTitle = 1.35f;                                 // letters of the title
+constexpr float kPlateEdge = 0.02f;                             // of an inset, around its frame
+constexpr float kInsetShare = 0.28f;                            // of a cell's shorter side
+constexpr int kLeastCell = 32;                                  // [pixels]
+constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
+constexpr const char* kBetween = " · ";
 
+using Places = std::vector<std::size_t>;  // of columns
+
+// Where things are; decided before anything is drawn.
 struct Page {
-  int columns, gap, cell_width, cell_height, foot;
+  int width, gap, margin, cell_width;  // [pixels]; `margin` is that of times
+  std::size_t numbers;                 // behind a name
   float letters;
+  std::vector<Places> blocks;
+  std::vector<int> row_height;  // of pictures
+  bool families;
+  int title_lines, note_lines, foot;
+
   int line() const { return static_cast<int>(std::lround(kLine * letters)); }
-  int left(std::size_t column) const { return gap + static_cast<int>(column) * (cell_width + gap); }
-  int width() const { return left(static_cast<std::size_t>(columns)); }
+  int left(std::size_t place) const { return gap + margin + static_cast<int>(place) * (cell_width + gap); }
+  int head() const {
+    return 2 * gap + title_lines * static_cast<int>(std::lround(kTitle * kLine * letters)) +
+           note_lines * line();
+  }
+  int block_height() const {
+    int height = (families ? line() : 0) + line() + gap / 2;
+    for (int row : row_height) height += row + gap;
+    return height + gap;
+  }
+  int height() const { return head() + static_cast<int>(blocks.size()) * block_height() + foot; }
+  double aspect() const { return 1.0 * width / height(); }
 };
 
-double tallest(const std::vector<ComparisonRow>& rows) {
-  double aspect = 0;
-  for (const ComparisonRow& row : rows)
-    for (const ComparisonCell& cell : row.cells)
-      if (!cell.image.empty())
-        aspect = std::max(aspect, static_cast<double>(cell.image.height()) / cell.image.width());
-  return aspect;
+// Broken between words; a word longer than the room stays whole.
+std::vector<std::string> broken(const std::string& text, float letters, float room) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (!lines.empty() && text_width(longer, letters) <= room)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
 }
 
-Page page_of(const ComparisonSheet& sheet) {
-  Page page{};
-  std::size_t columns = sheet.columns.size();
-  for (const ComparisonRow& row : sheet.more) columns = std::max(columns, row.cells.size());
-  page.columns = static_cast<int>(columns);
-  page.cell_width = sheet.cell_width;
-  page.gap = std::max(6, sheet.cell_width / 28);
-  page.letters = std::max(9.f, static_cast<float>(sheet.cell_width) / 30);
-  const double aspect = std::max(tallest(sheet.rows), tallest(sheet.more));
-  page.cell_height = std::max(1, static_cast<int>(std::lround(aspect * sheet.cell_width)));
-  page.foot = sheet.bars.empty() && !(sheet.metres_per_pixel > 0) ? 0 : kFootHeight * sheet.cell_width / 420;
-  return page;
+// Text that fits: its end gives way to an ellipsis.
+std::string fitting(std::string text, float letters, float room) {
+  while (text.size() > 4 && text_width(text, letters) > room) {
+    std::size_t cut = text.ends_with("…") ? text.size() - std::string("…").size() - 1 : text.size() - 1;
+    while (cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;  // not inside a letter
+    text = text.substr(0, cut) + "…";
+  }
+  return text_width(text, letters) > room ? "" : text;
 }
 
-bool has_captions(const ComparisonRow& row) {
-  return std::any_of(row.cells.begin(), row.cells.end(),
-                     [](const ComparisonCell& c) { return !c.caption.empty(); });
+std::string caption_of(const ComparisonColumn& column, std::size_t numbers) {
+  std::string text = column.name;
+  for (std::size_t i = 0; i < std::min(numbers, column.numbers.size()); ++i)
+    text += (text.empty() ? "" : kBetween) + column.numbers[i];
+  return text;
 }
 
-int row_height(const ComparisonRow& row, const Page& page) {
-  return (row.label.empty() ? 0 : page.line()) + page.cell_height + page.gap +
-         (has_captions(row) ? page.line() : 0);
+float mark_width(const ComparisonColumn& column, float letters) { return column.color ? 1.6f * letters : 0; }
+
+float widest_caption(const ComparisonSheet& sheet, std::size_t numbers, float letters) {
+  float widest = 0;
+  for (const ComparisonColumn& column : sheet.columns)
+    widest = std::max(widest, mark_width(column, letters) + text_width(caption_of(column, numbers), letters));
+  return widest;
 }
 
 std::size_t most_numbers(const ComparisonSheet& sheet) {
@@ -60,144 +93,381 @@ std::size_t most_numbers(const ComparisonSheet& sheet) {
   return most;
 }
 
-int page_height(const ComparisonSheet& sheet, const Page& page) {
-  int height = 2 * page.gap + page.line();
-  if (!sheet.title.empty()) height += 2 * page.line();
-  height += static_cast<int>(sheet.notes.size()) * page.line() + page.gap;
-  for (const auto* rows : {&sheet.rows, &sheet.more})
-    for (const ComparisonRow& row : *rows) height += row_height(row, page);
-  height += static_cast<int>(most_numbers(sheet)) * page.line() + page.gap;
-  return height + (page.foot > 0 ? page.foot + page.gap : 0);
-}
-
-// Text that fits: letters shrink to two thirds, then the end gives way to an ellipsis.
-void draw_fitted(Image& image, std::string text, float x, float y, float room, TextStyle style) {
-  const float wanted = text_width(text, style.size);
-  if (wanted > room) style.size = std::max(style.size / 1.5f, style.size * room / wanted);
-  while (text.size() > 4 && text_width(text, style.size) > room) {
-    std::size_t cut = text.ends_with("…") ? text.size() - std::string("…").size() - 1 : text.size() - 1;
-    while (cut > 0 && (text[cut] & 0xC0) == 0x80) --cut;  // not inside a letter
-    text = text.substr(0, cut) + "…";
+// Families one after the other, in the order of their first columns.
+std::vector<Places> families_of(const ComparisonSheet& sheet) {
+  std::vector<Places> families;
+  for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
+    const auto same = [&](const Places& f) { return sheet.columns[f[0]].family == sheet.columns[c].family; };
+    const auto found = std::find_if(families.begin(), families.end(), same);
+    found == families.end() ? families.push_back({c}) : found->push_back(c);
   }
-  draw_text(image, text, x, y, style);
+  return families;
 }
 
-Image fitted(const Image& image, const Page& page) {
-  const double scale = std::min({1.0, static_cast<double>(page.cell_width) / image.width(),
-                                 static_cast<double>(page.cell_height) / image.height()});
-  return shrink(image, std::max(1, static_cast<int>(std::lround(scale * image.width()))),
-                std::max(1, static_cast<int>(std::lround(scale * image.height()))));
+// A family that does not fit behind another begins a block; one that fits into none is spread evenly.
+std::vector<Places> blocks_of(const ComparisonSheet& sheet, std::size_t beside) {
+  std::vector<Places> blocks;
+  if (sheet.columns.size() <= beside) {
+    blocks.emplace_back();
+    for (std::size_t c = 0; c < sheet.columns.size(); ++c) blocks[0].push_back(c);
+    return blocks;
+  }
+  for (const Places& family : families_of(sheet)) {
+    if (!blocks.empty() && blocks.back().size() + family.size() <= beside) {
+      blocks.back().insert(blocks.back().end(), family.begin(), family.end());
+      continue;
+    }
+    const std::size_t parts = (family.size() + beside - 1) / beside;
+    const std::size_t size = sheet.in_sequence ? beside : (family.size() + parts - 1) / parts;
+    for (std::size_t i = 0; i < family.size(); i += size)
+      blocks.emplace_back(family.begin() + static_cast<std::ptrdiff_t>(i),
+                          family.begin() + static_cast<std::ptrdiff_t>(std::min(i + size, family.size())));
+  }
+  return blocks;
+}
+
+int margin_of(const ComparisonSheet& sheet, float letters) {
+  float widest = 0;
+  for (const ComparisonRow& row : sheet.rows) {
+    widest = std::max(widest, text_width(row.time, letters));
+    for (const std::string& word : broken(row.phase, letters, 0))
+      widest = std::max(widest, text_width(word, letters));
+  }
+  if (widest == 0) return 0;
+  return static_cast<int>(std::min(widest, 0.16f * static_cast<float>(sheet.width)) + letters);
+}
+
+std::vector<int> row_heights(const ComparisonSheet& sheet, int cell_width) {
+  std::vector<int> heights;
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    double aspect = 0;
+    for (const ComparisonColumn& column : sheet.columns)
+      if (const Image& image = column.cells[r].image; !image.empty())
+        aspect = std::max(aspect, static_cast<double>(image.height()) / image.width());
+    heights.push_back(std::max(1, static_cast<int>(std::lround(aspect * cell_width))));
+  }
+  return heights;
+}
+
+// Of the pictures in row r [m]; 0 of a row without scale or pictures.
+double metres_across(const ComparisonSheet& sheet, std::size_t r) {
+  for (const ComparisonColumn& column : sheet.columns)
+    if (const Image& image = column.cells[r].image; !image.empty())
+      return sheet.rows[r].metres_per_pixel * image.width();
+  return 0;
+}
+
+// Rows have a scale each, or one that stands for all at the foot.
+bool has_one_scale(const ComparisonSheet& sheet) {
+  constexpr double kSame = 0.02;
+  double first = 0;
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    const double across = metres_across(sheet, r);
+    if (across == 0) continue;
+    if (first > 0 && std::abs(across - first) > kSame * first) return false;
+    first = across;
+  }
+  return true;
+}
+
+Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
+  Page page{};
+  page.width = sheet.width;
+  page.letters = sheet_letters(sheet.width);
+  page.gap = std::max(4, sheet.width / 120);
+  page.margin = margin_of(sheet, page.letters);
+  page.blocks = blocks_of(sheet, beside);
+  std::size_t columns = 1;
+  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
+  if (page.blocks.size() > 1) columns = std::max(columns, beside);
+  page.cell_width = (page.width - page.margin - page.gap) / static_cast<int>(columns) - page.gap;
+  page.families = page.blocks.size() > 1 && families_of(sheet).size() > 1;
+  page.numbers = most_numbers(sheet);
+  while (page.numbers > 0 &&
+         widest_caption(sheet, page.numbers, page.letters) > static_cast<float>(page.cell_width))
+    --page.numbers;
+  page.row_height = row_heights(sheet, page.cell_width);
+  const float room = static_cast<float>(page.width - 2 * page.gap);
+  page.title_lines = static_cast<int>(broken(sheet.title, kTitle * page.letters, room).size());
+  for (const std::string& note : sheet.notes)
+    page.note_lines += static_cast<int>(broken(note, page.letters, room).size());
+  const bool scale = sheet.rows[0].metres_per_pixel > 0 && has_one_scale(sheet);
+  page.foot =
+      sheet.bars.empty() && !scale ? 0 : static_cast<int>((sheet.bars.empty() ? 3.f : 6.5f) * page.letters);
+  return page;
+}
+
+// How much a page leaves to be wished for: an aspect that is not allowed, names that are cut, headline
+// numbers that found no room, empty places.
+double want(const ComparisonSheet& sheet, const Page& page) {
+  const double aspect = page.aspect();
+  double want = 10 * std::max({0.0, std::log(aspect / kWidest), std::log(kTallest / aspect)});
+  std::size_t columns = 1;
+  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
+  const double places = static_cast<double>(columns * page.blocks.size());
+  const double empty = 1 - static_cast<double>(sheet.columns.size()) / places;
+  want += sheet.in_sequence ? 2 * empty : empty;
+  if (sheet.in_sequence) return want + std::abs(std::log(aspect / kPleasant));
+  if (widest_caption(sheet, 0, page.letters) > static_cast<float>(page.cell_width)) want += 5;
+  if (page.numbers < std::min<std::size_t>(1, most_numbers(sheet))) want += 3;
+  return want + 0.3 * static_cast<double>(page.blocks.size() - 1);
+}
+
+Page best_page(const ComparisonSheet& sheet) {
+  if (sheet.beside > 0) return page_with(sheet, static_cast<std::size_t>(sheet.beside));
+  const std::size_t most = std::min<std::size_t>(kMostBeside, sheet.columns.size());
+  Page best = page_with(sheet, most);
+  for (std::size_t beside = most - 1; beside >= 1; --beside) {
+    const Page page = page_with(sheet, beside);
+    if (want(sheet, page) < want(sheet, best)) best = page;
+  }
+  return best;
+}
+
+Image enlarged(const Image& source, int width, int height) {
+  Image result(width, height, source.channels());
+  const auto place = [](int i, int target, int from, int& low, float& share) {
+    const float at = std::clamp(
+        (static_cast<float>(i) + 0.5f) * static_cast<float>(from) / static_cast<float>(target) - 0.5f, 0.f,
+        static_cast<float>(from - 1));
+    low = std::min(static_cast<int>(at), std::max(0, from - 2));
+    share = at - static_cast<float>(low);
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      int left = 0, top = 0;
+      float across = 0, down = 0;
+      place(x, width, source.width(), left, across);
+      place(y, height, source.height(), top, down);
+      const int right = std::min(left + 1, source.width() - 1), low = std::min(top + 1, source.height() - 1);
+      for (int c = 0; c < source.channels(); ++c) {
+        const float upper = (1 - across) * source.at(left, top)[c] + across * source.at(right, top)[c],
+                    lower = (1 - across) * source.at(left, low)[c] + across * source.at(right, low)[c];
+        result.at(x, y)[c] = static_cast<std::uint8_t>(std::lround((1 - down) * upper + down * lower));
+      }
+    }
+  return result;
+}
+
+// As large as the place allows; the cell's own aspect stays.
+Image fitted(const Image& image, int width, int height) {
+  const double scale =
+      std::min(static_cast<double>(width) / image.width(), static_cast<double>(height) / image.height());
+  const int w = std::clamp(static_cast<int>(std::lround(scale * image.width())), 1, width),
+            h = std::clamp(static_cast<int>(std::lround(scale * image.height())), 1, height);
+  return w <= image.width() && h <= image.height() ? shrink(image, w, h) : enlarged(image, w, h);
+}
+
+// 1, 2 or 5 times a power of ten [m], the longest whose bar has room.
+double bar_metres(double metres_per_pixel, double room) {
+  const double most = metres_per_pixel * room, decade = std::pow(10, std::floor(std::log10(most)));
+  return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
+}
+
+int inset_side(const Image& cell) {
+  return std::max(1, static_cast<int>(kInsetShare * std::min(cell.width(), 2 * cell.height())));
+}
+
+// Of a square within a picture, in shares of the room that it has.
+struct Place {
+  double x = 1, y = 1;
+};
+
+// Sums of what is not white over rectangles of a picture, by the sums from its upper left corner.
+class Darkness {
+ public:
+  explicit Darkness(const Image& image) : width_(image.width()), side_(inset_side(image)) {
+    sum_.assign(static_cast<std::size_t>(width_ + 1) * (image.height() + 1), 0);
+    for (int y = 0; y < image.height(); ++y) {
+      long row = 0;
+      for (int x = 0; x < width_; ++x) {
+        row += 255 - image.at(x, y)[1];
+        sum_[index(x + 1, y + 1)] = sum_[index(x + 1, y)] + row;
+      }
+    }
+    height_ = image.height();
+  }
+
+  // Mean over an inset there, in 8-bit steps.
+  double under(const Place& place) const {
+    const int x = static_cast<int>(place.x * (width_ - side_)),
+              y = static_cast<int>(place.y * (height_ - side_));
+    const long sum = sum_[index(x + side_, y + side_)] - sum_[index(x, y + side_)] -
+                     sum_[index(x + side_, y)] + sum_[index(x, y)];
+    return static_cast<double>(sum) / side_ / side_;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_ + 1) + static_cast<std::size_t>(x);
+  }
+
+  int width_, height_ = 0, side_;
+  std::vector<long> sum_;
+};
+
+// Lower right, unless it hides less elsewhere.
+Place emptiest_place(const std::vector<Darkness>& pictures) {
+  constexpr int kSteps = 8;
+  constexpr double kFar = 3;  // 8-bit steps for all of the way from the lower right corner
+  Place best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = kSteps; j >= 0; --j)
+    for (int i = kSteps; i >= 0; --i) {
+      const Place place{1.0 * i / kSteps, 1.0 * j / kSteps};
+      double cost = kFar * std::hypot(1 - place.x, 1 - place.y);
+      for (const Darkness& picture : pictures) cost += picture.under(place);
+      if (cost < least) least = cost, best = place;
+    }
+  return best;
 }
 
 class Drawing {
  public:
-  Drawing(const ComparisonSheet& sheet)
-      : sheet_(sheet), page_(page_of(sheet)), image_(page_.width(), page_height(sheet, page_), kPaper) {}
+  Drawing(const ComparisonSheet& sheet, Page page)
+      : sheet_(sheet), page_(std::move(page)), image_(page_.width, page_.height(), kPaper) {}
 
   Image draw() {
+    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) places_.push_back(inset_place(r));
     head();
-    for (const ComparisonRow& row : sheet_.rows) cells(row);
-    numbers();
-    for (const ComparisonRow& row : sheet_.more) cells(row);
+    for (const Places& block : page_.blocks) draw_block(block);
     foot();
     return std::move(image_);
   }
 
  private:
-  float room() const { return static_cast<float>(page_.width() - 2 * page_.gap); }
+  void text(const std::string& words, float x, int top, const Rgb8& color, float room, float growth = 1) {
+    const float letters = growth * page_.letters;
+    draw_text(image_, fitting(words, letters, room), x, static_cast<float>(top) + 1.25f * letters,
+              {color, letters});
+  }
 
-  void line(const std::string& text, float x, float room, const TextStyle& style) {
-    draw_fitted(image_, text, x, static_cast<float>(y_) + 1.2f * page_.letters, room, style);
+  // Of a row: where insets hide least of all its pictures.
+  Place inset_place(std::size_t r) const {
+    std::vector<Darkness> pictures;
+    for (const ComparisonColumn& column : sheet_.columns)
+      if (const ComparisonCell& cell = column.cells[r]; !cell.image.empty() && !cell.loop.empty())
+        pictures.emplace_back(cell.image);
+    return emptiest_place(pictures);
   }
 
   void head() {
     y_ = page_.gap;
-    const float x = static_cast<float>(page_.gap);
-    if (!sheet_.title.empty()) {
-      line(sheet_.title, x, room(), {kInk, 1.45f * page_.letters});
-      y_ += 2 * page_.line();
+    const float x = static_cast<float>(page_.gap), room = static_cast<float>(page_.width - 2 * page_.gap);
+    for (const std::string& line : broken(sheet_.title, kTitle * page_.letters, room)) {
+      text(line, x, y_, kInk, room, kTitle);
+      y_ += static_cast<int>(std::lround(kTitle * kLine * page_.letters));
     }
-    for (const std::string& note : sheet_.notes) {
-      line(note, x, room(), {kGrey, page_.letters});
-      y_ += page_.line();
-    }
+    for (const std::string& note : sheet_.notes)
+      for (const std::string& line : broken(note, page_.letters, room)) {
+        text(line, x, y_, kGrey, room);
+        y_ += page_.line();
+      }
     y_ += page_.gap;
-    for (std::size_t c = 0; c < sheet_.columns.size(); ++c) {
-      const float left = static_cast<float>(page_.left(c)), top = static_cast<float>(y_);
-      const float mark = page_.letters;
-      draw_rectangle(image_, left, top + 0.2f * mark, left + mark, top + 1.2f * mark,
-                     sheet_.columns[c].color);
-      line(sheet_.columns[c].name, left + 1.6f * mark, static_cast<float>(page_.cell_width) - 1.6f * mark,
-           {kInk, 1.15f * page_.letters});
-    }
-    y_ += page_.line() + page_.gap;
   }
 
-  void cells(const ComparisonRow& row) {
-    if (!row.label.empty()) {
-      line(row.label, static_cast<float>(page_.gap), room(), {kGrey, page_.letters});
+  void draw_block(const Places& block) {
+    if (page_.families) {
+      for (std::size_t i = 0; i < block.size(); ++i)
+        if (const std::string& family = sheet_.columns[block[i]].family; family != family_)
+          text(family_ = family, static_cast<float>(page_.left(i)), y_, kGrey,
+               static_cast<float>(page_.cell_width));
       y_ += page_.line();
     }
-    for (std::size_t c = 0; c < row.cells.size(); ++c) {
-      if (row.cells[c].image.empty()) continue;
-      const Image cell = fitted(row.cells[c].image, page_);
-      paste(image_, cell, page_.left(c) + (page_.cell_width - cell.width()) / 2, y_);
-    }
-    y_ += page_.cell_height;
-    if (has_captions(row)) {
-      for (std::size_t c = 0; c < row.cells.size(); ++c)
-        line(row.cells[c].caption, static_cast<float>(page_.left(c)), static_cast<float>(page_.cell_width),
-             {kGrey, page_.letters});
-      y_ += page_.line();
+    for (std::size_t i = 0; i < block.size(); ++i) caption(sheet_.columns[block[i]], page_.left(i));
+    y_ += page_.line() + page_.gap / 2;
+    for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
+      instant(sheet_.rows[r], r);
+      for (std::size_t i = 0; i < block.size(); ++i)
+        cell(sheet_.columns[block[i]].cells[r], page_.left(i), page_.row_height[r], places_[r]);
+      y_ += page_.row_height[r] + page_.gap;
     }
     y_ += page_.gap;
   }
 
-  void numbers() {
-    for (std::size_t n = 0; n < most_numbers(sheet_); ++n) {
-      for (std::size_t c = 0; c < sheet_.columns.size(); ++c)
-        if (n < sheet_.columns[c].numbers.size())
-          line(sheet_.columns[c].numbers[n], static_cast<float>(page_.left(c)),
-               static_cast<float>(page_.cell_width), {kInk, page_.letters});
-      y_ += page_.line();
-    }
-    y_ += page_.gap;
+  void caption(const ComparisonColumn& column, int left) {
+    const float letters = page_.letters, mark = mark_width(column, letters), x = static_cast<float>(left),
+                top = static_cast<float>(y_) + 0.3f * letters;
+    if (column.color) draw_rectangle(image_, x, top, x + letters, top + letters, *column.color);
+    text(caption_of(column, page_.numbers), x + mark, y_, kInk, static_cast<float>(page_.cell_width) - mark);
   }
 
-  // Bars are drawn on strips of their own, whose height sets the letters' size, and put side by side.
+  // In the margin: its time, and what is happening; a scale where rows differ in it.
+  void instant(const ComparisonRow& row, std::size_t r) {
+    const float x = static_cast<float>(page_.gap), room = static_cast<float>(page_.margin);
+    if (page_.margin == 0) return;
+    int y = y_;
+    text(row.time, x, y, kInk, room);
+    for (const std::string& line : broken(row.phase, page_.letters, room - page_.letters))
+      text(line, x, y += page_.line(), kGrey, room);
+    if (row.metres_per_pixel > 0 && !has_one_scale(sheet_))
+      scale(row.metres_per_pixel * shown_pixels(r), x, y + 2 * page_.line(), 0.8 * page_.margin, "");
+  }
+
+  // Of a picture for one of the page, in row r.
+  double shown_pixels(std::size_t r) const {
+    for (const ComparisonColumn& column : sheet_.columns)
+      if (const Image& image = column.cells[r].image; !image.empty())
+        return static_cast<double>(image.width()) /
+               fitted(image, page_.cell_width, page_.row_height[r]).width();
+    return 1;
+  }
+
+  void cell(const ComparisonCell& from, int left, int height, const Place& place) {
+    if (from.image.empty()) return;
+    Image cell = fitted(from.image, page_.cell_width, height);
+    if (!from.note.empty())
+      draw_text(cell, fitting(from.note, page_.letters, static_cast<float>(cell.width()) - page_.letters),
+                0.5f * page_.letters, static_cast<float>(cell.height()) - 0.6f * page_.letters,
+                {kInk, page_.letters});
+    if (!from.loop.empty())
+      inset(cell, from.loop, sheet_.in_sequence ? emptiest_place({Darkness(cell)}) : place);
+    paste(image_, cell, left + (page_.cell_width - cell.width()) / 2, y_ + (height - cell.height()) / 2);
+  }
+
+  void inset(Image& cell, const LoopInset& loop, const Place& place) {
+    const int side = inset_side(cell);
+    Image plate(side, side, kPaper);
+    draw_loop(plate, loop, Corner::bottom_right, 1 - 2 * kPlateEdge, page_.letters);
+    paste(cell, plate, static_cast<int>(std::lround(place.x * (cell.width() - side))),
+          static_cast<int>(std::lround(place.y * (cell.height() - side))));
+  }
+
+  // A bar with its length behind it; returns where that ends.
+  float scale(double metres_per_pixel, float x, int top, double room, const std::string& note) {
+    const double metres = bar_metres(metres_per_pixel, room);
+    const float length = static_cast<float>(metres / metres_per_pixel), letters = page_.letters,
+                y = static_cast<float>(top) + 0.5f * letters, thick = std::max(2.f, letters / 6);
+    draw_rectangle(image_, x, std::round(y), x + length, std::round(y + thick), kInk);
+    const std::string label = length_text(metres) + (note.empty() ? "" : " " + note);
+    draw_text(image_, label, x, y + thick + 1.5f * letters, {kInk, letters});
+    return x + std::max(length, text_width(label, letters));
+  }
+
   void foot() {
     if (page_.foot == 0) return;
-    const int height = page_.foot, width = std::min(page_.width() / 2, 2 * page_.cell_width);
-    int x = page_.gap;
-    const auto strip = [&](const auto& draw) {
-      Image bar(width, kFootLetters * height, kPaper);
-      draw(bar);
-      Image part(width, height, kPaper);
-      paste(part, bar, 0, height - bar.height());
-      paste(image_, part, x, y_);
-      x += width + page_.gap;
-    };
-    if (sheet_.metres_per_pixel > 0) {
-      const Image& first = first_image();
-      const double shrunk = static_cast<double>(first.width()) / fitted(first, page_).width();
-      strip([&](Image& bar) {
-        draw_scale_bar(bar, sheet_.metres_per_pixel * shrunk, Corner::bottom_left, sheet_.scale_note);
-      });
+    float x = static_cast<float>(page_.left(0));
+    const ComparisonRow& first = sheet_.rows[0];
+    if (first.metres_per_pixel > 0 && has_one_scale(sheet_))
+      x = scale(first.metres_per_pixel * shown_pixels(0), x, y_, 0.6 * page_.cell_width, sheet_.scale_note) +
+          2 * page_.letters;
+    // On a picture of their own, whose size sets that of their letters.
+    for (const ColorBar& bar : sheet_.bars) {
+      const int wide = static_cast<int>(80 * page_.letters), high = static_cast<int>(45 * page_.letters);
+      Image whole(wide, high, kPaper);
+      draw_color_bar(whole, bar, Corner::bottom_left);
+      Image part(wide / 2, page_.foot, kPaper);
+      paste(part, whole, 0, page_.foot - high + margin(whole));
+      paste(image_, part, static_cast<int>(x) - margin(whole), y_);
+      x += static_cast<float>(wide) * 0.32f;
     }
-    for (const ColorBar& bar : sheet_.bars)
-      strip([&](Image& image) { draw_color_bar(image, bar, Corner::bottom_left); });
-  }
-
-  const Image& first_image() const {
-    for (const ComparisonRow& row : sheet_.rows)
-      for (const ComparisonCell& cell : row.cells)
-        if (!cell.image.empty()) return cell.image;
-    return image_;
   }
 
   const ComparisonSheet& sheet_;
   Page page_;
   Image image_;
+  std::vector<Place> places_;  // of insets, by row
+  std::string family_;         // that was named last
   int y_ = 0;
 };
 
@@ -206,16 +476,52 @@ bool is_dark(const Image& image, int x, int y) {
   return image.at(x, y)[0] < 128;
 }
 
+void check(const ComparisonSheet& sheet) {
+  if (sheet.columns.empty() || sheet.rows.empty())
+    throw Error::request("comparison: there are no columns or no rows");
+  for (const ComparisonColumn& column : sheet.columns)
+    if (column.cells.size() != sheet.rows.size())
+      throw Error::request("comparison: the column \"" + column.name + "\" has " +
+                           std::to_string(column.cells.size()) + " cells for " +
+                           std::to_string(sheet.rows.size()) + " rows");
+}
+
 }  // namespace
 
+float sheet_letters(int width) { return std::ceil(static_cast<float>(width) / 84); }
+
 Image draw_comparison(const ComparisonSheet& sheet) {
-  if (sheet.columns.empty()) throw Error::request("comparison: there are no columns");
-  for (const ComparisonRow& row : sheet.rows)
-    if (row.cells.size() != sheet.columns.size())
-      throw Error::request("comparison: the row \"" + row.label + "\" has " +
-                           std::to_string(row.cells.size()) + " cells for " +
-                           std::to_string(sheet.columns.size()) + " columns");
-  return Drawing(sheet).draw();
+  check(sheet);
+  Page page = best_page(sheet);
+  if (page.cell_width < kLeastCell)
+    throw Error::request("comparison: columns in " + std::to_string(sheet.width) + " pixels leave " +
+                         std::to_string(page.cell_width) + " for a picture; at least " +
+                         std::to_string(kLeastCell) + " are needed");
+  return Drawing(sheet, std::move(page)).draw();
+}
+
+void fade_to_page(Image& image) {
+  constexpr int kNearlyWhite = 244;
+  constexpr float kBand = 0.04f;
+  const int w = image.width(), h = image.height();
+  long white = 0;
+  for (int x = 0; x < w; ++x)
+    white += (image.at(x, 0)[1] >= kNearlyWhite) + (image.at(x, h - 1)[1] >= kNearlyWhite);
+  for (int y = 0; y < h; ++y)
+    white += (image.at(0, y)[1] >= kNearlyWhite) + (image.at(w - 1, y)[1] >= kNearlyWhite);
+  if (white < w + h) return;
+  const float band_x = std::max(1.f, kBand * static_cast<float>(w)),
+              band_y = std::max(1.f, kBand * static_cast<float>(h));
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const float in = std::min(static_cast<float>(std::min(x, w - 1 - x)) / band_x,
+                                static_cast<float>(std::min(y, h - 1 - y)) / band_y);
+      if (in >= 1) continue;
+      const float share = in * in * (3 - 2 * in);
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y)[c] =
+            static_cast<std::uint8_t>(std::lround(255 - share * static_cast<float>(255 - image.at(x, y)[c])));
+    }
 }
 
 void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width) {

@@ -1,4 +1,11 @@
-// One page on which methods stand side by side: a column each, a row for each moment, one scale of colours.
+// One page of pictures beside each other: methods, fabrics or instants as columns, a row for each instant.
+// Columns that do not fit beside each other stand in blocks; letters are set after the pictures have got
+// their size, so that they can be read wherever the page is shown in its width.
+//
+//            ■ linear · 180°   ■ narain · 16°   ■ prandtl · 116°
+//   0.47 s      [picture]         [picture]         [picture]
+//   1.90 s      [picture]         [picture]         [picture]
+//   |--| 2 cm
 #pragma once
 
 #include <optional>
@@ -7,39 +14,54 @@
 
 #include "render/caption.h"
 #include "render/image.h"
+#include "render/loop_inset.h"
 
 namespace hysteron::render {
 
 struct ComparisonCell {
-  Image image;          // empty: the cell stays white
-  std::string caption;  // a line below it; may be empty
-};
-
-struct ComparisonRow {
-  std::string label;  // a line over the row
-  std::vector<ComparisonCell> cells;
+  Image image{};       // empty: the cell stays white
+  std::string note{};  // a few words within the cell, "stopped at 0.90 s"
+  LoopInset loop{};    // in the corner where it hides least of all cells; empty: none
 };
 
 struct ComparisonColumn {
   std::string name;
-  std::vector<std::string> numbers;  // lines below the last row
-  Rgb8 color{38, 40, 44};            // of the mark before the name: that of its outlines
+  std::vector<std::string> numbers;     // behind the name, as many in all columns as find room in one line
+  std::optional<Rgb8> color{};          // of the mark before the name
+  std::string family{};                 // columns of one family stand together; "" of a page without families
+  std::vector<ComparisonCell> cells{};  // one a row
+};
+
+struct ComparisonRow {
+  std::string time, phase;      // in the margin
+  double metres_per_pixel = 0;  // of the row's pictures; 0: without a scale bar
 };
 
 struct ComparisonSheet {
   std::string title;
-  std::vector<std::string> notes;  // lines below the title
+  std::vector<std::string> notes;  // below the title
+  std::vector<ComparisonRow> rows;
   std::vector<ComparisonColumn> columns;
-  std::vector<ComparisonRow> rows;  // one cell a column
-  std::vector<ComparisonRow> more;  // below the numbers, as many cells as they like
-  std::vector<ColorBar> bars;       // side by side at the foot
-  double metres_per_pixel = 0;      // of the cells' images: a scale bar stands at the foot; 0: none
-  std::string scale_note;           // in which plane it holds
-  int cell_width = 420;             // [pixels]
+  std::vector<ColorBar> bars;  // below all pictures
+  std::string scale_note;      // in which plane scale bars hold
+  int width = kSheetWidth;     // [pixels]
+  int beside = 0;              // columns beside each other; 0: as many as go well, at most five
+  bool in_sequence = false;    // columns are instants: blocks of any number that brings the page near 3 : 2
+
+  static constexpr int kSheetWidth = 1676;  // twice the width of a repository's front page
 };
 
-// Error::request if there are no columns, or a row has another number of cells.
+inline constexpr int kMostBeside = 5;
+// Capitals' height on a page: 1/84 of its width, rounded up [pixels].
+float sheet_letters(int width);
+
+// Error::request if there are no columns or rows, a column has another number of cells than there are rows,
+// or less than 32 pixels are left for a cell.
 Image draw_comparison(const ComparisonSheet& sheet);
+
+// Cells without edges: where most of a picture's border is nearly white, its outer 4 % go over into the page,
+// and what is left of shadows there.  What is cropped to its cloth with 6 % of room keeps all of it.
+void fade_to_page(Image& image);
 
 // The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels.
 // Error::request if the sizes differ.

@@ -1,30 +1,43 @@
-// Many pictures on one page: a sequence at a glance, or one scene under several laws.
+// Many pictures on one page: a sequence at a glance.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "render/comparison_sheet.h"
 #include "render/image.h"
 
 namespace hysteron::render {
 
 struct SheetEntry {
   Image image;
-  std::string caption;  // one line below the picture
+  std::string caption;  // one line over the picture
+  LoopInset loop{};     // in a corner of it; empty: none
 };
 
 struct SheetLayout {
   std::string title;
-  int columns = 0;   // 0: chosen so that the page comes out near 3 : 2
-  int width = 1800;  // of the page [pixels]
+  int columns = 0;                           // 0: at most five, chosen so that the page comes out near 3 : 2
+  int width = ComparisonSheet::kSheetWidth;  // of the page [pixels]
+  double metres_per_pixel = 0;               // of the pictures; 0: no scale bar
+  std::string scale_note{};
+  std::vector<ColorBar> bars{};
 };
 
 // Cells are equally large and show each picture whole.  Error::request if there are no pictures, one is
 // empty, or the page is too narrow for its columns.
 Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout);
 
+// Pictures on white over each other, the darkest of each pixel, the earlier the paler: a motion in one
+// picture. Error::request if there are none or their sizes differ.
+Image onion_skin(const std::vector<Image>& pictures);
+
 // `count` indices spread evenly from the first to the last of `total`: the pictures of a sequence worth a
 // page.
 std::vector<int> spread(int total, int count);
+
+// `count` indices spread evenly over the way that is covered, which `moved` tells from the entry before to
+// each: the first and the last are among them, and of what stands still one alone.
+std::vector<int> spread_by_way(const std::vector<double>& moved, int count);
 
 }  // namespace hysteron::render

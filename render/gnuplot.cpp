@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "render/color_map.h"
@@ -163,14 +166,35 @@ std::string mark_commands(const std::vector<Mark>& marks) {
   return script;
 }
 
+// A page of as many points as the PNG has pixels; a gnuplot that cannot write PDF ends here.
+std::string pdf_commands(int width, int height, const std::filesystem::path& file) {
+  constexpr double kPoint = 1. / 72;  // [inch]
+  return "if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) exit\nset terminal pdfcairo enhanced size " +
+         number(kPoint * width) + "in," + number(kPoint * height) + "in font 'DejaVu Sans,15'\nset output " +
+         single_quoted(file.string()) + "\n";
+}
+
+// The time at which it was written would make two files of the same plot differ: the same in all of them.
+void forget_when(const std::filesystem::path& pdf) {
+  constexpr std::string_view kKey = "/CreationDate (D:";
+  std::ifstream in(pdf, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = text.find(kKey);
+  if (at == std::string::npos) return;
+  for (std::size_t i = at + kKey.size(); i < text.size() && std::isdigit(static_cast<unsigned char>(text[i]));
+       ++i)
+    text[i] = '0';
+  std::ofstream(pdf, std::ios::binary) << text;
+}
+
 // The SVG gets the same page in its own units, so that both look alike.
 void write_both(const std::filesystem::path& base, int width, int height, const std::string& prologue,
                 const std::string& drawing) {
-  AtomicFile png(base.string() + ".png"), svg(base.string() + ".svg");
-  const std::string script = "set encoding utf8\n" + prologue +
-                             output_commands("pngcairo", width, height, png.temporary()) + drawing +
-                             without_letters(width) + output_commands("svg", width, height, svg.temporary()) +
-                             drawing + "set output\n";
+  AtomicFile png(base.string() + ".png"), svg(base.string() + ".svg"), pdf(base.string() + ".pdf");
+  const std::string script =
+      "set encoding utf8\n" + prologue + output_commands("pngcairo", width, height, png.temporary()) +
+      drawing + without_letters(width) + output_commands("svg", width, height, svg.temporary()) + drawing +
+      "set output\n" + pdf_commands(width, height, pdf.temporary()) + drawing + "set output\n";
   const ProcessResult result = run_process({"gnuplot", "-"}, script);
   if (!result.started)
     throw Error::machine("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
@@ -182,6 +206,9 @@ void write_both(const std::filesystem::path& base, int width, int height, const 
     throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
   png.commit();
   svg.commit();
+  if (!has_content(pdf.temporary())) return;
+  forget_when(pdf.temporary());
+  pdf.commit();
 }
 
 }  // namespace hysteron::render::gnuplot

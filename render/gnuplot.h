@@ -32,8 +32,8 @@ std::string axis_commands(const char* name, const Axis& axis);
 // "set label" for each mark, numbered from 1.
 std::string mark_commands(const std::vector<Mark>& marks);
 
-// Runs `prologue`, then `drawing` once for BASE.png and once for BASE.svg; both files appear, or neither.
-// Throws Error::machine if gnuplot is missing or fails.
+// Runs `prologue`, then `drawing` once for BASE.png, once for BASE.svg and, where gnuplot can, for BASE.pdf;
+// the first two appear, or none. Throws Error::machine if gnuplot is missing or fails.
 void write_both(const std::filesystem::path& base, int width, int height, const std::string& prologue,
                 const std::string& drawing);
 

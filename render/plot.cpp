@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
+#include "render/color_map.h"
 #include "render/gnuplot.h"
 
 namespace hysteron::render {
@@ -15,15 +17,20 @@ std::string frame_commands(const Plot& plot) {
       "set datafile missing 'NaN'\nset lmargin 11\nset style fill solid 0.9 noborder\n";
   script += "set bmargin " + std::string(plot.x.categories.empty() ? "4" : "8") + "\nset boxwidth " +
             gnuplot::number(plot.bar_width) + "\n";
-  script += std::string("set key ") + (plot.key_inside ? "inside right bottom" : "outside right top") +
-            " vertical reverse Left samplen 2.5 spacing 1.25\n";
+  script += plot.key_inside ? "set key inside right bottom vertical reverse Left samplen 2.5 spacing 1.25\n"
+                            : "unset key\n";
   script += plot.axes_at_zero
                 ? "set xzeroaxis lt 1 lw 1.2 lc rgb '#888888'\nset yzeroaxis lt 1 lw 1.2 lc rgb '#888888'\n"
                 : "set grid lc rgb '#DDDDDD' lw 0.8 lt 1, lc rgb '#EEEEEE' lw 0.5 lt 1\n";
-  script += "set title " + gnuplot::label_text(plot.title) + " font ',19' offset 0,0.3\n";
+  script += "set title " + gnuplot::label_text(plot.title) + " font ',19' offset 0," +
+            (plot.note.empty() ? "0.3\n" : "1.2\nset tmargin 5\n");
+  std::string note;
+  if (!plot.note.empty())
+    note = "set label " + gnuplot::label_text(plot.note) +
+           " at graph 0.5,1.03 center font ',14' textcolor rgb '#666666'\n";
   if (plot.equal_scales) script += "set size ratio -1\n";
   return script + gnuplot::axis_commands("x", plot.x) + gnuplot::axis_commands("y", plot.y) +
-         gnuplot::mark_commands(plot.marks);
+         gnuplot::mark_commands(plot.marks) + note;
 }
 
 // A logarithmic axis over less than two decades has limits of its own, from which it is numbered.
@@ -41,7 +48,129 @@ Axis limited(Axis axis, const std::vector<Series>& all, std::vector<double> Seri
   return axis;
 }
 
+// "tip height [m]": of a unit that takes prefixes.
+bool takes_prefix(const std::string& label) {
+  const std::size_t open = label.rfind('['), close = label.rfind(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return false;
+  const std::string unit = label.substr(open + 1, close - open - 1);
+  static const std::vector<std::string> kUnits = {"N",   "J",   "m",   "s",     "Pa",   "W",
+                                                  "N m", "N/m", "J/m", "J/m^2", "J/m²", "m/s"};
+  return std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+}
+
+// Numbers below a tenth of the unit get the prefix that leaves the largest from 1 to 999.
+void prefix(Plot& plot, Axis& axis, std::vector<double> Series::*values, double Mark::*place) {
+  constexpr double kSmall = 0.1;
+  if (!takes_prefix(axis.label)) return;
+  double most = std::max(std::abs(axis.low), std::abs(axis.high));
+  for (const Series& series : plot.series)
+    for (double v : series.*values)
+      if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  if (!(most > 0 && most < kSmall)) return;
+  const SiPrefix si = si_prefix(most);
+  axis.label.insert(axis.label.rfind('[') + 1, si.prefix);
+  axis.low /= si.factor;
+  axis.high /= si.factor;
+  for (Series& series : plot.series)
+    for (double& v : series.*values) v /= si.factor;
+  for (Mark& mark : plot.marks) mark.*place /= si.factor;
+}
+
+bool is_labelled(const Series& series) {
+  return !series.label.empty() && series.style != Series::Style::bars;
+}
+
+bool has_end_labels(const Plot& plot) {
+  return !plot.key_inside && plot.x.categories.empty() &&
+         std::count_if(plot.series.begin(), plot.series.end(), is_labelled) > 1;
+}
+
+// With limits of its own, a little beyond the data, so that it is known where lines end.
+Axis bounded(Axis axis, const std::vector<Series>& all, std::vector<double> Series::*values, double air) {
+  if (axis.low != axis.high) return axis;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Series& series : all)
+    for (double v : series.*values)
+      if (std::isfinite(v) && (!axis.logarithmic || v > 0)) low = std::min(low, v), high = std::max(high, v);
+  if (!(low <= high)) return axis;
+  if (axis.logarithmic) {
+    axis.low = low / (1 + air);
+    axis.high = high * (1 + air);
+  } else {
+    const double room = air * (high > low ? high - low : std::max(1.0, std::abs(high)));
+    axis.low = low - room;
+    axis.high = high + room;
+  }
+  return axis;
+}
+
+struct EndLabel {
+  std::size_t series;
+  double at, end;  // of its middle and of the line's end, in heights of the plot
+  bool reaches;    // the border on the right, where the label is
+};
+
+// Where each line ends, from the lowest; then apart by `step`, as near to there as order allows.
+std::vector<EndLabel> end_labels(const Plot& plot, double step) {
+  constexpr double kNear = 0.01;  // of the axis
+  const auto height = [&](double y) {
+    const double t = plot.y.logarithmic ? std::log(y / plot.y.low) / std::log(plot.y.high / plot.y.low)
+                                        : (y - plot.y.low) / (plot.y.high - plot.y.low);
+    return std::clamp(t, 0.0, 1.0);
+  };
+  std::vector<EndLabel> labels;
+  for (std::size_t s = 0; s < plot.series.size(); ++s) {
+    if (!is_labelled(plot.series[s])) continue;
+    double end = 0;
+    for (double y : plot.series[s].y)
+      if (std::isfinite(y) && (!plot.y.logarithmic || y > 0)) end = height(y);
+    const double last = plot.series[s].x.back(), near = plot.x.high - kNear * (plot.x.high - plot.x.low);
+    labels.push_back({s, end, end, last >= near});
+  }
+  std::stable_sort(labels.begin(), labels.end(),
+                   [](const EndLabel& a, const EndLabel& b) { return a.end < b.end; });
+  step = std::min(step, 1.0 / static_cast<double>(labels.size()));
+  for (std::size_t i = 1; i < labels.size(); ++i)
+    labels[i].at = std::max(labels[i].at, labels[i - 1].at + step);
+  double top = 1;
+  for (std::size_t i = labels.size(); i-- > 0; top -= step) labels[i].at = std::min(labels[i].at, top);
+  return labels;
+}
+
+std::string color_of(const Plot& plot, std::size_t series) {
+  return plot.series[series].color.empty() ? hex(method_color(series)) : plot.series[series].color;
+}
+
+// Labels beside the plot, with leaders to lines that end at the right border.
+std::string end_label_commands(const Plot& plot) {
+  constexpr double kLetters = 14, kAround = 160;  // [pixels]; title and axes
+  constexpr double kLeader = 0.018, kAir = 0.006;
+  const double step = 1.35 * kLetters / std::max(1.0, plot.height - kAround);
+  std::size_t longest = 0;
+  for (const Series& series : plot.series) longest = std::max(longest, series.label.size());
+  std::string script = "set rmargin " + std::to_string(longest + 5) + "\n";
+  for (const EndLabel& label : end_labels(plot, step)) {
+    const std::string color = color_of(plot, label.series);
+    script += "set arrow from graph 1," + gnuplot::number(label.reaches ? label.end : label.at) +
+              " to graph " + gnuplot::number(1 + kLeader) + "," + gnuplot::number(label.at) +
+              " nohead lw 1.2 lc rgb '" + color + "'\nset label " +
+              gnuplot::label_text(plot.series[label.series].label) + " at graph " +
+              gnuplot::number(1 + kLeader + kAir) + "," + gnuplot::number(label.at) +
+              " left font ',14' textcolor rgb '" + color + "'\n";
+  }
+  return script;
+}
+
 }  // namespace
+
+SiPrefix si_prefix(double value) {
+  static constexpr SiPrefix kAll[] = {{"M", 1e6},  {"k", 1e3},  {"", 1},     {"m", 1e-3},
+                                      {"µ", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+  constexpr double kRounded = 0.9995;  // 999.6 of a prefix is 1 of the next
+  for (const SiPrefix& si : kAll)
+    if (std::abs(value) >= kRounded * si.factor) return si;
+  return value == 0 ? SiPrefix{} : kAll[std::size(kAll) - 1];
+}
 
 std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
                                  const std::vector<std::vector<double>>& values, double bar_width) {
@@ -60,10 +189,21 @@ std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
 
 void write_plot(const std::filesystem::path& base, const Plot& drawn) {
   Plot plot = drawn;
+  constexpr double kAir = 0.04;
+  gnuplot::require_drawable(base, plot.series);
+  prefix(plot, plot.x, &Series::x, &Mark::x);
+  prefix(plot, plot.y, &Series::y, &Mark::y);
   plot.x = limited(plot.x, plot.series, &Series::x);
   plot.y = limited(plot.y, plot.series, &Series::y);
-  gnuplot::require_drawable(base, plot.series);
-  gnuplot::write_both(base, plot.width, plot.height, gnuplot::data_blocks(plot.series) + frame_commands(plot),
+  std::string labels;
+  if (has_end_labels(plot)) {
+    plot.x = bounded(plot.x, plot.series, &Series::x, 0);
+    plot.y = bounded(plot.y, plot.series, &Series::y, kAir);
+    if (plot.x.low == plot.x.high) plot.x = bounded({plot.x.label}, plot.series, &Series::x, kAir);
+    labels = end_label_commands(plot);
+  }
+  gnuplot::write_both(base, plot.width, plot.height,
+                      gnuplot::data_blocks(plot.series) + frame_commands(plot) + labels,
                       gnuplot::plot_command(plot.series));
 }
 

@@ -39,9 +39,17 @@ struct Plot {
   bool equal_scales = false;       // one unit is as long along x as along y: outlines
   std::vector<Mark> marks{};
   bool axes_at_zero = false;  // lines through the origin instead of a grid
-  bool key_inside = false;    // in the lower right corner, not beside the plot
+  bool key_inside = false;    // in the lower right corner; else lines have their labels at their ends
   double bar_width = 0.8;     // in units of x
+  std::string note{};         // a line below the title
 };
+
+// "m" and 1e-3 for numbers from 1e-3 to below 1; of zero none.
+struct SiPrefix {
+  const char* prefix = "";
+  double factor = 1;
+};
+SiPrefix si_prefix(double value);
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
 // Error::request if the file or a column is missing or a cell is no number (the line is named); empty cells
@@ -54,9 +62,11 @@ Series series_from_csv(const std::filesystem::path& csv, const std::string& x, c
 std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
                                  const std::vector<std::vector<double>>& values, double bar_width);
 
-// Writes BASE.png and BASE.svg, each whole or not at all.  Numbers that are not finite make gaps.
-// Error::machine if gnuplot is missing (install gnuplot-nox) or fails; Error::request if there is nothing to
-// draw or x and y differ in length.
+// Writes BASE.png, BASE.svg and, where gnuplot can, BASE.pdf, each whole or not at all.  Numbers that are not
+// finite make gaps.  Several series have their labels at the right, in their colours, each at the height at
+// which its line ends; one alone has none.  Axes in N, J, m, s, Pa and their products take a prefix where all
+// their numbers are small. Error::machine if gnuplot is missing (install gnuplot-nox) or fails;
+// Error::request if there is nothing to draw or x and y differ in length.
 void write_plot(const std::filesystem::path& base, const Plot& plot);
 
 }  // namespace hysteron::render

@@ -44,6 +44,8 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
+constexpr double kOnion = 0.5;  // of a swing: there and back, with what is left after it [s]
+
 // "Swing: cotton-broad, bdf2": what all columns share.
 std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& columns) {
   std::string title = line.names[0];
@@ -120,6 +122,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
                             .look = options.looks().front(),
                             .to = plan.to,
                             .curvature = choice.difference == "curvature",
+                            .onion = experiment == "swing" ? kOnion : 0,
                             .outlines = !choice.no_outlines,
                             .video = choice.video};
   const auto stage = run.stage("render");
@@ -138,7 +141,8 @@ int run_compare(const CommandLine& line) {
   std::vector<Variant> variants = variants_of(inner);
   if (options.explain) return explain_columns(plan_of(inner, variants, choice, options.out).columns), 0;
   check_batch({{inner.experiment, inner, options.out}}, choice.batch);
-  if (!options.no_images) check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
+  if (!options.no_images && !choice.times.empty())
+    check_times(choice.times, plan_of(inner, variants, choice, options.out).columns);
   SweepJobs jobs{choice.jobs, std::stoi(last_text(line.flags, "threads", "0")), options.resume,
                  last_text(inner.flags, "device", "auto") != "cpu", -1};
   jobs.batch = choice.batch;

@@ -99,7 +99,7 @@ Flag shared_range(const CommandLine& inner, const std::vector<Variant>& variants
 // What the experiment is asked for beside what it would be asked for alone.
 std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoice& choice,
                                      const std::filesystem::path& out, bool is_reference) {
-  std::vector<Flag> flags = {{"plain", "true"}};
+  std::vector<Flag> flags = for_sheets(inner);
   std::string look = last_text(inner.flags, "look", "cloth");
   if (!choice.no_outlines) look += ",silhouette";
   if (!choice.to.empty() && choice.difference == "curvature") {
@@ -109,7 +109,7 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
       look += ",difference", flags.push_back({"reference", (out / choice.to).string()});
   }
   flags.push_back({"look", look});
-  if (last_text(inner.flags, "size", "").empty()) flags.push_back({"size", "840x630"});
+  if (last_text(inner.flags, "size", "").empty()) flags.push_back({"size", "1120x840"});
   return flags;
 }
 

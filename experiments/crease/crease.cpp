@@ -49,7 +49,7 @@ Setup defaults() {
   scene.newton_velocity = 1e-6;
   scene.contact_stiffness = 1e9;  // of plates, which bear 10 N: what they press are the layers
   setup.options.fps = 30;
-  setup.options.camera_direction = {0.25, -1.0, 0.2};
+  setup.options.camera_direction = {-0.1, -1.0, 0.45};  // in profile, but not edge-on
   setup.options.camera_fov = 22;
   return setup;
 }
@@ -111,7 +111,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
   const bool pressed = crease.scene.obstacle.size() == 2;
   const float low = (pressed ? 0 : -0.35f) * length;
-  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.5f : 0.85f) * length}};
+  question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
   question.floor = low;
   question.step_lengths = crease.step_lengths;
   question.columns = {"opening [degree]", "plate_force [N]"};
@@ -225,6 +225,8 @@ void crease_once(const CommandLine& line) {
   if (choice.grow_after > 0)
     crease.step_lengths = growing_steps(crease.times, crease.scene.step, choice.grow_after);
   setup.scene = crease.scene;
+  if (choice.fold != "pleat")  // whose cloth is not flat at rest
+    probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});
   Session session(line, setup, crease.cloth);
   if (session.is_over()) return;
   session.reserve({}, {"plot_opening"});
@@ -263,10 +265,6 @@ VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
           setup,
           to_json(bind(kRows, choice)),
           {"recovery_angle_deg", "release_angle_deg", "law_recovery_angle_deg", "plate_force_N"},
-          [](const Metrics& m) {
-            return fmt::format("{:.0f} deg (law alone {:.0f})", m.number("recovery_angle_deg"),
-                               m.number("law_recovery_angle_deg"));
-          },
           choice.grow_after > 0 ? std::vector{recovery_plot("", choice)}
                                 : std::vector{opening_plot("", choice, end)}};
 }

@@ -14,6 +14,7 @@
 #include "sim/base/csv.h"
 #include "sim/base/root_mean_square.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/scene/mesh_files.h"
 #include "sim/scene/motion.h"
 
 namespace hysteron::experiments {
@@ -165,6 +166,10 @@ void limit_to_quick(Setup& setup) {
 void crumple_once(const CommandLine& line) {
   C choice;
   Setup setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
+  if (const ClothShape& cloth = setup.scene.cloth;
+      (cloth.shape == "square" || cloth.shape == "strip") && rest_file(setup.scene).empty())
+    probe_unless_told(setup.options,
+                      {cloth.length / 2, (cloth.shape == "square" ? cloth.length : cloth.width) / 2});
   Session session(line, setup);
   if (session.is_over()) return;
   session.reserve({"residual.csv"},
@@ -185,9 +190,6 @@ VariantPage page_of(const CommandLine& line, std::vector<Variant>&) {
           setup,
           to_json(bind(kRows, choice)),
           {"residual_curvature_rms_per_m", "ridge_length_m", "curvature_rms_per_m", "intersections"},
-          [](const Metrics& m) {
-            return caption_of(m.number("curvature_rms_per_m"), m.number("residual_curvature_rms_per_m"));
-          },
           plots_of(""),
           "raking.png"};
 }

@@ -54,7 +54,7 @@ Setup defaults() {
   // Ten times that, and the integrator takes twice as much; a third, and the coefficient stays within 0.05
   // points.
   scene.tolerance = 1e-5;
-  setup.options.camera_direction = {0.35, -1.0, 0.62};
+  setup.options.camera_direction = {0.3, -1.0, 0.5};
   setup.options.camera_fov = 24;
   return setup;
 }
@@ -245,6 +245,7 @@ int run_drape(const CommandLine& line) {
     run.metric("shadow_drape_coefficient_percent",
                is_drape_coefficient(shadow) ? MetricValue(shadow) : MetricValue());
     draw_maps(session);
+    session.pictures()->also_from({0, -0.02f, 1}, "from above, at the end");
     plot_outline(session, choice, radius, outline);
     plot_series(session);
   }

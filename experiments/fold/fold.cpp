@@ -173,6 +173,7 @@ void fold_cloth(const CommandLine& line, Request& request) {
   const Fold fold = folded(request.setup.scene, request.choice, request.setup.options.fps);
   request.setup.scene = fold.scene;
   request.setup.options.fps = fold.fps;
+  probe_unless_told(request.setup.options, {fold.scene.cloth.length / 2, fold.scene.cloth.width / 2});
   Session session(line, request.setup, fold.cloth);
   if (session.is_over()) return;
   Run& run = session.run();
@@ -247,10 +248,9 @@ VariantPage page_of(const CommandLine& line, std::vector<Variant>& variants) {
   const bool alone = request.choice.law_alone;
   if (!request.own_fatigue && request.choice.fatigue != 0)
     variants = with_and_without_fatigue(variants, request.setup.scene.law);
-  VariantPage page{"Repeated folding", request.setup, request.keys, {}, {}, plots_of(alone, "")};
+  VariantPage page{"Repeated folding", request.setup, request.keys, {}, plots_of(alone, "")};
   for (const auto& [name, value] : alone ? numbers_of(BendingCycle{}) : numbers_of(FoldReading{}))
     page.metrics.push_back(name);
-  page.caption = [](const Metrics& m) { return fmt::format("{:.3g} deg", m.number("recovery_angle_deg")); };
   return page;
 }
 

@@ -1,12 +1,14 @@
 #include "experiments/render/kept_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/kept_frames.h"
 #include "experiments/workbench/pictures/pictures.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -29,9 +31,21 @@ void apply_flags(const CommandLine& line, Options& options) {
   if (options.out.empty()) options.out = kOut;
 }
 
-// Every instant, then the sheet.
+// The probe's path up to an instant.
+render::Path loop_until(const Json& sheet, std::size_t points) {
+  render::Path path;
+  if (!sheet.is_object() || !sheet.contains("loop")) return path;
+  for (auto [values, name] : {std::pair(&path.curvature, "curvature"), std::pair(&path.moment, "moment")})
+    for (const Json& value : sheet.at("loop").at(name))
+      values->push_back(value.is_null() ? NAN : value.get<double>());
+  path.curvature.resize(std::min(points, path.curvature.size()));
+  path.moment.resize(path.curvature.size());
+  return path;
+}
+
+// Every instant, then the sheet, as its record says where there is one.
 void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const KeptCloth& cloth,
-                   const std::string& title) {
+                   const Json& sheet, const std::string& title) {
   auto subject = std::make_unique<KeptSubject>(mesh, cloth.instants);
   KeptSubject& shown = *subject;
   Pictures pictures(setup, std::move(subject), cloth.bounds, cloth.floor);
@@ -40,8 +54,9 @@ void draw_instants(Run& run, const Setup& setup, const DrawnMesh& mesh, const Ke
     const std::vector<float> xyz = shown.positions();
     std::vector<Eigen::Vector3d> x;
     for (std::size_t k = 0; k + 2 < xyz.size(); k += 3) x.emplace_back(xyz[k], xyz[k + 1], xyz[k + 2]);
-    pictures.frame(run, x);
+    pictures.frame(run, x, loop_until(sheet, cloth.instants[i].loop));
   }
+  if (sheet.is_object() && sheet.contains("cells")) pictures.show_as(sheet);
   pictures.finish(run, title);
 }
 
@@ -55,7 +70,7 @@ void draw_run(const CommandLine& line, const fs::path& file, const Kept& kept) {
   apply_flags(line, setup.options);
   Run run(line, setup.options, keys_of_kept(file, cloth));
   // A run that has not ended has no sheet yet.
-  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth,
+  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, kept.sheet,
                 kept.sheet.is_object() ? kept.sheet.value("title", "") : "");
   finish_with_report(run);
 }
@@ -76,9 +91,12 @@ SweepColumn draw_column(const CommandLine& line, const fs::path& file, const Kep
   apply_flags(line, setup.options);
   setup.options.out = (out / cloth.name).string();
   setup.options.look = looks_of(page, last_text(line.flags, "look", ""), recorded);
+  setup.options.plain = true;  // the page has the letters
   setup.options.json = false;
   Run run(line, setup.options, keys_of_kept(file, cloth));
-  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, cloth.name);
+  draw_instants(run, setup, kept.meshes.at(cloth.mesh), cloth, {}, cloth.name);
+  if (cloth.setup.contains("probes"))
+    write_text(run.path("probes.csv"), cloth.setup.at("probes").get<std::string>());
   run.finish();
   return column_of(cloth, run.folder(), run.manifest().frames);
 }

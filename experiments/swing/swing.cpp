@@ -15,7 +15,9 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kClamp = 0.01;  // clamped length [m]: the rest of cloth.length swings
+constexpr double kOnion = 0.5;    // of the swing, in one picture: there and back [s]
+constexpr double kProbed = 0.06;  // of the length, from the clamp to where pictures show moment and curvature
+constexpr double kClamp = 0.01;   // clamped length [m]: the rest of cloth.length swings
 
 Setup defaults() {
   Setup setup;
@@ -31,7 +33,7 @@ Setup defaults() {
   scene.step = 1.0 / 240;
   scene.fabric.damping = 1e-5;
   setup.options.fps = 30;
-  setup.options.camera_direction = {0.25, -1.0, 0.25};
+  setup.options.camera_direction = {0.2, -1.0, 0.3};
   setup.options.camera_fov = 24;
   return setup;
 }
@@ -146,13 +148,16 @@ void limit_to_quick(Setup& setup) {
   setup.options.fps = std::min(setup.options.fps, 20.0);
 }
 
+bool is_flat_rectangle(const Scene& scene) {
+  return (scene.cloth.shape == "strip" || scene.cloth.shape == "square") && rest_file(scene).empty();
+}
+
 // Meshes that are built here have a column of vertices on either side of the clamp's end; of others, all
 // vertices up to there are held.  None where the scene has pins of its own.
 std::optional<Cloth> clamp(const CommandLine& line, Setup& setup) {
   Scene& scene = setup.scene;
   if (!scene.pin.empty()) return {};
-  const bool rectangle = scene.cloth.shape == "strip" || scene.cloth.shape == "square";
-  if (rectangle && rest_file(scene).empty()) {
+  if (is_flat_rectangle(scene)) {
     decide(line, setup, unused_by_clamped_meshes());
     return clamp_at(scene, kClamp);
   }
@@ -171,6 +176,9 @@ Eigen::Vector2d sides_of(const Scene& scene, const ClothMesh& mesh) {
 int run_swing(const CommandLine& line) {
   Setup setup = set_up(line, defaults(), {}, limit_to_quick);
   std::optional<Cloth> clamped = clamp(line, setup);
+  if (is_flat_rectangle(setup.scene))
+    probe_unless_told(setup.options,
+                      {kClamp + kProbed * setup.scene.cloth.length, setup.scene.cloth.width / 2});
   Session session(line, setup, std::move(clamped));
   if (session.is_over()) return 0;
   session.reserve({"turns.csv"}, {"plot_decay", "plot_decay_log", "plot_tip", "plot_energy"});
@@ -215,6 +223,7 @@ int run_swing(const CommandLine& line) {
   run.metric("viscous_J", ledger.viscous);
   run.metric("integrator_J", ledger.integrator());
   if (session.pictures()) {
+    session.pictures()->begin_with_onion_skin(kOnion);
     plot(session);
     plot_decay(session, amplitudes, decay);
   }

@@ -89,6 +89,26 @@ TEST(Camera, FramingHoldsExtremeShapes) {
       }
 }
 
+// However the points lie, they touch two opposite borders but for the margin, and none is beyond.
+TEST(Camera, AroundPointsTheyTouchTheBordersOfTheirPicture) {
+  std::vector<float> points;
+  for (int i = 0; i < 200; ++i) {
+    const float t = 0.1f * static_cast<float>(i);
+    points.insert(points.end(), {0.1f * std::cos(t), 0.03f * std::sin(3 * t), 0.004f * t});
+  }
+  for (const Eigen::Vector3f& direction :
+       {Eigen::Vector3f(-0.1f, -1, 0.45f), Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0.2f, 0)})
+    for (const float aspect : {0.7f, 1.0f, 2.4f}) {
+      const float margin = 0.06f;
+      const Window at = Camera::around(points, direction, 22, aspect, margin).window_of(points, aspect);
+      const double width = at.right - at.left, height = at.top - at.bottom;
+      EXPECT_NEAR(std::max(width, height), 1 - 2 * margin, 1e-4);
+      EXPECT_NEAR(width > height ? at.left + at.right : at.bottom + at.top, 1, 1e-3);
+      EXPECT_GE(std::min(at.left, at.bottom), margin - 1e-4);
+      EXPECT_LE(std::max(at.right, at.top), 1 - margin + 1e-4);
+    }
+}
+
 TEST(Camera, TopViewHasXRightYUpAndOneScale) {
   const Camera camera = Camera::top({{-0.3f, -0.15f, 0}, {0.3f, 0.15f, 0.1f}}, 1.5f);
   EXPECT_TRUE(camera.is_orthographic());

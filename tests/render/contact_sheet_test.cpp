@@ -93,6 +93,14 @@ TEST(ContactSheet, OfSixtyFourFramesReadsEachPixelAtMostTwice) {
   EXPECT_LE(page, 2 * 64 * kThumbnail);
 }
 
+// Where nothing moves there is one instant and the last; else as much way lies between any two.
+TEST(SpreadByWay, PassesOverWhatStandsStill) {
+  EXPECT_EQ(spread_by_way({0, 1, 1, 0, 0, 0, 0, 1, 1}, 5), (std::vector<int>{0, 1, 2, 7, 8}));
+  EXPECT_EQ(spread_by_way({0, 0, 0, 0}, 3), (std::vector<int>{0, 3}));
+  EXPECT_EQ(spread_by_way({0}, 3), (std::vector<int>{0}));
+  EXPECT_TRUE(spread_by_way({}, 3).empty());
+}
+
 TEST(Spread, KeepsFirstAndLast) {
   EXPECT_EQ(spread(10, 4), (std::vector<int>{0, 3, 6, 9}));
   EXPECT_EQ(spread(3, 12), (std::vector<int>{0, 1, 2}));

@@ -54,7 +54,7 @@ class HeatMapTest : public testing::Test {
 
 TEST_F(HeatMapTest, EveryCellHasTheColourOfItsKindAtItsPlace) {
   write_heat_maps(folder_.file("m"), two_maps());
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"m.png", "m.svg"}));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"m.pdf", "m.png", "m.svg"}));
   const Image image = read_png(folder_.file("m.png"));
   constexpr int kLegendEnds = 110;                  // [pixels] from the top
   const int middle = 490, bottom = image.height();  // between the maps, in pixels

@@ -46,7 +46,7 @@ class PanelsTest : public testing::Test {
 
 TEST_F(PanelsTest, EveryPanelHasItsTitleAndItsTexts) {
   write_panels(folder_.file("p"), grid_of(5));
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const std::string svg = text_of(folder_.file("p.svg"));
   for (const char* text : {"panel_0", "panel_4", "B = 1", "lower right", "Loops", "red: a line", "x [m]"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;

@@ -39,7 +39,7 @@ class PlotPageTest : public testing::Test {
 
 TEST_F(PlotPageTest, EveryPlotHasItsOwnAxesKeyAndMarksOnce) {
   write_plot_page(folder_.file("p"), two_plots());
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const std::string svg = text_of(folder_.file("p.svg"));
   for (const char* text :
        {"Page", "what it shows", "rising", "falling", "x [m]", "t [s]", "force [N]", "y [mm]", "here"}) {

@@ -50,7 +50,7 @@ class PlotTest : public testing::Test {
 
 TEST_F(PlotTest, WritesPngAndSvgAndNothingElse) {
   write_plot(folder_.file("p"), parabola());
-  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.png", "p.svg"}));
+  EXPECT_EQ(folder_.names(), (std::vector<std::string>{"p.pdf", "p.png", "p.svg"}));
   const Image image = read_png(folder_.file("p.png"));
   EXPECT_EQ(image.width(), 600);
   EXPECT_EQ(image.height(), 400);
@@ -88,7 +88,7 @@ TEST_F(PlotTest, GapsAndLogarithmicAxesAreDrawn) {
   plot.x.logarithmic = plot.y.logarithmic = true;
   plot.series[0].y[15] = std::numeric_limits<double>::quiet_NaN();
   write_plot(folder_.file("p"), plot);
-  EXPECT_EQ(folder_.names().size(), 2u);
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("p.png")));
 }
 
 // 12 to 60: ticks at 20 and 50, none that is a power of ten.
@@ -103,6 +103,68 @@ TEST_F(PlotTest, ShortLogarithmicAxesAreNumberedWithinTheDecade) {
   plot.series[0].y = {1, 30, 6000};
   write_plot(folder_.file("p"), plot);
   EXPECT_EQ(text_of(folder_.file("p.svg")).find(">20<"), std::string::npos);
+}
+
+// The height of a text in an SVG [pixels from above]; -1 where it is not there once.
+double height_of(const std::string& svg, const std::string& text) {
+  const std::string drawn = ">" + text + "</tspan>";
+  const std::size_t at = svg.find(drawn);
+  if (at == std::string::npos || svg.find(drawn, at + 1) != std::string::npos) return -1;
+  const std::size_t place = svg.rfind("translate(", at), comma = svg.find(',', place);
+  return std::stod(svg.substr(comma + 1));
+}
+
+// Three lines, two of which end close to each other: labels stand in the order of their ends, apart.
+TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
+  Plot plot = parabola();
+  plot.series = {{"low", {0, 1}, {0, 0}}, {"high", {0, 1}, {0, 10}}, {"higher", {0, 1}, {0, 10.1}}};
+  write_plot(folder_.file("p"), plot);
+  const std::string svg = text_of(folder_.file("p.svg"));
+  const double low = height_of(svg, "low"), high = height_of(svg, "high"), higher = height_of(svg, "higher");
+  EXPECT_GT(higher, 0);
+  EXPECT_GT(low, high + 100);
+  EXPECT_GT(high, higher + 14) << "the letters are 14 pixels";
+}
+
+TEST_F(PlotTest, ALineAloneHasNoLabel) {
+  write_plot(folder_.file("p"), parabola());
+  EXPECT_EQ(text_of(folder_.file("p.svg")).find("quoted</tspan>"), std::string::npos);
+}
+
+TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {
+  Plot plot = parabola();
+  for (double& y : plot.series[0].y) y *= 1e-5;  // 1 mJ/m² at most
+  plot.note = "zero throughout: linear";
+  write_plot(folder_.file("p"), plot);
+  const std::string svg = text_of(folder_.file("p.svg"));
+  EXPECT_NE(svg.find("energy [mJ/m²]"), std::string::npos);
+  EXPECT_NE(svg.find("curvature [1/m]"), std::string::npos) << "of which there are no prefixes";
+  EXPECT_NE(svg.find("zero throughout: linear"), std::string::npos);
+  EXPECT_EQ(svg.find(">0.001<"), std::string::npos);
+}
+
+TEST(SiPrefix, LeavesOneTo999) {
+  for (const auto& [value, prefix] : {std::pair{0.00094, "µ"},
+                                      {0.0013, "m"},
+                                      {0.5, "m"},
+                                      {1.0, ""},
+                                      {999.7, "k"},
+                                      {4.2e4, "k"},
+                                      {-3e-8, "n"},
+                                      {0.0, ""}})
+    EXPECT_STREQ(si_prefix(value).prefix, prefix) << value;
+}
+
+// Two files of one plot are equal, though they are written at different times.
+TEST_F(PlotTest, PdfsDoNotSayWhenTheyWereWritten) {
+  write_plot(folder_.file("p"), parabola());
+  if (!std::filesystem::exists(folder_.file("p.pdf"))) GTEST_SKIP() << "this gnuplot writes no PDF";
+  const std::string text = text_of(folder_.file("p.pdf"));
+  EXPECT_EQ(text.substr(0, 5), "%PDF-");
+  const std::size_t date = text.find("/CreationDate (D:");
+  if (date != std::string::npos) {
+    EXPECT_EQ(text.substr(date + 17, 8), "00000000");
+  }
 }
 
 TEST(GroupedBars, StandSideBySideAroundTheirCategory) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/memory.h"
@@ -56,9 +57,10 @@ Error with_owner(const Error& error, const Keys& known) {
 
 // Without those that change no file of a run, or whose outcome is in the scene.
 std::string choices_of(Keys keys) {
-  static const std::set<std::string> kOthers = {
-      "scene",        "out",         "quick",        "explain",    "quiet",  "json",       "errors",
-      "errors.draws", "errors.jobs", "errors.batch", "checkpoint", "resume", "dump-scene", "max-memory"};
+  static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
+                                                "explain",      "quiet",       "json",         "errors",
+                                                "errors.draws", "errors.jobs", "errors.batch", "checkpoint",
+                                                "resume",       "dump-scene",  "max-memory"};
   std::erase_if(keys, [](const BoundKey& key) { return kOthers.contains(key.description.path); });
   return to_json(keys).dump();
 }
@@ -76,6 +78,8 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   } catch (const Error& error) {
     throw with_owner(error, extra);
   }
+  const std::string camera = last_text(line.flags, "camera", setup.options.camera);
+  if (!camera.empty()) read_camera(camera, setup.options);
   apply_flags(setup.scene, line.flags, extra);
   if (setup.options.quick && quick) {
     quick(setup);  // which may ask what the flags say

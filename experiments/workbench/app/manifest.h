@@ -1,6 +1,7 @@
 // What a run is and has found: the manifest in its folder, typed.  JSON is only in manifest_file.h.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -129,6 +130,10 @@ struct Frames {
     double time = 0;  // [s]
     std::string phase;
     std::optional<double> difference_rms{};  // of look `difference` [1/m]
+    // Box of what is drawn of the cloth, in shares of the picture from its upper left corner: left, top,
+    // right, bottom; all 0 where it is not noted.
+    std::array<double, 4> cloth{};
+    double moved = 0;  // since the picture before, root mean square over the vertices [m]
   };
   std::vector<Look> looks;
   double metres_per_pixel = 0;

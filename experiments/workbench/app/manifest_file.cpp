@@ -51,6 +51,8 @@ Json to_json(const Frames& frames) {
   for (const Frames::Instant& instant : frames.instants) {
     instants.push_back({{"s", instant.time}, {"phase", instant.phase}});
     if (instant.difference_rms) instants.back()["difference_rms_per_m"] = *instant.difference_rms;
+    if (instant.cloth != Frames::Instant{}.cloth) instants.back()["cloth"] = instant.cloth;
+    if (instant.moved > 0) instants.back()["moved_m"] = instant.moved;
   }
   return {{"looks", looks}, {"m_per_pixel", frames.metres_per_pixel}, {"moments", instants}};
 }
@@ -224,6 +226,15 @@ SceneRecord scene_of(const Json& json) {
   return scene;
 }
 
+std::array<double, 4> cloth_of(const Json& instant) {
+  const Json& box = at(instant, "cloth");
+  std::array<double, 4> cloth{};
+  if (box.is_array() && box.size() == cloth.size())
+    for (std::size_t k = 0; k < cloth.size(); ++k)
+      if (box[k].is_number()) cloth[k] = box[k].get<double>();
+  return cloth;
+}
+
 std::optional<Frames> frames_of(const Json& json) {
   if (!json.is_object()) return {};
   Frames frames;
@@ -236,7 +247,8 @@ std::optional<Frames> frames_of(const Json& json) {
   frames.metres_per_pixel = number_at(json, "m_per_pixel");
   for (const Json& instant : at(json, "moments"))
     frames.instants.push_back({number_at(instant, "s"), text_at(instant, "phase"),
-                               known_at<double>(instant, "difference_rms_per_m")});
+                               known_at<double>(instant, "difference_rms_per_m"), cloth_of(instant),
+                               known_at<double>(instant, "moved_m").value_or(0)});
   return frames;
 }
 

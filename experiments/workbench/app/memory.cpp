@@ -34,6 +34,7 @@ constexpr double kMostAnimation = 128 * kMegabyte;  // beyond, an animation has 
 
 constexpr double kOpenGl = 120 * kMegabyte;
 constexpr double kScenery = 180 * kMegabyte;  // shadows and light on obstacles and ground
+constexpr double kKept = 380;                 // 48 instants of 16 bytes a vertex, for the contact sheet
 constexpr double kPixel = 70;                 // eight samples, eight pictures that wait [bytes]
 
 constexpr double kReadingObj = 10;  // bytes for each in the file
@@ -57,9 +58,9 @@ double history_bytes(const Scene& scene, double triangles) {
   return sizeof(double) * history_size(law, hinges ? 1 : 3) * (hinges ? 1.5 : 1) * triangles;
 }
 
-double picture_bytes(const Setup& setup) {
+double picture_bytes(const Setup& setup, double triangles) {
   if (setup.options.no_images) return 0;
-  return kOpenGl + (setup.scene.obstacle.empty() ? 0 : kScenery) +
+  return kOpenGl + kKept * triangles + (setup.scene.obstacle.empty() ? 0 : kScenery) +
          kPixel * setup.options.width() * setup.options.height();
 }
 
@@ -92,7 +93,7 @@ MemoryNeed memory_need(const Setup& setup, double triangles) {
           .history = history_bytes(scene, triangles),
           .solver = solver_bytes(scene, triangles),
           .contact = scene.self_contact ? kSelfContact * triangles : 0,
-          .pictures = picture_bytes(setup),
+          .pictures = picture_bytes(setup, triangles),
           .animation =
               setup.options.export_format == "gltf" ? std::min(kAnimation * triangles, kMostAnimation) : 0};
 }
@@ -113,7 +114,7 @@ void check_memory(const Setup& setup) {
   if (file.empty()) return check_memory(setup, setup.scene.triangles);
   std::error_code missing;
   const auto bytes = static_cast<double>(fs::file_size(file, missing));
-  if (!missing) check(setup, kProgram + kReadingObj * bytes + picture_bytes(setup), "reading " + file);
+  if (!missing) check(setup, kProgram + kReadingObj * bytes + picture_bytes(setup, 0), "reading " + file);
 }
 
 }  // namespace hysteron::experiments

@@ -23,6 +23,7 @@ struct Options {
   bool plain = false;                 // plain      pictures of the sequence without letters
   std::string light = "studio";       // light      studio | raking
   std::string background = "studio";  // background studio | white | transparent
+  std::string camera;                 // camera     a run's camera.json, before the keys camera.*
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
   Numbers camera_target;               // camera.target     [m] in the picture's middle; empty: found

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const char* const kStages[] = {"membrane", "bending", "solve",  "contact",
                                "history",  "render",  "encode", "io"};
 
-constexpr const char* kPlotEndings[] = {".png", ".svg"};
+constexpr const char* kPlotEndings[] = {".png", ".svg", ".pdf"};
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -191,6 +191,7 @@ void Run::plot(const std::string& name, const std::function<void(const fs::path&
   for (const char* ending : kPlotEndings) path(name + ending);
   try {
     draw(folder() / name);
+    if (!fs::exists(folder() / (name + ".pdf"))) forget(name + ".pdf");  // this gnuplot writes none
   } catch (const Error& error) {
     for (const char* ending : kPlotEndings) forget(name + ending);
     manifest_.plots_missing.push_back(name + ": " + error.what());

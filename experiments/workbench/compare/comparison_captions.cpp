@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/pages/figure_captions.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
@@ -23,12 +24,12 @@ std::string meaning_of(const std::string& metric) {
 // In the order in which they are shown, those that a column shows.
 std::string numbers_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
   std::string text;
-  for (const std::string& key : shown_metrics(page, columns)) {
+  for (const std::string& key : shown_metrics(columns, page.metrics)) {
     const std::string meaning = meaning_of(key);
-    text += (text.empty() ? "Numbers below the columns: " : "; ") + split_unit(key).text() +
+    text += (text.empty() ? "Numbers behind the names: " : "; ") + split_unit(key).text() +
             (meaning.empty() ? "" : ", " + meaning);
   }
-  return text.empty() ? "" : text + "; ms per step, computing time without pictures.";
+  return text.empty() ? "" : text + "; all others are in table.csv.";
 }
 
 std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
@@ -43,8 +44,14 @@ std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>
                                  " at the same vertex and instant, on its own shape; its root mean square."
                            : " Below each, its difference to " + to + ", in colours.";
   }
-  if (page.outlines)
-    text += " Last row: the outlines of all columns, laid over each other, in the columns' colours.";
+  if (page.outlines && columns.size() < 5)
+    text += " Last column: the outlines of all, laid over each other, in the columns' colours.";
+  for (const SweepColumn& c : columns)
+    for (const Curve& curve : c.manifest ? c.manifest->curves : std::vector<Curve>{})
+      if (curve.plot.starts_with("plot_probe1_moment"))
+        return text +
+               " In the corners moment M against curvature κ at the probed place up to this instant, "
+               "a dot where it is now; in grey that of prandtl.";
   return text;
 }
 
@@ -86,31 +93,6 @@ std::string shown_in(const std::string& stem, const ComparisonPage& page,
 }
 
 }  // namespace
-
-const std::vector<ShownNumber>& shown_numbers() {
-  static const std::vector<ShownNumber> kAll = {
-      {"drape_coefficient_percent",
-       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
-      {"node_count", "folds of the outline"},
-      {"recovery_angle_deg", "angle between the limbs after release; 180 degrees is flat"},
-      {"2HB_N", "width of the last moment-curvature loop"},
-      {"set_curvature_per_m", "curvature that is left without moment"},
-      {"turns", "how often the free end turned"},
-      {"decay_shape",
-       "how amplitudes fall in time: along a line (saturated friction), along two (friction that saturates "
-       "early and "
-       "what is left below, as of cloth), exponentially (viscosity), hyperbolically (friction whose loops "
-       "grow as A^3), "
-       "or not (plateau: a turn takes less than 1 %)"},
-      {"decay_step_fraction", "amplitude at which the second of two lines begins, over the first amplitude"},
-      {"bending_friction_J", "energy that friction in bending has taken"},
-      {"ridge_length_m", "length of the ridges, sharper than a threshold, that are left"},
-      {"residual_curvature_rms_per_m",
-       "root mean square of the curvature that is left if the cloth is let go"},
-      {"max_stretch_percent", "largest stretch of an edge"},
-  };
-  return kAll;
-}
 
 void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
                                const std::string& command, const std::vector<SweepColumn>& columns) {

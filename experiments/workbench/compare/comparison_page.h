@@ -12,33 +12,21 @@ namespace hysteron::experiments {
 struct ComparisonPage {
   std::string title;
   std::vector<std::string> notes;
-  int rows = 4;                      // instants
-  std::vector<double> times;         // of the rows, in their place [s]; empty: spread evenly
-  std::vector<std::string> metrics;  // below the columns and in bars; empty: those of shown_numbers()
+  int rows = 4;                      // instants, at most
+  std::vector<double> times;         // of the rows, in their place [s]; empty: spread over what moves
+  std::vector<std::string> metrics;  // behind the columns' names and in bars; empty: those of shown_numbers()
   std::string look;                  // of the pictures
   int to = -1;                       // the column that others differ from; -1: no differences
   bool curvature = false;            // what differs: curvature, as the columns pictured it, not pictures
+  double onion = 0;                  // a row first with all instants up to then over each other [s]; 0: none
   bool outlines = true;              // of all columns, over each other
   std::string video;                 // none | mp4 | gif
 };
 
-// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png, and outlines.png and the
-// video where they are asked for.
+// Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png and the video where it is
+// asked for.
 void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 
-// What each experiment is asked for, then what any run has, in the order in which pages show it.
-struct ShownNumber {
-  const char* metric;
-  const char* meaning;
-};
-const std::vector<ShownNumber>& shown_numbers();
-
-// The numbers that a page shows of a column: those that it asks for, or what the experiment itself is asked
-// for, then what any run has.
-std::vector<std::string> numbers_of(const ComparisonPage& page, const SweepColumn& column);
-
-// Names of the metrics among them, of any column.
-std::vector<std::string> shown_metrics(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 // "t = 0.50 s, hang" of each of the page's rows.
 std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns);
 

@@ -4,6 +4,7 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pictures/kept_frames.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -20,6 +21,9 @@ KeptRecord with_column(KeptRecord record, const SweepColumn& column, std::size_t
   Json setup = Json::parse(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
   setup["manifest"] = page_manifest(*column.manifest);
   setup["stopped"] = column.stopped;
+  std::error_code ignored;
+  if (const fs::path probes = column.folder / "probes.csv"; fs::exists(probes, ignored))
+    setup["probes"] = whole_file(probes, "cannot read " + probes.string());  // of the loops on the page
   const std::string text = setup.dump();
   record.head["name"] = column.name;
   record.head["mesh"] = mesh;
@@ -40,7 +44,8 @@ std::size_t place_of(const KeptRecord& mesh, std::vector<KeptRecord>& known, std
 Json page_json(const ComparisonPage& page) {
   return {{"title", page.title}, {"notes", page.notes},         {"rows", page.rows},
           {"times", page.times}, {"metrics", page.metrics},     {"look", page.look},
-          {"to", page.to},       {"curvature", page.curvature}, {"outlines", page.outlines}};
+          {"to", page.to},       {"curvature", page.curvature}, {"outlines", page.outlines},
+          {"onion", page.onion}};
 }
 
 }  // namespace
@@ -78,6 +83,7 @@ ComparisonPage page_of(const Json& sheet) {
   page.to = json.at("to");
   page.curvature = json.at("curvature");
   page.outlines = json.at("outlines");
+  page.onion = json.at("onion");
   page.video = "none";
   return page;
 }

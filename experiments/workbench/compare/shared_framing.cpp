@@ -20,4 +20,12 @@ std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Vari
   return {{"camera.box", corners}};
 }
 
+std::vector<Flag> for_sheets(const CommandLine& line) {
+  std::vector<Flag> flags = {{"plain", "true"}};
+  if (last_text(line.flags, "look", "cloth").starts_with("cloth") &&
+      last_text(line.flags, "background", "").empty())
+    flags.push_back({"background", "white"});
+  return flags;
+}
+
 }  // namespace hysteron::experiments

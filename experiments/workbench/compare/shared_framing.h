@@ -11,4 +11,8 @@ namespace hysteron::experiments {
 // alike, the line draws no pictures, or says itself what they frame.
 std::vector<Flag> shared_framing(const CommandLine& line, const std::vector<Variant>& variants);
 
+// Flags of columns whose pictures are cells of a page: without letters and, where they show cloth and the
+// line does not say otherwise, on white.
+std::vector<Flag> for_sheets(const CommandLine& line);
+
 }  // namespace hysteron::experiments

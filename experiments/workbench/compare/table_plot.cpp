@@ -1,8 +1,11 @@
 #include "experiments/workbench/compare/table_plot.h"
 
-#include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
 
+#include "experiments/workbench/compare/column_view.h"
 #include "render/color_map.h"
+#include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -15,6 +18,49 @@ render::Series series_of(const TablePlot& plot, const std::filesystem::path& fol
   return series;
 }
 
+double largest(const render::Series& series) {
+  double most = 0;
+  for (double y : series.y)
+    if (std::isfinite(y)) most = std::max(most, std::abs(y));
+  return most;
+}
+
+// Takes out the series that are zero beside the others, or beside what sums of doubles leave; their names.
+std::vector<std::string> take_what_shows_nothing(std::vector<render::Series>& all) {
+  constexpr double kBeside = 1e-6, kLeft = 1e-12;
+  double most = 0;
+  for (const render::Series& series : all) most = std::max(most, largest(series));
+  std::vector<std::string> names;
+  std::erase_if(all, [&](const render::Series& series) {
+    const bool nothing = largest(series) <= std::max(kLeft, kBeside * most);
+    if (nothing) names.push_back(series.label);
+    return nothing;
+  });
+  return names;
+}
+
+// Lines that lie on each other become one with all their names.
+void unite_equal(std::vector<render::Series>& all) {
+  constexpr double kSeen = 1e-3;  // of the largest value
+  double most = 0;
+  for (const render::Series& series : all) most = std::max(most, largest(series));
+  const auto lie_on_each_other = [&](const render::Series& a, const render::Series& b) {
+    if (a.x != b.x || a.y.size() != b.y.size()) return false;
+    for (std::size_t i = 0; i < a.y.size(); ++i)
+      if (!(std::abs(a.y[i] - b.y[i]) <= kSeen * most)) return false;
+    return true;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size();) {
+      if (!lie_on_each_other(all[i], all[j])) {
+        ++j;
+        continue;
+      }
+      all[i].label += ", " + all[j].label;
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
 }  // namespace
 
 void draw(Run& run, TablePlot plot, const std::string& label) {
@@ -23,17 +69,21 @@ void draw(Run& run, TablePlot plot, const std::string& label) {
 }
 
 void draw(Run& run, TablePlot plot, const std::vector<SweepColumn>& columns) {
-  const std::size_t given = plot.plot.series.size();
+  const std::vector<render::Rgb8> colors = colors_of(columns);
+  std::vector<render::Series> own;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!columns[c].manifest || !std::filesystem::exists(columns[c].folder / plot.file)) continue;
     render::Series series = series_of(plot, columns[c].folder, columns[c].name);
     if (series.x.empty()) continue;
-    const render::Rgb8 color = render::method_color(given + c);
-    series.color = fmt::format("#{:02X}{:02X}{:02X}", color[0], color[1], color[2]);
-    if (c >= render::kMethodColors) series.style = render::Series::Style::dashed;
-    plot.plot.series.push_back(std::move(series));
+    series.color = render::hex(colors[c]);
+    own.push_back(std::move(series));
   }
-  if (plot.plot.series.size() > given) run.plot(plot.name, plot.plot);
+  const std::vector<std::string> nothing = take_what_shows_nothing(own);
+  if (own.empty()) return;
+  unite_equal(own);
+  if (!nothing.empty()) plot.plot.note = "zero throughout: " + join(nothing, ", ");
+  plot.plot.series.insert(plot.plot.series.end(), own.begin(), own.end());
+  run.plot(plot.name, plot.plot);
 }
 
 }  // namespace hysteron::experiments

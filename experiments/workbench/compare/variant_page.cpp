@@ -1,11 +1,13 @@
 #include "experiments/workbench/compare/variant_page.h"
 
+#include <optional>
+
+#include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison.h"
 #include "experiments/workbench/compare/kept_page.h"
 #include "experiments/workbench/compare/shared_framing.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
-#include "render/contact_sheet.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -30,12 +32,37 @@ PageChoice taken_from(CommandLine& line) {
   return choice;
 }
 
-// "" where there is none.
-fs::path picture_of(const VariantPage& page, const SweepColumn& column) {
-  if (!page.picture.empty())
-    return is_there(column.folder / page.picture) ? column.folder / page.picture : fs::path();
-  const std::vector<fs::path> frames = files_ending(column.folder / "frames", ".png");
-  return frames.empty() ? fs::path() : frames.back();
+// The page's own, or the last of the column's frames; "" where there is none.
+fs::path shown_picture(const VariantPage& page, const SweepColumn& column) {
+  if (!column.stopped.empty() || !has_frames(column)) return {};
+  const fs::path file = page.picture.empty() ? picture_of(column, column.manifest->frames->looks.at(0).name,
+                                                          instants(column).size() - 1)
+                                             : column.folder / page.picture;
+  return is_there(file) ? file : fs::path();
+}
+
+// Its end, a picture a column; nothing where no column has one.
+std::optional<render::ComparisonSheet> sheet_of(const VariantPage& page,
+                                                const std::vector<SweepColumn>& columns) {
+  render::ComparisonSheet sheet;
+  sheet.title = page.title;
+  sheet.rows.emplace_back();
+  const std::vector<render::ComparisonColumn> heads = heads_of(columns, page.metrics);
+  const ProbedLoops loops(columns);
+  Crop crop;
+  for (const SweepColumn& column : columns)
+    if (!shown_picture(page, column).empty()) crop.include(instants(column).back());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const fs::path picture = shown_picture(page, columns[c]);
+    if (picture.empty()) continue;
+    sheet.columns.push_back(heads[c]);
+    sheet.columns.back().cells = {
+        {crop.of(render::read_png(picture)), "", loops.at(c, instants(columns[c]).back().time)}};
+    sheet.rows[0].metres_per_pixel = columns[c].manifest->frames->metres_per_pixel;
+  }
+  sheet.scale_note = "at the cloth's middle";
+  if (sheet.columns.empty()) return {};
+  return sheet;
 }
 
 // As a comparison of the columns' last instants.
@@ -58,17 +85,11 @@ void keep(Run& run, const VariantPage& page, const std::vector<SweepColumn>& col
 }
 
 void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
-  std::vector<render::SheetEntry> entries;
-  for (const SweepColumn& column : columns) {
-    const fs::path picture = column.stopped.empty() ? picture_of(page, column) : fs::path();
+  for (const SweepColumn& column : columns)
     if (!column.stopped.empty())
       run.warn(column.name + " is missing on the page's sheet and plots: " + column.stopped);
-    if (!picture.empty())
-      entries.push_back({render::read_png(picture), column.name + ": " + page.caption(column.metrics())});
-  }
-  if (!entries.empty())
-    render::write_png(run.path("sheet.png"), render::contact_sheet(entries, {page.title}),
-                      render::PngEffort::best);
+  if (const auto sheet = sheet_of(page, columns))
+    render::write_png(run.path("sheet.png"), render::draw_comparison(*sheet), render::PngEffort::best);
   keep(run, page, columns);
   for (TablePlot plot : page.plots) {
     plot.plot.title = page.title;
@@ -85,7 +106,11 @@ void reserve_page(const Run& run, const VariantPage& page) {
 
 std::vector<Variant> in_one_frame(const CommandLine& line, std::vector<Variant> variants) {
   const std::vector<Flag> framing = shared_framing(line, variants);
-  for (Variant& variant : variants) variant.flags.insert(variant.flags.end(), framing.begin(), framing.end());
+  for (Variant& variant : variants) {
+    variant.flags.insert(variant.flags.end(), framing.begin(), framing.end());
+    const std::vector<Flag> plain = for_sheets(line);
+    variant.flags.insert(variant.flags.end(), plain.begin(), plain.end());
+  }
   return variants;
 }
 

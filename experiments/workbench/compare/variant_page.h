@@ -12,13 +12,12 @@
 namespace hysteron::experiments {
 
 struct VariantPage {
-  std::string title;                       // "Crease recovery"
-  Setup setup;                             // of the line without lists
-  Json keys;                               // what else the manifest keeps
-  std::vector<std::string> metrics;        // of the table
-  std::string (*caption)(const Metrics&);  // below a column's picture, after its name
-  std::vector<TablePlot> plots;            // titled by the page
-  std::string picture{};                   // in a column's folder; "": the last of its frames
+  std::string title;                 // "Crease recovery"
+  Setup setup;                       // of the line without lists
+  Json keys;                         // what else the manifest keeps
+  std::vector<std::string> metrics;  // of the table; the first stand behind the columns' names
+  std::vector<TablePlot> plots;      // titled by the page
+  std::string picture{};             // in a column's folder; "": the last of its frames
 };
 
 // Keys of such a page, which run_variants() takes off the line, for Experiment::own_keys.

@@ -31,22 +31,49 @@ std::string metric_cards(const Metrics& metrics) {
   return html_cards(cards);
 }
 
+namespace {
+
+Card card_of(const Metrics& metrics, const Headline& headline) {
+  const std::string key = headline.metric;
+  HeadlineWords words = headline_words(metrics, headline);
+  if (!is_headline(metrics, key) && !metrics.contains(key + kStandardError) && headline.scale != 1) {
+    const ShownQuantity quantity = shown_quantity(metrics[key], split_unit(key).unit);
+    words.value = quantity.value, words.unit = quantity.unit;
+  }
+  return {words.value, joined({words.unit, words.errors}, " "), headline.words};
+}
+
+// Of laws or fabrics the first headline that they have, a card each.
+std::vector<Card> column_cards(const Manifest& manifest) {
+  constexpr std::size_t kMost = 8;  // more are a table
+  const std::string& compared = manifest.scene.compared;
+  for (const Headline& headline : headlines_of(compared.empty() ? manifest.experiment : compared).all) {
+    const std::string ending = std::string(".") + headline.metric;
+    std::vector<Card> cards;
+    for (const auto& [key, value] : manifest.metrics) {
+      if (!key.ends_with(ending) || !value.is_number()) continue;
+      const std::string name = key.substr(0, key.size() - ending.size());
+      Metrics own;
+      for (const auto& [other, number] : manifest.metrics)
+        if (other.starts_with(name + ".")) own.set(other.substr(name.size() + 1), number);
+      cards.push_back(card_of(own, headline));
+      cards.back().name = name + ": " + headline.words;
+    }
+    if (!cards.empty()) return cards.size() <= kMost ? cards : std::vector<Card>{};
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string answer_cards(const Manifest& manifest) {
   std::vector<Card> cards;
   for (const Headline& headline : headlines_of(manifest.experiment).all) {
-    const std::string key = headline.metric;
-    const MetricValue& value = manifest.metrics[key];
+    const MetricValue& value = manifest.metrics[headline.metric];
     if (value.is_text() && value.text() != "unknown") cards.push_back({value.text(), "", headline.words});
-    if (!value.is_number()) continue;
-    HeadlineWords words = headline_words(manifest.metrics, headline);
-    if (!is_headline(manifest.metrics, key) && !manifest.metrics.contains(key + kStandardError) &&
-        headline.scale != 1) {
-      const ShownQuantity quantity = shown_quantity(value, split_unit(key).unit);
-      words.value = quantity.value, words.unit = quantity.unit;
-    }
-    cards.push_back({words.value, joined({words.unit, words.errors}, " "), headline.words});
+    if (value.is_number()) cards.push_back(card_of(manifest.metrics, headline));
   }
-  return html_cards(cards);
+  return html_cards(cards.empty() ? column_cards(manifest) : cards);
 }
 
 Metrics further_metrics(const Manifest& manifest) {

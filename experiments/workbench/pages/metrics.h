@@ -13,7 +13,8 @@ HeadlineWords metric_words(const Metrics& metrics, const std::string& key);
 
 // Metrics of the run itself.
 std::string metric_cards(const Metrics& metrics);
-// What the experiment is asked for, in its own words and units; "" if the run has found none of it.
+// What the experiment is asked for, in its own words and units; of a few laws or fabrics the first of it,
+// each its own.  "" if the run has found none of it.
 std::string answer_cards(const Manifest& manifest);
 // The others: what tells of the cloth, and how the solver fared.
 Metrics further_metrics(const Manifest& manifest);

@@ -76,6 +76,7 @@ KeptCloth cloth_of(const KeptRecord& record, std::size_t meshes) {
 KeptState instant_of(const KeptRecord& record, const DrawnMesh& mesh, const MeshPacker& packer) {
   KeptState instant;
   instant.time = record.head.at("time");
+  instant.loop = record.head.at("loop");
   instant.xyz = all_values(packer.unpacked(block(record, 0), 3), mesh.quantum);
   std::size_t next = 1;
   for (const auto& [look, quantum] : record.head.at("values").items())
@@ -140,8 +141,9 @@ KeptRecord cloth_record(const KeptCloth& cloth) {
 
 KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const KeptState& instant,
                           const std::map<std::string, double>& quanta) {
-  KeptRecord record{{{"record", "instant"}, {"time", instant.time}, {"values", Json::object()}},
-                    {packer.packed(all_steps(instant.xyz, mesh.quantum), 3)}};
+  KeptRecord record{
+      {{"record", "instant"}, {"time", instant.time}, {"loop", instant.loop}, {"values", Json::object()}},
+      {packer.packed(all_steps(instant.xyz, mesh.quantum), 3)}};
   for (const auto& [look, values] : instant.values) {
     record.head["values"][look] = quanta.at(look);
     record.blocks.push_back(packer.packed(all_steps(values, quanta.at(look)), 1));

@@ -45,6 +45,7 @@ struct KeptState {
   double time = 0;                                   // [s]
   std::vector<float> xyz;                            // 3 a vertex [m]
   std::map<std::string, std::vector<float>> values;  // by look, one a vertex
+  std::size_t loop = 0;  // points of the probe's path up to here, which stands with the sheet
 };
 
 struct KeptCloth {

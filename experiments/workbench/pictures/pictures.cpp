@@ -2,11 +2,17 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
+#include "experiments/workbench/app/camera_file.h"
+#include "experiments/workbench/app/law_family.h"
 #include "experiments/workbench/pictures/drawing.h"
+#include "render/flip.h"
 #include "sim/base/archive.h"
+#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/base/root_mean_square.h"
 
@@ -15,7 +21,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSheetCells = 12;  // pictures on the contact sheet
+constexpr int kSheetCells = 8;             // pictures on the contact sheet, at most
+constexpr double kAlike = 0.02;            // FLIP of two of them that show the same
+constexpr double kCellPixels = 560 * 420;  // drawn for each of them
+constexpr float kSheetRoom = 0.06f;        // around what is shown there, of either side
+constexpr int kSkins = 14;                 // of a motion in one picture
+constexpr float kInsetShare = 0.18f;       // of a picture, which is wide
 
 // "frames/0012.png"; of further looks "frames-LOOK/0012.png".
 std::string frame_file(const std::string& look, bool first, int number) {
@@ -25,6 +36,44 @@ std::string frame_file(const std::string& look, bool first, int number) {
 Error no_cloth_in(const std::string& picture, double time) {
   return Error::run(
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
+}
+
+float aspect_of(const Options& options) {
+  return static_cast<float>(options.width()) / static_cast<float>(options.height());
+}
+
+// As a front page shows a cell: what cannot be told apart there need not be shown twice.
+render::Image small_copy(const render::Image& cell) {
+  constexpr int kSmaller = 3;
+  return render::shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
+}
+
+// The light as low over the plane that is nearest to all points, on the eye's side of it.
+Eigen::Vector3f raked(const Eigen::Vector3f& to_light, const std::vector<Eigen::Vector3d>& x,
+                      const Eigen::Vector3f& eye) {
+  constexpr float kElevation = 0.27f;  // tangent of 15 degrees
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : x) mean += p;
+  mean /= static_cast<double>(x.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : x) spread += (p - mean) * (p - mean).transpose();
+  Eigen::Vector3f normal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0).cast<float>();
+  if (normal.dot(eye - mean.cast<float>()) < 0) normal = -normal;
+  const Eigen::Vector3f along = to_light - to_light.dot(normal) * normal;
+  return along.normalized() + kElevation * normal;
+}
+
+std::vector<double> times_of(const std::vector<KeptInstant>& instants) {
+  std::vector<double> times;
+  for (const KeptInstant& instant : instants) times.push_back(instant.time);
+  return times;
+}
+
+std::vector<Eigen::Vector3d> points_of(const std::vector<float>& xyz) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  return points;
 }
 
 // Adds the time from now until its end.
@@ -43,8 +92,8 @@ class Stopwatch {
 }  // namespace
 
 std::vector<std::string> picture_files(const Options& options) {
-  std::vector<std::string> names = {"sheet.png"};
-  for (const std::string& look : options.looks()) names.push_back(frame_file(look, names.size() == 1, 0));
+  std::vector<std::string> names = {"sheet.png", "camera.json"};
+  for (const std::string& look : options.looks()) names.push_back(frame_file(look, names.size() == 2, 0));
   names.insert(names.end(), {kKeptFrames, kKeptSheet});
   return names;
 }
@@ -59,7 +108,7 @@ Pictures::Pictures(const Setup& setup, std::unique_ptr<Subject> subject, const r
       options_(setup.options),
       subject_(std::move(subject)),
       bounds_(bounds),
-      kept_(setup, subject_->mesh(), bounds, floor),
+      kept_frames_(setup, subject_->mesh(), bounds, floor),
       scene_renderer_([this, floor] {
         return std::make_unique<SceneRenderer>(scene_, options_, subject_->mesh(), bounds_, floor,
                                                subject_->cuda_device());
@@ -106,15 +155,19 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
   const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
+    render::Look shading = look_of(scene_, options_, look);
+    if (options_.light == "raking")
+      shading.to_light = raked(shading.to_light, points_of(subject_->positions()), camera.eye());
+    render::Image image = studio.draw(shading, camera, shown);
     if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
-    letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
+    if (!options_.plain)
+      letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));
     return image;
   });
 }
 
 // What a page that compares runs has to know of their pictures.
-void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
+void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz) {
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
@@ -125,14 +178,16 @@ void Pictures::note_frame(Run& run, const std::vector<Order>& orders) {
       frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
     if (order.look == "difference") instant.difference_rms = root_mean_square(order.shown.values);
   }
+  const render::Window at = camera().window_of(xyz, aspect_of(options_));
+  instant.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
+  instant.moved = kept_.add(
+      {instant.time, xyz, orders.front().shown.values, when(instant.time), orders.front().loop.path});
   frames->metres_per_pixel = camera().metres_per_pixel(bounds_.center(), options_.height());
   frames->instants.push_back(std::move(instant));
 }
 
-void Pictures::watch_border(Run& run, const std::filesystem::path& file,
-                            const std::vector<Eigen::Vector3d>& x) {
-  const float aspect = static_cast<float>(options_.width()) / static_cast<float>(options_.height());
-  if (is_cut_off_ || camera().frames(flat_points(x), aspect)) return;
+void Pictures::watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz) {
+  if (is_cut_off_ || camera().frames(xyz, aspect_of(options_))) return;
   is_cut_off_ = true;
   run.warn(
       fmt::format("from t = {:.3f} s on ({}) the cloth is cut off at the border of pictures: --camera.box "
@@ -140,42 +195,47 @@ void Pictures::watch_border(Run& run, const std::filesystem::path& file,
                   subject_->time(), file.lexically_relative(run.folder()).string()));
 }
 
-void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x) {
+void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop) {
   const Stopwatch waited(waited_seconds_);
-  KeptState instant{subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}};
+  KeptState instant{
+      subject_->time(), rounded(flat_points(x), subject_->mesh().quantum), {}, loop.curvature.size()};
   take_positions(instant.xyz);
   std::vector<Order> orders;
   for (const std::string& look : options_.looks()) {
-    orders.push_back(
-        {look, run.path(frame_file(look, orders.empty(), frames_)), {instant.time, subject_->values(look)}});
+    orders.push_back({look,
+                      run.path(frame_file(look, orders.empty(), frames_)),
+                      {instant.time, subject_->values(look)},
+                      {.path = loop, .color = color_of_law(scene_.law)}});
   }
-  watch_border(run, orders.front().file, x);
+  watch_border(run, orders.front().file, instant.xyz);
   ++frames_;
-  note_frame(run, orders);
   for (Order& order : orders) {
     if (order.shown.values.empty()) continue;
-    order.shown.values = rounded(order.shown.values, kept_.quantum(order.look));
+    order.shown.values = rounded(order.shown.values, kept_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;
   }
+  note_frame(run, orders, instant.xyz);
   scene_renderer_.post([this, orders = std::move(orders), instant = std::move(instant),
                         file = run.path(kKeptFrames)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    kept_.add(file, instant);
-    for (const Order& order : orders) fill(studio, order, &order == orders.data());
+    kept_frames_.add(file, instant);
+    for (const Order& order : orders) fill(studio, order);
   });
 }
 
 // On the studio's thread.
-void Pictures::fill(SceneRenderer& studio, const Order& order, bool on_sheet) {
-  render::Image image = studio.draw(look_of(scene_, options_, order.look), camera(), order.shown);
+void Pictures::fill(SceneRenderer& studio, const Order& order) {
+  render::Image image = studio.draw_with_ghosts(look_of(scene_, options_, order.look), camera(), order.shown);
   if (!studio.view().shows_cloth()) {
     writer_.write(order.file, std::move(image));
     throw no_cloth_in(order.file.string(), order.shown.time);
   }
-  if (!options_.plain)
-    letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)),
-           color_bar_of(scene_, options_, order.look));
-  if (on_sheet) thumbnails_.push_back({thumbnail(image), when(order.shown.time)});
+  if (!options_.plain) {
+    const auto bar = color_bar_of(scene_, options_, order.look);
+    letter(image, camera(), bounds_.center(), captioned(caption(order.shown.time)), bar);
+    render::draw_loop(image, order.loop, bar ? render::Corner::top_right : render::Corner::bottom_right,
+                      kInsetShare, render::text_size(image));
+  }
   writer_.write(order.file, std::move(image));
 }
 
@@ -205,18 +265,159 @@ void Pictures::visit(Archive& archive, Run& run) {
     archive(instant.time);
     archive(instant.phase);
     archive(instant.difference_rms);
+    archive(instant.cloth);
+    archive(instant.moved);
   }
+  kept_.visit(archive);
   if (!archive.loads()) return;
   encode_seconds_ = encode;
-  if (frames_ > 0) kept_.go_on(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
-  for (int i = 0; i < frames_; ++i)
-    thumbnails_.push_back({thumbnail(render::read_png(run.folder() / fmt::format("frames/{:04}.png", i))),
-                           when(instants[i].time)});
+  if (frames_ > 0) kept_frames_.go_on(run.path(kKeptFrames), static_cast<std::size_t>(frames_));
 }
 
-void Pictures::keep_sheet(Run& run, const std::vector<int>& instants, const std::string& title) {
+// As near as all of the instants stay whole, unless the options say what is framed; its aspect is that of
+// what they show.
+SheetView Pictures::sheet_view(const std::vector<KeptInstant>& instants) const {
+  constexpr float kTallest = 0.7f, kWidest = 2.4f;
+  const Options& o = options_;
+  if (!o.camera_box.empty() || !o.camera_target.empty() || o.camera_distance > 0)
+    return {camera(), aspect_of(o)};
+  std::vector<float> all;
+  for (const KeptInstant& instant : instants) all.insert(all.end(), instant.xyz.begin(), instant.xyz.end());
+  const Eigen::Vector3f direction = o.camera_direction.cast<float>();
+  const float fov = static_cast<float>(o.camera_fov);
+  const render::Window square = render::Camera::around(all, direction, fov, 1, kSheetRoom).window_of(all, 1);
+  const float aspect = std::clamp(
+      static_cast<float>((square.right - square.left) / (square.top - square.bottom)), kTallest, kWidest);
+  return {render::Camera::around(all, direction, fov, aspect, kSheetRoom), aspect};
+}
+
+// On white paper, where the look allows: cells of a page have no boxes.
+render::Look Pictures::sheet_look() const {
+  Options options = options_;
+  const std::string look = options.looks().front();
+  if (look == "cloth" && options.background == "studio") options.background = "white";
+  return look_of(scene_, options, look);
+}
+
+render::Image Pictures::sheet_picture(SceneRenderer& studio, const KeptInstant& instant,
+                                      const SheetView& view) const {
+  studio.view().set_positions(instant.xyz);
+  render::Image image = studio.draw_with_ghosts(sheet_look(), view.camera, {instant.time, instant.values});
+  render::fade_to_page(image);
+  return image;
+}
+
+// Instants that look like one before are left out, but for the last.
+std::vector<render::SheetEntry> Pictures::sheet_cells(const std::vector<KeptInstant>& instants,
+                                                      const SheetView& view) {
+  const int width = static_cast<int>(std::lround(std::sqrt(kCellPixels * view.aspect))),
+            height = static_cast<int>(std::lround(width / view.aspect));
+  return scene_renderer_.run([&](SceneRenderer& studio) {
+    const Stopwatch watch(render_seconds_);
+    studio.take_size({width, height, picture_size(options_).samples});
+    std::vector<render::SheetEntry> cells;
+    std::vector<render::Image> skins;
+    const std::vector<KeptInstant> motion =
+        onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_) : std::vector<KeptInstant>{};
+    for (const KeptInstant& instant : motion) skins.push_back(sheet_picture(studio, instant, view));
+    if (!skins.empty())
+      cells.push_back({render::onion_skin(skins),
+                       fmt::format("0–{:.2f} s, over each other", motion.back().time),
+                       {motion.back().loop, {}, color_of_law(scene_.law), {}}});
+    for (const KeptInstant& instant : instants) {
+      render::Image image = sheet_picture(studio, instant, view);
+      const render::Image small = small_copy(image);
+      const auto is_alike = [&](const render::SheetEntry& other) {
+        return render::flip(small, small_copy(other.image)) < kAlike;
+      };
+      if (&instant == &instants.back() && cells.size() > 1)
+        cells.erase(std::remove_if(cells.begin() + 1, cells.end(), is_alike), cells.end());
+      if (std::any_of(cells.begin(), cells.end(), is_alike)) continue;
+      cells.push_back({std::move(image), instant.caption, {instant.loop, {}, color_of_law(scene_.law), {}}});
+    }
+    for (const FurtherView& view_from : further_) cells.push_back(further_cell(studio, view_from, view));
+    return cells;
+  });
+}
+
+// At the scale of the others, of the last instant.
+render::SheetEntry Pictures::further_cell(SceneRenderer& studio, const FurtherView& from,
+                                          const SheetView& view) const {
+  const KeptInstant& last = kept_.last();
+  const float fov = static_cast<float>(options_.camera_fov);
+  const render::Camera near = render::Camera::around(last.xyz, from.direction, fov, view.aspect, kSheetRoom);
+  const float distance =
+      std::max((near.eye() - near.target()).norm(), (view.camera.eye() - view.camera.target()).norm());
+  const render::Camera camera =
+      render::Camera::perspective(near.target() + distance * from.direction.normalized(), near.target(), fov);
+  studio.view().set_positions(last.xyz);
+  render::Image image = studio.draw(sheet_look(), camera, {last.time, last.values});
+  render::fade_to_page(image);
+  return {std::move(image), from.words};
+}
+
+void Pictures::write_sheet(Run& run, const std::string& title) {
+  if (kept_.empty()) return run.warn("there is no contact sheet: no instant was pictured");
+  const std::vector<KeptInstant> instants = chosen(cell_times_, kSheetCells, INFINITY),
+                                 skins = onion_until_ > 0 ? chosen(skin_times_, kSkins, onion_until_)
+                                                          : std::vector<KeptInstant>{};
+  std::vector<KeptInstant> shown = instants;
+  shown.insert(shown.end(), skins.begin(), skins.end());
+  const SheetView view = sheet_view(shown);
+  std::vector<render::SheetEntry> cells = sheet_cells(instants, view);
+  render::LoopFrame frame;
+  for (const render::SheetEntry& cell : cells) frame.include(cell.loop.path);
+  for (render::SheetEntry& cell : cells) cell.loop.frame = frame;
+  render::SheetLayout layout{.title = title, .scale_note = "at the cloth's middle"};
+  layout.metres_per_pixel = view.camera.metres_per_pixel(render::box_of(instants.back().xyz).center(),
+                                                         cells.front().image.height());
+  if (const auto bar = color_bar_of(scene_, options_, options_.looks().front())) layout.bars.push_back(*bar);
+  render::write_png(run.path("sheet.png"), render::contact_sheet(cells, layout), render::PngEffort::best);
+  keep_sheet(run, instants, skins, title);
+}
+
+void Pictures::show_as(const Json& sheet) {
+  cell_times_ = sheet.at("cells").get<std::vector<double>>();
+  skin_times_ = sheet.at("skins").get<std::vector<double>>();
+  onion_until_ = sheet.at("onion");
+  for (const Json& from : sheet.at("further")) {
+    const auto d = from.at("direction").get<std::vector<float>>();
+    also_from({d.at(0), d.at(1), d.at(2)}, from.at("words"));
+  }
+}
+
+// At these times, or `count` of those up to `until` [s] where none are given.
+std::vector<KeptInstant> Pictures::chosen(const std::vector<double>& times, int count, double until) const {
+  if (times.empty()) return kept_.chosen(count, until);
+  std::vector<KeptInstant> found;
+  for (const KeptInstant& instant : kept_.all())
+    if (std::count(times.begin(), times.end(), instant.time)) found.push_back(instant);
+  return found;
+}
+
+// Those of the sheet, of frames by their times.
+void Pictures::keep_sheet(Run& run, const std::vector<KeptInstant>& cells,
+                          const std::vector<KeptInstant>& skins, const std::string& title) const {
   const std::filesystem::path frames = run.folder() / kKeptFrames;
-  const KeptRecord sheet{{{"record", "sheet"}, {"title", title}}, {}};
+  std::vector<int> instants;
+  const std::vector<double> cell_times = times_of(cells), skin_times = times_of(skins);
+  const std::vector<Frames::Instant>& all = run.manifest().frames->instants;
+  for (std::size_t f = 0; f < all.size(); ++f)
+    if (std::count(cell_times.begin(), cell_times.end(), all[f].time) +
+        std::count(skin_times.begin(), skin_times.end(), all[f].time))
+      instants.push_back(static_cast<int>(f));
+  KeptRecord sheet{
+      {{"record", "sheet"},
+       {"title", title},
+       {"cells", cell_times},
+       {"skins", skin_times},
+       {"onion", onion_until_},
+       {"further", Json::array()},
+       {"loop", {{"curvature", kept_.last().loop.curvature}, {"moment", kept_.last().loop.moment}}}},
+      {}};
+  for (const FurtherView& from : further_)
+    sheet.head["further"].push_back(
+        {{"direction", {from.direction.x(), from.direction.y(), from.direction.z()}}, {"words", from.words}});
   std::vector<KeptRecord> records = chosen_records(frames, instants);
   records.push_back(sheet);
   write_records(run.path(kKeptSheet), records);
@@ -226,15 +427,8 @@ void Pictures::keep_sheet(Run& run, const std::vector<int>& instants, const std:
 void Pictures::finish(Run& run, const std::string& title) {
   scene_renderer_.wait();
   writer_.finish();
-  std::vector<render::SheetEntry> cells;
-  const std::vector<int> shown = render::spread(static_cast<int>(thumbnails_.size()), kSheetCells);
-  for (const int i : shown) cells.push_back(std::move(thumbnails_[i]));
-  if (!cells.empty()) keep_sheet(run, shown, title);
-  if (cells.empty())
-    run.warn("there is no contact sheet: no instant was pictured");
-  else
-    render::write_png(run.path("sheet.png"), render::contact_sheet(cells, {.title = title}),
-                      render::PngEffort::best);
+  write_sheet(run, title);
+  write_text(run.path("camera.json"), camera_text(camera(), options_.size));
   run.manifest().renderer = renderer();
   run.manifest().positions = positions_way();
   run.add_seconds("render", render_seconds_);

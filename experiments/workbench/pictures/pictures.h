@@ -11,9 +11,11 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/kept_frames.h"
+#include "experiments/workbench/pictures/kept_instants.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "experiments/workbench/pictures/subject.h"
 #include "render/contact_sheet.h"
+#include "render/loop_inset.h"
 #include "render/png_writer.h"
 #include "sim/base/own_thread.h"
 
@@ -21,6 +23,12 @@ namespace hysteron::experiments {
 
 // What finish() and frame() write under these options, for Run::reserve().
 std::vector<std::string> picture_files(const Options& options);
+
+// What every cell of a contact sheet is drawn with.
+struct SheetView {
+  render::Camera camera;
+  float aspect;  // width over height
+};
 
 class Pictures {
  public:
@@ -39,12 +47,22 @@ class Pictures {
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
   // wrong with an earlier one, Error::run where it shows no cloth.  `x`: the positions, of which the first
-  // beyond the picture's border is a warning.  What it is drawn from is added to frames.hyg.
-  void frame(Run& run, const std::vector<Eigen::Vector3d>& x);
+  // beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless it is
+  // empty.  What it is drawn from is added to frames.hyg.
+  void frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop = {});
   // Draws the present state in a look of its own, with caption and colour bar.  Error::run where it shows no
   // cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
-  // "studio" or "raking", for the pictures to come.
+  // The last instant from there too, as a further cell of the contact sheet; `words` say from where.
+  void also_from(const Eigen::Vector3f& direction, const std::string& words) {
+    further_.push_back({direction, words});
+  }
+  // The contact sheet begins with all that moves up to then in one picture.
+  void begin_with_onion_skin(double until) { onion_until_ = until; }
+  // The contact sheet is to show what that of a kept run shows, as its record says.
+  void show_as(const Json& sheet);
+  // "studio" or "raking", for the pictures to come; single pictures are raked in the plane that the cloth
+  // lies in most nearly.
   void set_light(const std::string& light);
   // The sequence's camera.
   render::Camera camera() const;
@@ -52,7 +70,8 @@ class Pictures {
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
   // Waits for the files so far.  A run that goes on reads its thumbnails from them.  Throws Error::machine.
   void visit(Archive& archive, Run& run);
-  // Waits for the files and writes sheet.png and what its pictures were drawn from, sheet.hyg.
+  // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
+  // show; and what its pictures were drawn from, sheet.hyg.
   void finish(Run& run, const std::string& title);
 
  private:
@@ -61,13 +80,29 @@ class Pictures {
     std::string look;
     std::filesystem::path file;
     SceneRenderer::Shown shown;
+    render::LoopInset loop;
+  };
+
+  struct FurtherView {
+    Eigen::Vector3f direction;
+    std::string words;
   };
 
   void take_positions(const std::vector<float>& xyz);
-  void note_frame(Run& run, const std::vector<Order>& orders);
-  void watch_border(Run& run, const std::filesystem::path& file, const std::vector<Eigen::Vector3d>& x);
-  void fill(SceneRenderer& studio, const Order& order, bool on_sheet);
-  static void keep_sheet(Run& run, const std::vector<int>& instants, const std::string& title);
+  void note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz);
+  void watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz);
+  void fill(SceneRenderer& studio, const Order& order);
+  SheetView sheet_view(const std::vector<KeptInstant>& instants) const;
+  render::Look sheet_look() const;
+  render::Image sheet_picture(SceneRenderer& studio, const KeptInstant& instant, const SheetView& view) const;
+  std::vector<render::SheetEntry> sheet_cells(const std::vector<KeptInstant>& instants,
+                                              const SheetView& view);
+  render::SheetEntry further_cell(SceneRenderer& studio, const FurtherView& from,
+                                  const SheetView& view) const;
+  void write_sheet(Run& run, const std::string& title);
+  std::vector<KeptInstant> chosen(const std::vector<double>& times, int count, double until) const;
+  void keep_sheet(Run& run, const std::vector<KeptInstant>& cells, const std::vector<KeptInstant>& skins,
+                  const std::string& title) const;
   std::string when(double time) const;  // "t = 0.50 s, lift"
   std::string caption(double time) const;
   std::string captioned(const std::string& text) const;
@@ -76,15 +111,18 @@ class Pictures {
   Options options_;
   std::unique_ptr<Subject> subject_;
   render::Box bounds_;
-  KeptFrames kept_;
+  KeptFrames kept_frames_;
   std::string why_host_;  // positions pass the host; empty: they do not
   render::PngWriter writer_;
   int frames_ = 0;
-  bool is_cut_off_ = false;    // of one of them the border cuts off cloth
-  double encode_seconds_ = 0;  // before the run was interrupted
-  double waited_seconds_ = 0;  // of the simulation, for its pictures
+  KeptInstants kept_;  // for the contact sheet
+  std::vector<FurtherView> further_;
+  double onion_until_ = 0;                       // [s]; 0: none
+  std::vector<double> cell_times_, skin_times_;  // of a kept sheet [s]; empty: found
+  bool is_cut_off_ = false;                      // of one of them the border cuts off cloth
+  double encode_seconds_ = 0;                    // before the run was interrupted
+  double waited_seconds_ = 0;                    // of the simulation, for its pictures
   // The studio's thread writes these while a picture is drawn.
-  std::vector<render::SheetEntry> thumbnails_;
   double render_seconds_ = 0;
   std::string renderer_;
   OwnThread<SceneRenderer> scene_renderer_;

@@ -1,5 +1,7 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 
+#include <cstdlib>
+
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/fabric_look.h"
 #include "render/shapes.h"
@@ -22,6 +24,28 @@ double curvature_range(const Scene& scene, const Options& options, const std::st
   const double range = options.curvature_range > 0 ? options.curvature_range
                                                    : kCurvatureRange * scene.fabric.friction_curvature();
   return look == "curvature" ? range : range / 2;
+}
+
+// An obstacle hides much of the cloth when so much of what is dark without it looks different with it.
+constexpr double kMuch = 0.2;
+constexpr int kGhost = 90;  // of 256: how solid it is then
+
+double hidden_share(const render::Image& bare, const render::Image& whole) {
+  constexpr int kDark = 200, kDifferent = 20;  // 8-bit steps of green
+  long dark = 0, hidden = 0;
+  for (std::size_t i = 1; i < bare.pixels().size(); i += static_cast<std::size_t>(bare.channels())) {
+    if (bare.pixels()[i] > kDark) continue;
+    ++dark;
+    hidden += std::abs(bare.pixels()[i] - whole.pixels()[i]) > kDifferent;
+  }
+  return dark == 0 ? 0 : static_cast<double>(hidden) / static_cast<double>(dark);
+}
+
+render::Image between(render::Image bare, const render::Image& whole, int share) {
+  for (std::size_t i = 0; i < bare.pixels().size(); ++i)
+    bare.pixels()[i] =
+        static_cast<std::uint8_t>(((256 - share) * bare.pixels()[i] + share * whole.pixels()[i] + 128) / 256);
+  return bare;
 }
 
 }  // namespace
@@ -85,30 +109,58 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
 
 SceneRenderer::SceneRenderer(const Scene& scene, const Options& options, const DrawnMesh& mesh,
                              const render::Box& bounds, std::optional<float> floor, int cuda_device)
-    : scenery_(scene.obstacle),
-      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)),
-      view_(*offscreen_, picture_size(options)) {
-  view_.set_cloth({mesh.vertices, mesh.triangles, mesh.pattern});
+    : mesh_(mesh),
+      bounds_(bounds),
+      floor_(floor),
+      scenery_(scene.obstacle),
+      offscreen_(render::Offscreen::create(render::renderer_named(options.renderer), cuda_device)) {
+  take_size(picture_size(options));
+}
+
+void SceneRenderer::take_size(const render::PictureSize& size) {
+  view_.reset();
+  view_ = std::make_unique<render::ClothView>(*offscreen_, size);
+  view_->set_cloth({mesh_.vertices, mesh_.triangles, mesh_.pattern});
+  body_.clear();
   for (const Obstacle& o : scenery_) {
     const auto body = body_of(o);
-    body_.push_back(body && o.visible ? view_.add_obstacle(*body, placed_at(o, 0)) : -1);
-    if (o.kind == ObstacleKind::ground && !floor) floor = static_cast<float>(o.center.z());
+    body_.push_back(body && o.visible ? view_->add_obstacle(*body, placed_at(o, 0)) : -1);
+    if (o.kind == ObstacleKind::ground && !floor_) floor_ = static_cast<float>(o.center.z());
   }
-  view_.set_ground(floor);
-  view_.set_bounds(bounds);
+  view_->set_ground(floor_);
+  view_->set_bounds(bounds_);
+}
+
+bool SceneRenderer::place_obstacles(double time, bool visible) {
+  bool may_hide = false;  // what stands below all cloth does not
+  for (std::size_t i = 0; i < body_.size(); ++i) {
+    if (body_[i] < 0) continue;
+    const Obstacle& o = scenery_[i];
+    const bool there = o.from <= time && time < o.until;
+    const Eigen::Matrix4f placement = placed_at(o, time);
+    view_->move_obstacle(body_[i], placement);
+    view_->show_obstacle(body_[i], visible && there);
+    may_hide |= there && placement(2, 3) > bounds_.low.z();
+  }
+  return may_hide;
 }
 
 render::Image SceneRenderer::draw(const render::Look& look, const render::Camera& camera,
                                   const Shown& shown) {
-  if (!shown.values.empty()) view_.set_values(shown.values);
-  view_.set_look(look);
-  for (std::size_t i = 0; i < body_.size(); ++i) {
-    if (body_[i] < 0) continue;
-    const Obstacle& o = scenery_[i];
-    view_.move_obstacle(body_[i], placed_at(o, shown.time));
-    view_.show_obstacle(body_[i], o.from <= shown.time && shown.time < o.until);
-  }
-  return view_.draw(camera);
+  if (!shown.values.empty()) view_->set_values(shown.values);
+  view_->set_look(look);
+  place_obstacles(shown.time, true);
+  return view_->draw(camera);
+}
+
+render::Image SceneRenderer::draw_with_ghosts(const render::Look& look, const render::Camera& camera,
+                                              const Shown& shown) {
+  render::Image whole = draw(look, camera, shown);
+  const bool cloth_is_seen = view_->shows_cloth();
+  if (look.show == render::Show::silhouette || !place_obstacles(shown.time, false)) return whole;
+  const render::Image bare = view_->draw(camera);
+  if (cloth_is_seen && hidden_share(bare, whole) <= kMuch) return whole;
+  return between(bare, whole, kGhost);
 }
 
 render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz,

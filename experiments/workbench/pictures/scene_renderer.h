@@ -39,7 +39,9 @@ class SceneRenderer {
                 std::optional<float> floor, int cuda_device);
 
   const render::Offscreen& offscreen() const { return *offscreen_; }
-  render::ClothView& view() { return view_; }  // to set the cloth's positions
+  render::ClothView& view() { return *view_; }  // to set the cloth's positions
+  // Pictures to come have this size.  Positions have to be set anew.
+  void take_size(const render::PictureSize& size);
 
   // What a picture shows beside positions.
   struct Shown {
@@ -47,14 +49,21 @@ class SceneRenderer {
     std::vector<float> values;  // one a vertex, in looks that show one
   };
   render::Image draw(const render::Look& look, const render::Camera& camera, const Shown& shown);
+  // The same, but obstacles that hide much of what is behind them let it shine through.
+  render::Image draw_with_ghosts(const render::Look& look, const render::Camera& camera, const Shown& shown);
   // The cloth alone from straight above, black on white; `xyz` of its vertices [m].
   render::Image silhouette(const DrawnMesh& mesh, const std::vector<float>& xyz, const render::Camera& camera,
                            int pixels);
 
  private:
+  bool place_obstacles(double time, bool visible);  // whether any may hide cloth
+
+  const DrawnMesh& mesh_;
+  render::Box bounds_;
+  std::optional<float> floor_;
   std::vector<Obstacle> scenery_;
   std::unique_ptr<render::Offscreen> offscreen_;
-  render::ClothView view_;
+  std::unique_ptr<render::ClothView> view_;
   std::vector<int> body_;  // the view's number of each obstacle, -1 = not a body
 };
 

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "render/inset.h"
 #include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
 #include "sim/mesh/vtk.h"
@@ -77,7 +79,7 @@ void MeshExport::write_scene(Run& run, std::size_t number, double time) {
   for (std::size_t i = 0; i < scene_->obstacle.size(); ++i) {
     const auto body = scene_->obstacle[i].visible ? body_of(scene_->obstacle[i]) : std::nullopt;
     bodies.push_back(body ? body_file(i) : "");
-    if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body);
+    if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }
   write_text(run.path(scene_file(number)),
              mitsuba_scene(*view_, *scene_, time, mesh_name(number, "ply"), bodies));
@@ -91,6 +93,8 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
   const std::string file = run.path(mesh_file(times_.size(), format)).string();
   times_.push_back(simulation.time());
   if (format == "obj") return write_obj(file, cloth.mesh, x);
+  if (view_ && times_.size() == 1)
+    side_ = render::long_side(flat_triangles(cloth.mesh.face), flat_points(cloth.mesh.rest), 3);
   if (view_) write_scene(run, times_.size() - 1, simulation.time());
   if (format == "ply" || format == "mitsuba") {
     const std::vector<float> k = vertex_curvature(cloth.mesh, simulation.curvature(), simulation.dimension());

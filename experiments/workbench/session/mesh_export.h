@@ -35,6 +35,7 @@ class MeshExport {
 
   std::optional<MitsubaView> view_;  // of format mitsuba
   std::optional<Scene> scene_;
+  float side_ = 0;             // of the cloth's triangles [m]
   std::vector<double> times_;  // of the meshes so far [s]
   Animation animation_;
 };

@@ -7,6 +7,7 @@
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "render/inset.h"
 #include "render/srgb.h"
 #include "sim/base/atomic_file.h"
 
@@ -85,13 +86,26 @@ std::string lights(const MitsubaView& view) {
          "  <emitter type=\"constant\">" + rgb("radiance", sky) + "</emitter>\n";
 }
 
+// A page: white under the whole sky and key light.
 std::string ground(const MitsubaView& view) {
   if (!view.floor) return "";
+  const double facing = std::max(0.0, static_cast<double>(view.look.to_light.normalized().z()));
+  const Eigen::Array3d open = kExposure * (facing * kKey + view.look.room * kSky).array();
   const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), *view.floor);
   return fmt::format(
       "  <shape type=\"rectangle\">\n    <transform name=\"to_world\"><scale value=\"{:.9g}\"/><translate "
       "value=\"{}\"/></transform>\n    {}\n  </shape>\n",
-      kFar * view.bounds.radius(), numbers(middle), diffuse(view.look.backdrop_bottom));
+      kFar * view.bounds.radius(), numbers(middle),
+      "<bsdf type=\"diffuse\">" + rgb("reflectance", (1 / open).min(1.0)) + "</bsdf>");
+}
+
+void shrink(render::TriangleMesh& mesh, const render::Look& look, float side) {
+  const render::BodyMeasure body(mesh);
+  const float inset = render::body_inset(body, side, look.obstacle_inset);
+  const Eigen::Array3f kept = 1 - inset / body.half_extent.array();
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    mesh.positions[i] = mesh.centred ? (kept * mesh.positions[i].array()).matrix().eval()
+                                     : (mesh.positions[i] - inset * mesh.normals[i]).eval();
 }
 
 std::string surface(const std::string& file, const std::string& placement, const std::string& material) {
@@ -131,7 +145,8 @@ std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double ti
   return xml + "</scene>\n";
 }
 
-void write_body(const std::string& file, const render::TriangleMesh& mesh) {
+void write_body(const std::string& file, render::TriangleMesh mesh, const render::Look& look, float side) {
+  shrink(mesh, look, side);
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
       "property float nx\nproperty float ny\nproperty float nz\nelement face {}\n"

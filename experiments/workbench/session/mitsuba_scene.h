@@ -31,7 +31,8 @@ MitsubaView mitsuba_view(const Setup& setup, const render::Box& bounds, std::opt
 std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double time, const std::string& cloth,
                           const std::vector<std::string>& bodies);
 
-// An obstacle's surface, before it is placed, as a PLY file.  Throws Error::machine.
-void write_body(const std::string& file, const render::TriangleMesh& mesh);
+// An obstacle's surface, before it is placed, as a PLY file; smaller, as pictures draw it below cloth whose
+// triangles have sides of that length [m].  Throws Error::machine.
+void write_body(const std::string& file, render::TriangleMesh mesh, const render::Look& look, float side);
 
 }  // namespace hysteron::experiments

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -14,6 +16,7 @@
 namespace hysteron::experiments {
 namespace {
 
+constexpr const char* kNone = "none";
 constexpr const char* kSeriesFile = "probes.csv";
 constexpr const char *kHeight = "plot_probe_height", *kCurvature = "plot_probe_curvature",
                      *kMoment = "plot_probe_moment";
@@ -57,9 +60,13 @@ void append(std::vector<double>& row, const std::vector<double>& values, int ele
 
 }  // namespace
 
+void probe_unless_told(Options& options, const Eigen::Vector2d& at) {
+  if (options.probe.empty()) options.probe = fmt::format("{:.6g},{:.6g}", at.x(), at.y());
+}
+
 Probes::Probes(const std::string& text, const ClothMesh& mesh, int dimension)
     : mesh_(mesh), dimension_(dimension) {
-  if (text.empty()) return;
+  if (text.empty() || text == kNone) return;
   const std::vector<Eigen::Vector2d> places = places_of(text);
   if (!is_flat(mesh)) throw refusal(text, "needs a cloth that is flat at rest, in planes z = constant");
   for (const Eigen::Vector2d& at : places) {
@@ -125,6 +132,24 @@ void Probes::record(Simulation& simulation, const std::vector<Eigen::Vector3d>& 
     row.push_back(share[probe.element]);
   }
   series_->row(row);
+  const Probe& first = all_.front();
+  loops_.resize(directions().size());
+  for (std::size_t c = 0; c < loops_.size(); ++c) {
+    const std::size_t at = static_cast<std::size_t>(first.element) * dimension_ + c;
+    loops_[c].curvature.push_back(curvature[at]);
+    loops_[c].moment.push_back(moment[at]);
+  }
+}
+
+render::Path Probes::loop() const {
+  const auto bent = [](const render::Path& path) {
+    double most = 0;
+    for (double k : path.curvature) most = std::max(most, std::abs(k));
+    return most;
+  };
+  const auto most = std::max_element(loops_.begin(), loops_.end(),
+                                     [&](const auto& a, const auto& b) { return bent(a) < bent(b); });
+  return most == loops_.end() ? render::Path{} : *most;
 }
 
 void Probes::finish() {
@@ -132,7 +157,13 @@ void Probes::finish() {
 }
 
 void Probes::visit(Archive& archive) {
-  if (!empty()) series_->visit(archive);
+  if (empty()) return;
+  series_->visit(archive);
+  loops_.resize(archive.size(loops_.size()));
+  for (render::Path& path : loops_) {
+    archive(path.curvature);
+    archive(path.moment);
+  }
 }
 
 void Probes::name_curves(Manifest& manifest) const {

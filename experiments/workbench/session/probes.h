@@ -7,18 +7,23 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/session/record.h"
+#include "render/loop_inset.h"
 #include "sim/mesh/material_point.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
+
+// Has an experiment's own place be probed [m on the flat cloth], unless the options name others or none.
+void probe_unless_told(Options& options, const Eigen::Vector2d& at);
 
 // Where the points are, and what the solver knows of the bending element that they are in: the face that
 // contains them, or, of element `hinge`, the hinge at its nearest edge.  In a face K and M are tensors in its
 // warp-weft frame: their warp, weft and twist components are K_xx, K_yy and K_xy.
 class Probes {
  public:
-  // `text`: "x,y[;x,y...]" [m], on the flat cloth; "": no probes.  `dimension`: of the elements.  Throws
-  // Error::request for other texts, cloth that is not flat at rest and points beside it, with where it lies.
+  // `text`: "x,y[;x,y...]" [m], on the flat cloth; "" and "none": no probes.  `dimension`: of the elements.
+  // Throws Error::request for other texts, cloth that is not flat at rest and points beside it, with where it
+  // lies.
   Probes(const std::string& text, const ClothMesh& mesh, int dimension);
 
   bool empty() const { return all_.empty(); }
@@ -33,6 +38,8 @@ class Probes {
   void record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);
   void finish();
   void visit(Archive& archive);
+  // Moment against curvature of the first point so far, in the direction in which it has bent most.
+  render::Path loop() const;
 
   // For comparisons, behind those that the experiment has named itself: height and curvature against time,
   // moment against curvature.
@@ -55,6 +62,7 @@ class Probes {
   int dimension_;
   std::vector<Probe> all_;
   std::optional<Record> series_;
+  std::vector<render::Path> loops_;  // of the first point, one a direction
 };
 
 }  // namespace hysteron::experiments

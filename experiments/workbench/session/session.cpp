@@ -254,7 +254,7 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
   series.row(row);
   probes_.record(*simulation_, x);
   const bool pictured = !question.pictured || question.pictured(instant);
-  if (pictures_ && pictured) pictures_->frame(*run_, x);
+  if (pictures_ && pictured) pictures_->frame(*run_, x, probes_.loop());
   watch_folds(x);
   stretched_ = std::max(stretched_, simulation_->largest_stretch());
   recoveries_.see(*simulation_);

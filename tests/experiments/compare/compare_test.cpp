@@ -46,26 +46,6 @@ TEST(Matching, OfSmallStrainGivesTheInitialSlope) {
   EXPECT_THROW(match_named("stiffness"), Error);
 }
 
-TEST(ComparisonSheet, WantsACellForEachColumn) {
-  render::ComparisonSheet sheet;
-  EXPECT_THROW(render::draw_comparison(sheet), Error);
-  sheet.columns = {{"a", {}}, {"b", {}}};
-  sheet.rows = {{"t = 1 s", {{render::Image(64, 48, render::Rgb8{9, 9, 9}), ""}}}};
-  EXPECT_THROW(render::draw_comparison(sheet), Error);
-}
-
-// A name, however long, stays in its column.
-TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
-  render::ComparisonSheet sheet;
-  sheet.cell_width = 200;
-  sheet.columns = {{std::string(300, 'W'), {std::string(300, 'M')}}, {"", {}}};
-  const render::Image page = render::draw_comparison(sheet);
-  const int right = page.width() - sheet.cell_width;
-  for (int y = 0; y < page.height(); ++y)
-    for (int x = right + sheet.cell_width / 10; x < page.width(); ++x)
-      EXPECT_EQ(page.at(x, y)[0] < 100, false);
-}
-
 TEST(Outline, IsTheEdgeOfTheSilhouetteOnly) {
   render::Image shape(100, 100, render::Rgb8{255, 255, 255}), target = shape;
   render::draw_rectangle(shape, 20, 30, 60, 70, {0, 0, 0});
@@ -256,7 +236,7 @@ TEST(Compare, CaptionsItsFiguresFromTheManifests) {
             0);
   const std::string captions = text_of(fs::path(out) / "README.md");
   for (const char* part :
-       {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "t = 0.50 s; t = 1.00 s",
+       {"(sheet.png)", "(plot_decay.png)", "Columns: linear, prandtl.", "in look cloth",
         "Cloth: strip of 90 by 30 mm", "cotton-broad", "Solver: bdf2", "hysteron compare swing --laws"})
     EXPECT_NE(captions.find(part), std::string::npos) << part;
   EXPECT_EQ(text_of(fs::path(out) / "table.csv").substr(0, 4), "law,");
@@ -293,7 +273,7 @@ TEST(Compare, ShowsTheInstantsAndTheMetricsThatItIsAskedForInTheirOrder) {
   EXPECT_EQ(metrics["linear.decay_shape"], "unknown");
   // Pictures are 1/30 s apart: the one at 0.033 s is the nearest to 0.035 s.
   const std::string captions = text_of(out / "README.md");
-  for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "below the columns: max stretch [%]",
+  for (const char* part : {"Rows: t = 0.100 s; t = 0.033 s (", "behind the names: max stretch [%]",
                            "; bending friction [J]", "(plot_bending_friction_J.png)"})
     EXPECT_NE(captions.find(part), std::string::npos) << part << captions;
   EXPECT_LT(captions.find("max stretch [%]"), captions.find("decay shape"));

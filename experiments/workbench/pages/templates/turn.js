@@ -61,24 +61,23 @@
     }
     return n;
   };
-  async function clothOf(text) {
-    const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0)), cloth = {instants: []};
-    let corners;
+  // Of a comparison each column's.
+  async function clothsOf(text) {
+    const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0)), meshes = [], cloths = [];
     for (const {head, blocks} of records(bytes)) {
       if (head.record === 'mesh') {
-        if (cloth.triangles) break;  // the first cloth of several
-        cloth.triangles = trianglesOf(unpackPlanes(await inflate(blocks[0]), 3 * head.triangles));
-        cloth.quantum = head.quantum;
-        corners = cornersOf(cloth.triangles, head.vertices);
+        const triangles = trianglesOf(unpackPlanes(await inflate(blocks[0]), 3 * head.triangles));
+        meshes.push({triangles, quantum: head.quantum, corners: cornersOf(triangles, head.vertices)});
       } else if (head.record === 'cloth') {
-        if (cloth.setup) break;
-        cloth.setup = JSON.parse(new TextDecoder().decode(await inflate(blocks[0])));
+        const setup = JSON.parse(new TextDecoder().decode(await inflate(blocks[0])));
+        cloths.push({name: head.name, mesh: meshes[head.mesh], setup, instants: []});
       } else if (head.record === 'instant') {
-        const x = positionsOf(unpackPlanes(await inflate(blocks[0]), 3 * corners.length), corners, cloth.quantum);
-        cloth.instants.push({time: head.time, x, normals: normalsOf(x, cloth.triangles)});
+        const {instants, mesh} = cloths[cloths.length - 1], {triangles, quantum, corners} = mesh;
+        const x = positionsOf(unpackPlanes(await inflate(blocks[0]), 3 * corners.length), corners, quantum);
+        instants.push({time: head.time, x, normals: normalsOf(x, triangles)});
       }
     }
-    return cloth;
+    return cloths.filter(cloth => cloth.instants.length);
   }
   const programOf = gl => {
     const program = gl.createProgram(), add = (kind, text) => {
@@ -104,29 +103,32 @@
   };
   const transposed = m => [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]];
 
-  function show(figure, cloth) {
+  function show(figure, cloths) {
     const canvas = document.createElement('canvas'), gl = canvas.getContext('webgl', {antialias: true, alpha: true});
     const program = gl && programOf(gl), wide = gl && gl.getExtension('OES_element_index_uint');
-    if (!program || !wide || !cloth.instants.length) return;
+    if (!program || !wide || !cloths.length) return;
+    let cloth = cloths[0];
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
-    for (const {x} of cloth.instants)
+    for (const {x} of cloths.flatMap(({instants}) => instants))
       x.forEach((value, i) => { low[i % 3] = Math.min(low[i % 3], value); high[i % 3] = Math.max(high[i % 3], value); });
     const middle = low.map((value, k) => (value + high[k]) / 2);
     const radius = Math.hypot(...low.map((value, k) => high[k] - value)) / 2;
     const eye = cloth.setup.options.camera.direction;
     let around = Math.atan2(eye[1], eye[0]), above = Math.atan2(eye[2], Math.hypot(eye[0], eye[1])), zoom = 1;
     let now = cloth.instants.length - 1, held = null;
-    const bind = (data, name, target = gl.ARRAY_BUFFER) => {
-      gl.bindBuffer(target, gl.createBuffer());
+    const buffers = {}, bind = (data, name, target = gl.ARRAY_BUFFER) => {
+      gl.bindBuffer(target, buffers[name] ??= gl.createBuffer());
       gl.bufferData(target, data, gl.STATIC_DRAW);
-      if (!name) return;
+      if (target !== gl.ARRAY_BUFFER) return;
       const place = gl.getAttribLocation(program, name);
       gl.enableVertexAttribArray(place);
       gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
     };
     const take = () => {
-      bind(new Float32Array(cloth.instants[now].x), 'at');
-      bind(cloth.instants[now].normals, 'normal');
+      const {x, normals} = cloth.instants[Math.min(now, cloth.instants.length - 1)];
+      bind(new Float32Array(x), 'at');
+      bind(normals, 'normal');
+      bind(new Uint32Array(cloth.mesh.triangles), 'triangles', gl.ELEMENT_ARRAY_BUFFER);
     };
     const place = name => gl.getUniformLocation(program, name);
     const draw = () => {
@@ -138,7 +140,7 @@
       gl.uniformMatrix3fv(place('turn'), false, transposed(axes(around, above)));
       gl.uniform3fv(place('middle'), middle);
       gl.uniform3f(place('scale'), size * narrow * canvas.height / canvas.width, size * narrow, 1 / radius);
-      gl.drawElements(gl.TRIANGLES, cloth.triangles.length, gl.UNSIGNED_INT, 0);
+      gl.drawElements(gl.TRIANGLES, cloth.mesh.triangles.length, gl.UNSIGNED_INT, 0);
     };
     const turn = (x, y) => {
       around -= x;
@@ -169,22 +171,27 @@
     }, {passive: false});
     gl.useProgram(program);
     gl.enable(gl.DEPTH_TEST);
-    bind(new Uint32Array(cloth.triangles), '', gl.ELEMENT_ARRAY_BUFFER);
     figure.prepend(canvas);
     figure.hidden = false;
-    if (cloth.instants.length > 1) {
-      const bar = Object.assign(document.createElement('div'), {className: 'controls'});
-      const words = document.createElement('span'), slider = Object.assign(document.createElement('input'),
-        {type: 'range', min: 0, max: now, value: now, ariaLabel: 'instant'});
-      const say = () => { words.textContent = cloth.instants[now].time.toFixed(2) + ' s'; };
-      slider.oninput = () => { now = +slider.value; say(); take(); draw(); };
-      say();
-      bar.append(slider, words);
-      canvas.after(bar);
-    }
-    take();
+    const bar = Object.assign(document.createElement('div'), {className: 'controls'});
+    const words = document.createElement('span'), slider = Object.assign(document.createElement('input'),
+      {type: 'range', min: 0, max: now, value: now, ariaLabel: 'instant'});
+    const names = Object.assign(document.createElement('select'), {ariaLabel: 'column'});
+    const change = () => {
+      now = +slider.value;
+      words.textContent = cloth.instants[Math.min(now, cloth.instants.length - 1)].time.toFixed(2) + ' s';
+      take();
+      draw();
+    };
+    cloths.forEach(({name}) => names.append(new Option(name)));
+    names.onchange = () => { cloth = cloths[names.selectedIndex]; change(); };
+    slider.oninput = change;
+    if (cloths.length > 1) bar.append(names);
+    if (now > 0) bar.append(slider, words);
+    canvas.after(bar);
+    change();
     new ResizeObserver(draw).observe(canvas);
   }
   for (const figure of document.querySelectorAll('figure.turn'))
-    clothOf(figure.querySelector('script').textContent).then(cloth => show(figure, cloth), () => {});
+    clothsOf(figure.querySelector('script').textContent).then(cloths => show(figure, cloths), () => {});
 })();

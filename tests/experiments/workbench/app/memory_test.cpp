@@ -54,7 +54,8 @@ TEST(Memory, GrowsWithTheTrianglesAndWhatTheLawRemembers) {
   experiments::Setup setup{default_scene(), {}};
   const MemoryNeed small = memory_need(setup, 1e5), large = memory_need(setup, 2e5);
   EXPECT_EQ(large.cloth, 2 * small.cloth);
-  EXPECT_EQ(large.program + large.pictures, small.program + small.pictures);
+  EXPECT_EQ(large.program, small.program);
+  EXPECT_GT(large.pictures, small.pictures) << "the shapes that the contact sheet chooses from";
   setup.scene.law = "linear";
   EXPECT_EQ(memory_need(setup, 1e5).history, 0);
   EXPECT_GT(small.history, 0);

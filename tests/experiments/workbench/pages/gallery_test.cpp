@@ -230,7 +230,7 @@ TEST_F(Gallery, OpensWithThePictureThatTheReadmeBesideItShowsFirst) {
 }
 
 TEST_F(Gallery, IsLedByQuestions) {
-  EXPECT_EQ(count_of(page(), "<h2>Drape test after Cusick"), 1) << question_of("drape");
+  EXPECT_EQ(count_of(page(), "<h2>Cusick's drape test"), 1) << question_of("drape");
 }
 
 TEST_F(Gallery, IsTheSameWhereverItLies) {

@@ -130,6 +130,17 @@ TEST(ReportOfSeveralLaws, HasARowForEachAndAColumnForEachMetric) {
   EXPECT_EQ(count_of(page, "recovery cases"), 1);
 }
 
+TEST(ReportOfSeveralLaws, OpensWithWhatEachAnswers) {
+  const Folder folder;
+  ExperimentRun run({"fold", "hysteron fold", {}, {}}, setup_in(folder.path()).options, Json::object());
+  run.metric("linear.recovery_angle_deg", 180.0);
+  run.metric("prandtl.recovery_angle_deg", 116.04);
+  run.finish();
+  const std::string page = text_of(write_report(folder.path()));
+  EXPECT_EQ(count_of(page, "<b>116.0 <small>degree</small></b><span>prandtl: recovery angle</span>"), 1);
+  EXPECT_LT(page.find("linear: recovery angle"), page.find("prandtl: recovery angle"));
+}
+
 TEST_F(Report, IsTheSameWhenDrawnAgain) { EXPECT_EQ(html(), html()); }
 
 TEST(ReportOfAFolderWithoutARun, IsAWrongRequest) {

@@ -83,7 +83,8 @@ TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
   const MeshPacker packer(mesh.vertices, mesh.triangles);
   const KeptCloth cloth{"", 0, {{"scene", Json::object()}}, {{-1, -2, -3}, {1, 2, 3}}, -0.5f, {}};
   std::string text = text_of(mesh_record(mesh)) + text_of(cloth_record(cloth));
-  for (const double time : {0.0, 0.1}) text += text_of(instant_record(mesh, packer, {time, wave(), {}}, {}));
+  for (const double time : {0.0, 0.1})
+    text += text_of(instant_record(mesh, packer, {time, wave(), {}, 0}, {}));
   std::ofstream(folder.path() / "frames.hyg", std::ios::binary) << text.substr(0, text.size() - 5);
   const Kept kept = read_kept(folder.path() / "frames.hyg");
   ASSERT_EQ(kept.cloths.size(), 1u);

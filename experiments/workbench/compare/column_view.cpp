@@ -1,0 +1,276 @@
+#include "experiments/workbench/compare/column_view.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/workbench/app/law_family.h"
+#include "experiments/workbench/pages/manifest.h"
+#include "render/color_map.h"
+#include "render/plot.h"
+
+namespace hysteron::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShown = 2;  // numbers behind a name, unless a page asks for more
+
+const ShownNumber* shown_number(const std::string& metric) {
+  for (const ShownNumber& number : shown_numbers())
+    if (number.metric == metric) return &number;
+  return nullptr;
+}
+
+bool is_shown(const MetricValue& value) {
+  return value.is_number() || (value.is_text() && value.text() != "unknown");
+}
+
+// Three digits and no exponent, for 0.001 to 999999.
+std::string three_digits(double value) {
+  const double size = std::abs(value);
+  return fmt::format("{:.{}f}", value, size >= 99.95 || size == 0 ? 0 : size >= 9.995 ? 1 : 2);
+}
+
+// Of a unit that takes prefixes from half of one on, "0.94 mN"; of others as it is.
+std::string with_unit(double value, const std::string& unit) {
+  constexpr double kNothing = 1e-9;
+  if (std::abs(value) < kNothing) value = 0;
+  if (unit == "°") return fmt::format("{:.0f}°", value);
+  if (unit == "%") return fmt::format("{:.3g} %", value);
+  if (unit == "1/m") return fmt::format("{:.3g} /m", value);
+  const auto [prefix, factor] = unit.empty() ? render::SiPrefix{} : render::si_prefix(2 * value);
+  return three_digits(value / factor) + (unit.empty() ? "" : " " + std::string(prefix) + unit);
+}
+
+// The law of a column, or "" where its manifest is missing.
+std::string law_of(const SweepColumn& column) {
+  return column.manifest ? column.manifest->scene.law.value_or("") : "";
+}
+
+bool differ_in_laws(const std::vector<SweepColumn>& columns) {
+  std::set<std::string> laws;
+  for (const SweepColumn& column : columns) laws.insert(law_of(column));
+  return laws.size() > 1 && laws.size() == columns.size() && !laws.contains("");
+}
+
+std::vector<std::string> numbers_of(const SweepColumn& column, const std::vector<std::string>& metrics,
+                                    std::size_t most) {
+  std::vector<std::string> numbers;
+  if (!column.stopped.empty()) numbers.emplace_back("stopped");
+  if (!column.manifest) return numbers;
+  for (const std::string& metric : metrics)
+    if (numbers.size() < most && is_shown(column.manifest->metrics[metric]))
+      numbers.push_back(short_number(metric, column.manifest->metrics[metric]));
+  return numbers;
+}
+
+}  // namespace
+
+const std::vector<ShownNumber>& shown_numbers() {
+  static const std::vector<ShownNumber> kAll = {
+      {"drape_coefficient_percent", "DC",
+       "share of the ring outside the pedestal that the cloth's shadow covers (BS 5058)"},
+      {"node_count", "folds", "folds of the outline"},
+      {"recovery_angle_deg", "", "angle between the limbs after release; 180 degrees is flat"},
+      {"2HB_N", "2HB", "width of the last moment-curvature loop"},
+      {"set_curvature_per_m", "κ", "curvature that is left without moment"},
+      {"decay_shape", "",
+       "how amplitudes fall in time: along a line (saturated friction), along two (friction that saturates "
+       "early and "
+       "what is left below, as of cloth), exponentially (viscosity), hyperbolically (friction whose loops "
+       "grow as A^3), "
+       "or not (plateau: a turn takes less than 1 %)"},
+      {"turns", "turns", "how often the free end turned"},
+      {"decay_step_fraction", "step at",
+       "amplitude at which the second of two lines begins, over the first amplitude"},
+      {"bending_friction_J", "", "energy that friction in bending has taken"},
+      {"residual_curvature_rms_per_m", "κ",
+       "root mean square of the curvature that is left if the cloth is let go"},
+      {"ridge_length_m", "ridges", "length of the ridges, sharper than a threshold, that are left"},
+      {"max_stretch_percent", "stretch", "largest stretch of an edge"},
+  };
+  return kAll;
+}
+
+std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns,
+                                       const std::vector<std::string>& asked) {
+  std::vector<std::string> metrics = asked;
+  if (asked.empty())
+    for (const ShownNumber& number : shown_numbers()) metrics.emplace_back(number.metric);
+  std::erase_if(metrics, [&](const std::string& metric) {
+    return std::none_of(columns.begin(), columns.end(),
+                        [&](const SweepColumn& c) { return is_shown(c.metrics()[metric]); });
+  });
+  if (asked.empty() && metrics.size() > kShown) metrics.resize(kShown);
+  return metrics;
+}
+
+std::string short_number(const std::string& metric, const MetricValue& value) {
+  const NamedUnit unit = split_unit(metric);
+  const ShownNumber* known = shown_number(metric);
+  const std::string symbol = known ? known->symbol : unit.name;
+  const std::string number = value.is_text()      ? value.text()
+                             : value.is_integer() ? shown(value)
+                                                  : with_unit(value.number(), unit.unit);
+  if (symbol == "folds" || symbol == "turns")
+    return number + " " + (number == "1" ? symbol.substr(0, symbol.size() - 1) : symbol);
+  return symbol.empty() ? number : symbol + " " + number;
+}
+
+std::vector<std::string> families_of(const std::vector<SweepColumn>& columns) {
+  std::vector<std::string> families(columns.size());
+  if (differ_in_laws(columns))
+    for (std::size_t c = 0; c < columns.size(); ++c) families[c] = family_of_law(law_of(columns[c]));
+  return families;
+}
+
+std::vector<render::Rgb8> colors_of(const std::vector<SweepColumn>& columns) {
+  constexpr int kHues = 4;
+  const int count = static_cast<int>(columns.size()), shades = (count + kHues - 1) / kHues;
+  std::vector<render::Rgb8> colors;
+  for (int c = 0; c < count; ++c)
+    colors.push_back(differ_in_laws(columns) ? color_of_law(law_of(columns[static_cast<std::size_t>(c)]))
+                     : count <= render::kMethodColors ? render::method_color(static_cast<std::size_t>(c))
+                                                      : render::family_color(c / shades, c % shades, shades));
+  return colors;
+}
+
+std::vector<render::ComparisonColumn> heads_of(const std::vector<SweepColumn>& columns,
+                                               const std::vector<std::string>& asked) {
+  const std::vector<std::string> metrics = shown_metrics(columns, asked), families = families_of(columns);
+  const std::vector<render::Rgb8> colors = colors_of(columns);
+  std::vector<render::ComparisonColumn> heads;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    heads.push_back({columns[c].name,
+                     numbers_of(columns[c], metrics, std::max(kShown, asked.size())),
+                     colors[c],
+                     families[c],
+                     {}});
+  return heads;
+}
+
+bool has_frames(const SweepColumn& column) {
+  return column.manifest && column.manifest->frames && !instants(column).empty();
+}
+
+const std::vector<Frames::Instant>& instants(const SweepColumn& column) {
+  return column.manifest->frames->instants;
+}
+
+std::size_t frame_at(const SweepColumn& column, double time) {
+  const std::vector<Frames::Instant>& all = instants(column);
+  std::size_t nearest = 0;
+  for (std::size_t f = 0; f < all.size(); ++f)
+    if (std::abs(all[f].time - time) < std::abs(all[nearest].time - time)) nearest = f;
+  return nearest;
+}
+
+fs::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame) {
+  const std::string folder = column.manifest->frames->looks.at(0).name == look ? "frames" : "frames-" + look;
+  return column.folder / folder / fmt::format("{:04}.png", frame);
+}
+
+void Crop::include(const Frames::Instant& instant) {
+  const std::array<double, 4>& b = instant.cloth;
+  const bool noted = b[2] > b[0] && b[3] > b[1];
+  const std::array<double, 4> all{0, 0, 1, 1}, &box = noted ? b : all;
+  box_ = {std::min(box_[0], box[0]), std::min(box_[1], box[1]), std::max(box_[2], box[2]),
+          std::max(box_[3], box[3])};
+}
+
+void Crop::widen(double to) {
+  constexpr double kWasted = 1.8;
+  const double more = (to - width()) / 2;
+  if (width() == 0 || more <= 0 || to > kWasted * width()) return;
+  // Within the picture: what is beyond one border is added at the other.
+  const double left = std::max(0.0, box_[0] - more), right = std::min(1.0, box_[2] + more);
+  box_[0] = std::max(0.0, std::min(left, right - to));
+  box_[2] = std::min(1.0, std::max(right, left + to));
+}
+
+render::Image Crop::of(const render::Image& picture) const {
+  constexpr double kRoom = 0.06;                 // of either side
+  constexpr double kWidest = 3, kTallest = 0.9;  // width over height
+  const double w = picture.width(), h = picture.height();
+  double left = box_[0] * w, top = box_[1] * h, right = box_[2] * w, bottom = box_[3] * h;
+  if (right <= left || bottom <= top) return picture;
+  const auto grow = [](double& low, double& high, double wanted) {
+    const double more = std::max(0.0, wanted - (high - low)) / 2;
+    low -= more;
+    high += more;
+  };
+  grow(left, right, (right - left) * (1 + 2 * kRoom));
+  grow(top, bottom, (bottom - top) * (1 + 2 * kRoom));
+  grow(top, bottom, (right - left) / kWidest);
+  grow(left, right, (bottom - top) * kTallest);
+  const int x = std::max(0, static_cast<int>(std::floor(left))),
+            y = std::max(0, static_cast<int>(std::floor(top))),
+            x_end = std::min(picture.width(), static_cast<int>(std::ceil(right))),
+            y_end = std::min(picture.height(), static_cast<int>(std::ceil(bottom)));
+  if (x_end <= x || y_end <= y) return picture;
+  render::Image part(x_end - x, y_end - y, picture.channels());
+  for (int row = 0; row < part.height(); ++row)
+    std::copy_n(picture.at(x, y + row), part.row_bytes(), part.at(0, row));
+  render::fade_to_page(part);
+  return part;
+}
+
+namespace {
+
+// The curves of the first probe's moments that a manifest names, one a direction.
+std::vector<Curve> probed_curves(const SweepColumn& column) {
+  std::vector<Curve> curves;
+  if (!column.manifest) return curves;
+  for (const Curve& curve : column.manifest->curves)
+    if (curve.plot.starts_with("plot_probe1_moment") && fs::exists(column.folder / curve.file))
+      curves.push_back(curve);
+  return curves;
+}
+
+double most_bent(const SweepColumn& column, const Curve& curve) {
+  double most = 0;
+  for (double k : render::series_from_csv(column.folder / curve.file, curve.x, curve.x, "").y)
+    if (std::isfinite(k)) most = std::max(most, std::abs(k));
+  return most;
+}
+
+}  // namespace
+
+ProbedLoops::ProbedLoops(const std::vector<SweepColumn>& columns)
+    : loops_(columns.size()), colors_(colors_of(columns)) {
+  std::string direction;  // the plot's name
+  double most = 0;
+  for (const SweepColumn& column : columns)
+    for (const Curve& curve : probed_curves(column))
+      if (const double bent = most_bent(column, curve); bent > most) most = bent, direction = curve.plot;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (const Curve& curve : probed_curves(columns[c])) {
+      if (curve.plot != direction) continue;
+      const fs::path file = columns[c].folder / curve.file;
+      const render::Series curvature = render::series_from_csv(file, "time", curve.x, "");
+      loops_[c] = {curvature.x, {curvature.y, render::series_from_csv(file, "time", curve.y, "").y}};
+    }
+    if (law_of(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
+    frame_.include(loops_[c].path);
+  }
+}
+
+render::Path ProbedLoops::Loop::until(double end) const {
+  render::Path until;
+  for (std::size_t i = 0; i < time.size() && time[i] <= end + 1e-9; ++i) {
+    until.curvature.push_back(path.curvature[i]);
+    until.moment.push_back(path.moment[i]);
+  }
+  return until;
+}
+
+render::LoopInset ProbedLoops::at(std::size_t c, double time) const {
+  render::LoopInset inset{loops_[c].until(time), {}, colors_[c], frame_};
+  if (reference_ && *reference_ != c) inset.reference = loops_[*reference_].until(time);
+  return inset;
+}
+
+}  // namespace hysteron::experiments

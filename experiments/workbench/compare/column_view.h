@@ -1,0 +1,82 @@
+// Columns of laws, fabrics, integrators or studies as any page shows them: their colours, the line over their
+// pictures, the pictures themselves.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/workbench/compare/sweep_columns.h"
+#include "render/comparison_sheet.h"
+
+namespace hysteron::experiments {
+
+// What each experiment is asked for, then what any run has, in the order in which pages show it.
+struct ShownNumber {
+  const char* metric;
+  const char* symbol;  // before the number in a picture's line; "" where the unit says enough
+  const char* meaning;
+};
+const std::vector<ShownNumber>& shown_numbers();
+
+// Those of the asked metrics, or of shown_numbers() where none is asked for, that any column knows.
+std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns,
+                                       const std::vector<std::string>& asked);
+// "116°", "κ 31 /m", "0.94 mN": three digits, with the prefix of SI that leaves 1 to 999; zero below 1e-9 of
+// the unit, where sums of doubles end.
+std::string short_number(const std::string& metric, const MetricValue& value);
+
+// "elastic", "plastic", "hysteretic", "relaxing" where columns differ in their laws; else "" of all.
+std::vector<std::string> families_of(const std::vector<SweepColumn>& columns);
+// One for each column, of a family shades of one hue; they do not come again below 12 columns.
+std::vector<render::Rgb8> colors_of(const std::vector<SweepColumn>& columns);
+
+// The columns with names, numbers, families and colours, still without cells.
+std::vector<render::ComparisonColumn> heads_of(const std::vector<SweepColumn>& columns,
+                                               const std::vector<std::string>& asked);
+
+bool has_frames(const SweepColumn& column);
+const std::vector<Frames::Instant>& instants(const SweepColumn& column);
+// The picture nearest to a time [s], the last one where the run had ended before.
+std::size_t frame_at(const SweepColumn& column, double time);
+// The first look's pictures stand in frames/.
+std::filesystem::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame);
+
+// The part of a row's pictures that has cloth in any of them, with some room; all of it where no run notes
+// where its cloth is.
+class Crop {
+ public:
+  void include(const Frames::Instant& instant);
+  // In shares of the picture; 0 where nothing is included.
+  double width() const { return std::max(0.0, box_[2] - box_[0]); }
+  // As wide as that, unless it is nearly twice its own width: rows have one scale where that wastes little.
+  void widen(double width);
+  render::Image of(const render::Image& picture) const;
+
+ private:
+  std::array<double, 4> box_{1, 1, 0, 0};  // left, top, right, bottom in shares of the picture
+};
+
+// Moment against curvature where the column's first probe is, up to a time, in the direction that bends most
+// in any of the columns.  Empty where it has none.
+class ProbedLoops {
+ public:
+  explicit ProbedLoops(const std::vector<SweepColumn>& columns);
+  // Of column c; in grey behind it that of prandtl, where that is another column.
+  render::LoopInset at(std::size_t c, double time) const;
+
+ private:
+  struct Loop {
+    std::vector<double> time;
+    render::Path path;
+    render::Path until(double time) const;
+  };
+  std::vector<Loop> loops_;
+  std::vector<render::Rgb8> colors_;
+  std::optional<std::size_t> reference_;
+  render::LoopFrame frame_;  // as large as all
+};
+
+}  // namespace hysteron::experiments

@@ -1,0 +1,82 @@
+// The plots of a comparison: a line or a bar for each column.
+#include <algorithm>
+
+#include "experiments/workbench/compare/column_view.h"
+#include "experiments/workbench/compare/comparison_page.h"
+#include "experiments/workbench/compare/table_plot.h"
+#include "experiments/workbench/pages/manifest.h"
+
+namespace hysteron::experiments {
+namespace {
+
+// What the first column notes that notes anything: lists of series, of curves.
+template <class List>
+List first_list(const std::vector<SweepColumn>& columns, List (*noted)(const Manifest&)) {
+  for (const SweepColumn& c : columns)
+    if (c.manifest && !noted(*c.manifest).empty()) return noted(*c.manifest);
+  return {};
+}
+
+// "probe1_curvature_warp [1/m]" as an axis says it.
+std::string words_of(std::string column) {
+  std::replace(column.begin(), column.end(), '_', ' ');
+  return column;
+}
+
+// The experiment's own columns of metrics.csv against time.
+void plot_series(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
+  using Names = std::vector<std::string>;
+  for (const std::string& name :
+       first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
+    const std::string word = name.substr(0, name.find(" ["));
+    draw(run, TablePlot{"plot_" + word, {title, {"time [s]"}, {words_of(name)}}, "metrics.csv", "time", word},
+         columns);
+  }
+}
+
+// Tables of its own that the experiment names in its manifest.
+void plot_curves(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
+  for (const Curve& curve :
+       first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
+    const bool probed = curve.plot.starts_with("plot_probe");
+    draw(run,
+         TablePlot{curve.plot,
+                   {title, {words_of(curve.x)}, {words_of(curve.y), curve.logarithmic}},
+                   curve.file,
+                   curve.x,
+                   curve.y,
+                   probed ? render::Series::Style::line : render::Series::Style::line_and_points},
+         columns);
+  }
+}
+
+// The page's metrics, or what these experiments are asked for, a bar a column; none where all are zero.
+void plot_answers(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+  const std::vector<std::string> usual = {"drape_coefficient_percent", "recovery_angle_deg"};
+  for (const std::string& key : page.metrics.empty() ? usual : page.metrics) {
+    render::Plot plot{page.title, {""}, {split_unit(key).text()}};
+    std::vector<double> values;
+    for (const SweepColumn& c : columns) {
+      if (!c.manifest || !c.manifest->metrics[key].is_number()) continue;
+      plot.x.categories.push_back(c.name);
+      values.push_back(c.manifest->metrics[key].number());
+    }
+    if (values.size() < 2) continue;
+    plot.series = render::grouped_bars({""}, {values}, plot.bar_width);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    plot.y.low = 1.05 * std::min(0.0, *least);
+    plot.y.high = 1.05 * std::max(0.0, *most);
+    if (plot.y.low == plot.y.high) plot.y.high = 1;
+    run.plot("plot_" + key, plot);
+  }
+}
+
+}  // namespace
+
+void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+  plot_series(run, page.title, columns);
+  plot_curves(run, page.title, columns);
+  plot_answers(run, page, columns);
+}
+
+}  // namespace hysteron::experiments

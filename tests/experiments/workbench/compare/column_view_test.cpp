@@ -1,0 +1,51 @@
+#include "experiments/workbench/compare/column_view.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "experiments/workbench/app/law_family.h"
+#include "render/color_map.h"
+#include "sim/bending/laws/law_parameters.h"
+
+namespace hysteron::experiments {
+namespace {
+
+TEST(ShortNumber, HasThreeDigitsAndAPrefix) {
+  EXPECT_EQ(short_number("recovery_angle_deg", 116.2), "116°");
+  EXPECT_EQ(short_number("residual_curvature_rms_per_m", 30.98), "κ 31 /m");
+  EXPECT_EQ(short_number("bending_friction_J", 0.0009377), "0.94 mJ");
+  EXPECT_EQ(short_number("2HB_N", 8.4e-5), "2HB 84.0 µN");
+  EXPECT_EQ(short_number("residual_curvature_rms_per_m", 1e-12), "κ 0 /m");
+  EXPECT_EQ(short_number("bending_friction_J", 0.0), "0 J");
+  EXPECT_EQ(short_number("node_count", 6), "6 folds");
+  EXPECT_EQ(short_number("decay_shape", "two-step"), "two-step");
+  EXPECT_EQ(short_number("max_stretch_percent", 8.216e-13), "stretch 0 %") << "what sums of doubles leave";
+}
+
+TEST(LawFamily, EveryLawHasAFamilyAndAColorOfItsOwn) {
+  std::set<render::Rgb8> colors;
+  for (const LawEntry& law : law_catalogue()) {
+    EXPECT_NE(family_of_law(law.name), "") << law.name;
+    EXPECT_TRUE(colors.insert(color_of_law(law.name)).second) << law.name;
+  }
+  EXPECT_EQ(family_of_law("prandle"), "");
+}
+
+// White of 200 x 100 with cloth in a quarter of its width: what is left has it in the middle, and some room.
+TEST(Crop, IsWhatTheInstantsReachAndSomeRoom) {
+  render::Image picture(200, 100, render::Rgb8{255, 255, 255});
+  Crop crop;
+  crop.include({.time = 0, .phase = "", .cloth = {0.25, 0.3, 0.4, 0.6}});
+  crop.include({.time = 0, .phase = "", .cloth = {0.35, 0.4, 0.5, 0.7}});
+  const render::Image part = crop.of(picture);
+  EXPECT_NEAR(part.width(), 50 * 1.12, 2);
+  EXPECT_NEAR(part.height(), 40 * 1.12, 2);
+  EXPECT_EQ(Crop().of(picture), picture) << "nothing is known";
+  Crop whole;
+  whole.include({});
+  EXPECT_EQ(whole.of(picture), picture);
+}
+
+}  // namespace
+}  // namespace hysteron::experiments

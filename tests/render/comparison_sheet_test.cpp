@@ -1,0 +1,166 @@
+#include "render/comparison_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "tests/render/test_scene.h"
+
+namespace hysteron::render {
+namespace {
+
+using test::error_of;
+
+// Cells are of one colour each, by column and row, on a page that has none of these.
+Rgb8 color_of(std::size_t column, std::size_t row) {
+  return {static_cast<std::uint8_t>(10 + 12 * column), 200, static_cast<std::uint8_t>(10 + 40 * row)};
+}
+
+ComparisonSheet sheet_of(std::size_t columns, std::size_t rows, int width = 400, int height = 300) {
+  ComparisonSheet sheet;
+  sheet.title = "Crease";
+  for (std::size_t r = 0; r < rows; ++r) sheet.rows.push_back({std::to_string(r) + ".00 s", "", 1e-4});
+  for (std::size_t c = 0; c < columns; ++c) {
+    sheet.columns.push_back({"law " + std::to_string(c), {"116°", "κ 31 /m"}, Rgb8{0, 90, 0}, "", {}});
+    for (std::size_t r = 0; r < rows; ++r)
+      sheet.columns[c].cells.push_back({Image(width, height, color_of(c, r))});
+  }
+  return sheet;
+}
+
+struct Extent {
+  int left = 1 << 20, top = 1 << 20, right = -1, bottom = -1;
+  int width() const { return right - left + 1; }
+  int height() const { return bottom - top + 1; }
+};
+
+Extent extent_of(const Image& page, const Rgb8& color) {
+  Extent at;
+  for (int y = 0; y < page.height(); ++y)
+    for (int x = 0; x < page.width(); ++x)
+      if (std::equal(color.begin(), color.end(), page.at(x, y)))
+        at = {std::min(at.left, x), std::min(at.top, y), std::max(at.right, x), std::max(at.bottom, y)};
+  return at;
+}
+
+TEST(ComparisonSheet, IsTwiceTheWidthOfAFrontPageWithLettersByItsWidth) {
+  const Image page = draw_comparison(sheet_of(3, 2));
+  EXPECT_EQ(page.width(), 2 * 838);
+  EXPECT_GE(sheet_letters(page.width()), page.width() / 84.0);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t r = 0; r < 2; ++r) {
+      const Extent cell = extent_of(page, color_of(c, r));
+      EXPECT_GT(cell.width(), 400) << "three cells share the page but for times and gaps";
+      EXPECT_NEAR(cell.width(), cell.height() * 4 / 3.0, 2);
+    }
+}
+
+TEST(ComparisonSheet, HasAtMostFiveColumnsBesideEachOther) {
+  for (const std::size_t count : {1u, 2u, 5u, 6u, 9u, 15u}) {
+    const Image page = draw_comparison(sheet_of(count, 1));
+    std::set<int> lefts;
+    for (std::size_t c = 0; c < count; ++c) lefts.insert(extent_of(page, color_of(c, 0)).left);
+    EXPECT_LE(lefts.size(), static_cast<std::size_t>(kMostBeside)) << count;
+    const double aspect = 1.0 * page.width() / page.height();
+    EXPECT_GE(aspect, 0.5) << count;
+    EXPECT_LE(aspect, 3) << count;
+  }
+}
+
+// A family begins a block where it does not fit behind another, whatever the order of its columns.
+TEST(ComparisonSheet, KeepsFamiliesTogether) {
+  ComparisonSheet sheet = sheet_of(8, 1);
+  for (std::size_t c = 0; c < 8; ++c) sheet.columns[c].family = c % 2 ? "plastic" : "elastic";
+  const Image page = draw_comparison(sheet);
+  std::set<int> elastic, plastic;
+  for (std::size_t c = 0; c < 8; ++c) (c % 2 ? plastic : elastic).insert(extent_of(page, color_of(c, 0)).top);
+  for (int top : elastic) EXPECT_EQ(plastic.count(top), 0u);
+}
+
+// Wide strips would make a page that is wider than three times its height.
+TEST(ComparisonSheet, OfWideStripsIsNotAStripItself) {
+  const Image page = draw_comparison(sheet_of(5, 1, 600, 100));
+  EXPECT_LE(page.width(), 3 * page.height());
+}
+
+TEST(ComparisonSheet, EnlargesSmallPicturesToItsCells) {
+  const Image page = draw_comparison(sheet_of(2, 1, 80, 60));
+  EXPECT_GT(extent_of(page, color_of(0, 0)).width(), 600);
+}
+
+// A name, however long, stays in its column.
+TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
+  ComparisonSheet sheet = sheet_of(2, 1);
+  sheet.columns[0].name = std::string(300, 'W');
+  sheet.columns[1].name.clear();
+  sheet.columns[1].numbers.clear();
+  sheet.columns[1].color.reset();
+  const Image page = draw_comparison(sheet);
+  const Extent right = extent_of(page, color_of(1, 0));
+  for (int y = 0; y < right.top; ++y)
+    for (int x = right.left; x < page.width(); ++x) EXPECT_GT(page.at(x, y)[0], 200);
+}
+
+TEST(ComparisonSheet, WantsACellForEachRow) {
+  EXPECT_EQ(error_of([] { draw_comparison({}); }).exit_code(), 2);
+  ComparisonSheet sheet = sheet_of(2, 2);
+  sheet.columns[1].cells.pop_back();
+  EXPECT_EQ(error_of([&] { draw_comparison(sheet); }).exit_code(), 2);
+}
+
+// The same scale in all rows is said once, at the foot; rows that differ have a bar each.
+TEST(ComparisonSheet, SaysAScaleOnce) {
+  ComparisonSheet sheet = sheet_of(2, 2);
+  const int once = draw_comparison(sheet).height();
+  sheet.rows[1].metres_per_pixel = 2e-4;
+  EXPECT_LT(draw_comparison(sheet).height(), once);
+}
+
+TEST(LoopInset, EndsInADotOfItsColorWithinItsSquare) {
+  Image picture(400, 300, Rgb8{255, 255, 255});
+  LoopInset loop{.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
+  draw_loop(picture, loop, Corner::top_right, 0.28f, 10);
+  int blue = 0, beyond = 0;
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const bool is_blue = picture.at(x, y)[2] > picture.at(x, y)[0] + 100;
+      blue += is_blue;
+      beyond += is_blue && (x < 400 - 122 || y > 122);
+    }
+  EXPECT_GT(blue, 40);
+  EXPECT_EQ(beyond, 0) << "28 % of the width";
+}
+
+// In a cell whose right half is cloth the inset is drawn in the left one, though it belongs to the right.
+TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
+  ComparisonSheet sheet = sheet_of(1, 1);
+  Image& picture = sheet.columns[0].cells[0].image = Image(400, 300, Rgb8{255, 255, 255});
+  draw_rectangle(picture, 200, 0, 400, 300, {90, 91, 92});
+  sheet.columns[0].cells[0].loop = {.path = {{0, 50, 100}, {0, 2e-4, 3e-4}}, .color = {0, 0, 220}};
+  const Image page = draw_comparison(sheet);
+  const Extent cloth = extent_of(page, {90, 91, 92}), loop = extent_of(page, {0, 0, 220});
+  EXPECT_GT(loop.right, 0);
+  EXPECT_LT(loop.right, cloth.left);
+}
+
+TEST(LoopInset, OfNoPathDrawsNothing) {
+  Image picture(100, 100, Rgb8{255, 255, 255});
+  const Image before = picture;
+  draw_loop(picture, {}, Corner::bottom_right, 0.28f, 10);
+  EXPECT_EQ(picture, before);
+}
+
+TEST(DrawLine, CoversItsLengthTimesItsWidth) {
+  Image image(100, 100, Rgb8{255, 255, 255});
+  draw_line(image, 20, 50, 80, 50, 6, {0, 0, 0});
+  int dark = 0;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) dark += image.at(x, y)[0] < 128;
+  EXPECT_NEAR(dark, 60 * 6 + 3.14159 * 9, 12);
+}
+
+}  // namespace
+}  // namespace hysteron::render
