@@ -21,7 +21,8 @@ class KeyShadowTest : public testing::Test {
   // per pixel, as a share of the brightest.
   std::vector<double> light_along_x(const test::Cloth& cloth) {
     Look look;
-    look.weave = 0;
+    look.weave = look.sheen = 0;
+    look.front = {70, 80, 90};  // so dark that its brightest light is shown in proportion
     look.room = 0;
     look.to_light = {-1, 0, 1};
     ClothView view(*offscreen_, {kSide, kSide});
