@@ -56,6 +56,11 @@ ProgramFiles cloth_files(Show show, bool figure) {
 // middle.
 bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
 
+// The middle of a sheet on the ground rests a thickness above it, its lower side half of that.
+float pictured_ground(float height, const Look& look) {
+  return has_thickness(look.show) ? height + 0.5f * look.thickness : height;
+}
+
 // Of the plane that lies nearest to the points.
 Eigen::Vector3f normal_of(std::span<const float> xyz) {
   const auto count = static_cast<Eigen::Index>(xyz.size() / 3);
@@ -263,14 +268,14 @@ void ClothView::prepare(const Camera& camera) {
   if (look_.show == Show::silhouette) return;
   if (is_figure()) {
     figure_light_->aim(bounds(), to_light(camera), look_.room);
-    if (ground_height_) ground_->place(bounds(), *ground_height_);
+    if (ground_height_) ground_->place(bounds(), pictured_ground(*ground_height_, look_));
     return;
   }
   shadows_.aim(bounds(), to_light(camera), look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
   update_body_sky();
-  if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+  if (ground_height_) ground_->update(shadows_, bounds(), pictured_ground(*ground_height_, look_));
 }
 
 Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
