@@ -21,8 +21,8 @@ constexpr int kColorMapUnit = 2;
 constexpr float kLeastThickness = 1.2f;  // of cloth as it is drawn [pixels]
 // Of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
-constexpr float kRaking = 0.3f;      // elevation of a raking light above the cloth's plane [rad]
-constexpr float kLeastAlong = 0.2f;  // of a light's direction that must lie in that plane
+constexpr float kRaking = 0.2f;          // elevation of a raking light above the cloth's plane [rad]
+constexpr float kLeastAlong = 0.2f;      // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
@@ -55,6 +55,11 @@ ProgramFiles cloth_files(Show show, bool figure) {
 // Whether the cloth is drawn as thick as it is.  A drape meter's shadow and a mesh's lines are those of its
 // middle.
 bool has_thickness(Show show) { return show != Show::silhouette && show != Show::wireframe; }
+
+// The middle of a sheet on the ground rests a thickness above it, its lower side half of that.
+float pictured_ground(float height, const Look& look) {
+  return has_thickness(look.show) ? height + 0.5f * look.thickness : height;
+}
 
 // Of the plane that lies nearest to the points.
 Eigen::Vector3f normal_of(std::span<const float> xyz) {
@@ -263,19 +268,21 @@ void ClothView::prepare(const Camera& camera) {
   if (look_.show == Show::silhouette) return;
   if (is_figure()) {
     figure_light_->aim(bounds(), to_light(camera), look_.room);
-    if (ground_height_) ground_->place(bounds(), *ground_height_);
+    if (ground_height_) ground_->place(bounds(), pictured_ground(*ground_height_, look_));
     return;
   }
   shadows_.aim(bounds(), to_light(camera), look_.room);
   shadows_.draw([this](const Program& program) { draw_casters(program); });
   if (cloth_) cloth_->update_sky(shadows_);
   update_body_sky();
-  if (ground_height_) ground_->update(shadows_, bounds(), *ground_height_);
+  if (ground_height_) ground_->update(shadows_, bounds(), pictured_ground(*ground_height_, look_));
 }
+
+Eigen::Vector3f key_beside(const Camera& camera) { return camera.beside(kKeyAzimuth, kKeyElevation); }
 
 Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
   if (look_.to_light) return *look_.to_light;
-  if (!look_.raking) return camera.beside(kKeyAzimuth, kKeyElevation);
+  if (!look_.raking) return key_beside(camera);
   const Eigen::Vector3f side = camera.beside(kKeyAzimuth, 0), eye = -camera.forward();
   Eigen::Vector3f normal = cloth_normal_.value_or(eye);
   if (normal.dot(eye) < 0) normal = -normal;

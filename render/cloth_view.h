@@ -40,6 +40,9 @@ struct PictureSize {
   int figure_passes = 0;
 };
 
+// Direction to the key light of looks that name none: from the left of the picture.
+Eigen::Vector3f key_beside(const Camera& camera);
+
 class ClothView {
  public:
   // `offscreen` must outlive the view.  Error::request for a side below 1 or above 65536 pixels.

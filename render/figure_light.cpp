@@ -22,7 +22,7 @@ const Eigen::Vector3f kSky{0.96f, 1.0f, 1.06f};     // on a surface that faces u
 const Eigen::Vector3f kFloor{0.91f, 0.90f, 0.88f};  // on a surface that faces down
 
 constexpr float kOpenLight = 3;        // of the studio on open ground: half the key's and the sky's
-constexpr float kLeastExposed = 0.4f;  // a dim room is exposed longer, for its key light alone
+constexpr float kLeastExposed = 0.3f;  // a dim room is exposed longer, for its key light alone
 
 float u(int index, int base) { return static_cast<float>(radical_inverse(index, base)); }
 

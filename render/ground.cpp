@@ -5,8 +5,8 @@
 namespace hysteron::render {
 namespace {
 
-constexpr int kSkySide = 160;       // texels of the sky light's texture
-constexpr int kSide = 448;          // texels of the light texture
+constexpr int kSkySide = 128;       // texels of the sky light's texture
+constexpr int kSide = 224;          // texels of the light texture: its shadows are soft
 constexpr float kFigureReach = 12;  // beyond it lies no shadow that can be seen
 constexpr float kReach = 2.6f;      // half side of the patch in radii of the scene
 constexpr int kLightUnit = 7;

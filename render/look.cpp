@@ -16,7 +16,7 @@ void shade_backdrop(Look& look) { look.backdrop_top = look.backdrop_bottom = {22
 Look look_named(std::string_view name) {
   Look look;
   look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
-  look.back = {172, 186, 206};
+  look.back = {149, 169, 193};
   if (name == "cloth") return look;
   if (name == "grid") {
     look.grid = 0.01f;

@@ -22,12 +22,12 @@ out vec4 color;
 const float kThrough = 0.10;      // share of light that a sheet passes on to its other side
 const float kNeighbours = 1.1;    // light that cloth around throws back, over its albedo; the sky's: 1
 
-// Fibres that stand off a surface (Estevez and Kulla 2017, Eq. 2, roughness 0.4; visibility of Neubelt and Pettineo 2013).
+// Fibres that stand off a surface (Estevez and Kulla 2017, Eq. 2, roughness 0.4; visibility of Neubelt and Pettineo 2013), halved.
 float sheen_of(vec3 normal, vec3 view, vec3 direction, float facing) {
   vec3 middle = normalize(view + direction);
   float sine = sqrt(max(1.0 - pow(dot(normal, middle), 2.0), 0.0));
   float across = max(dot(normal, view), 0.0);
-  return 2.25 * pow(sine, 2.5) * facing / (4.0 * (facing + across - facing * across) + 1e-3);
+  return 1.2 * pow(sine, 2.5) * facing / (4.0 * (facing + across - facing * across) + 1e-3);
 }
 
 struct Light {

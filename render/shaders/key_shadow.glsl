@@ -12,10 +12,10 @@ const float kSearchMargin = 1.3;  // blockers are looked for beyond the light's 
 const float kSteepest = 5.0;     // the key light fades out on surfaces steeper than this to it
 #ifdef GROUND
 const float kKeySize = 0.15;  // radius of the light over its distance: 8.5 degrees, for shadows that leave the eye to the cloth
-const int kSearchTaps = 64;
+const int kSearchTaps = 48;
 const float kSureLookups = 6.0;  // fewer that find something: the shadow fades, else its edge would show them
 const float kTapsPerTexel = 4.0;
-const float kMostTaps = 64.0;
+const float kMostTaps = 48.0;
 #else
 const float kKeySize = 0.06;  // 3.4 degrees
 const int kSearchTaps = 22;

@@ -83,6 +83,9 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   apply_flags(setup.scene, line.flags, extra);
   if (setup.options.quick && quick) {
     quick(setup);  // which may ask what the flags say
+    // As large as sheets show them: full pictures would take most of a quick run's time.
+    setup.options.size =
+        std::to_string(setup.options.width() / 2) + "x" + std::to_string(setup.options.height() / 2);
     apply_flags(setup.scene, line.flags, extra);
   }
   make_mesh_paths_absolute(setup.scene);

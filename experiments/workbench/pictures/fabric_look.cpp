@@ -12,7 +12,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kLightening = 0.45;  // of a back that the file does not name, toward white
+constexpr double kLightening = 0.3;  // of a back that the file does not name, toward white
 const std::vector<std::string> kKeys = {"colour", "back", "weave", "threads", "sheen", "source"};
 
 class Table {

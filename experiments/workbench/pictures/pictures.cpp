@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,32 +47,10 @@ render::Image small_copy(const render::Image& cell) {
   return render::shrink(cell, std::max(1, cell.width() / kSmaller), std::max(1, cell.height() / kSmaller));
 }
 
-// The light as low over the plane that is nearest to all points, on the eye's side of it.
-Eigen::Vector3f raked(const Eigen::Vector3f& to_light, const std::vector<Eigen::Vector3d>& x,
-                      const Eigen::Vector3f& eye) {
-  constexpr float kElevation = 0.27f;  // tangent of 15 degrees
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : x) mean += p;
-  mean /= static_cast<double>(x.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : x) spread += (p - mean) * (p - mean).transpose();
-  Eigen::Vector3f normal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0).cast<float>();
-  if (normal.dot(eye - mean.cast<float>()) < 0) normal = -normal;
-  const Eigen::Vector3f along = to_light - to_light.dot(normal) * normal;
-  return along.normalized() + kElevation * normal;
-}
-
 std::vector<double> times_of(const std::vector<KeptInstant>& instants) {
   std::vector<double> times;
   for (const KeptInstant& instant : instants) times.push_back(instant.time);
   return times;
-}
-
-std::vector<Eigen::Vector3d> points_of(const std::vector<float>& xyz) {
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) points.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
-  return points;
 }
 
 // Adds the time from now until its end.
@@ -155,10 +132,7 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
   const SceneRenderer::Shown shown{subject_->time(), subject_->values(look)};
   return scene_renderer_.run([&](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);
-    render::Look shading = look_of(scene_, options_, look);
-    if (options_.light == "raking")
-      shading.to_light = raked(shading.to_light, points_of(subject_->positions()), camera.eye());
-    render::Image image = studio.draw(shading, camera, shown);
+    render::Image image = studio.draw(look_of(scene_, options_, look), camera, shown);
     if (!studio.view().shows_cloth()) throw no_cloth_in("the picture of look " + look, shown.time);
     if (!options_.plain)
       letter(image, camera, bounds_.center(), captioned(text), color_bar_of(scene_, options_, look));

@@ -7,6 +7,7 @@
 
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "render/cloth_view.h"
 #include "render/inset.h"
 #include "render/srgb.h"
 #include "sim/base/atomic_file.h"
@@ -69,11 +70,14 @@ std::string sensor(const MitsubaView& view) {
       view.height);
 }
 
+Eigen::Vector3d to_light_of(const MitsubaView& view) {
+  return view.look.to_light.value_or(render::key_beside(view.camera)).normalized().cast<double>();
+}
+
 // Radiance of a disc that throws the key light's irradiance, and of a sky that throws its own; a diffuse
 // surface is as bright as its colour under light of kExposure's inverse.
 std::string lights(const MitsubaView& view) {
-  const Eigen::Vector3d to_light = view.look.to_light.normalized().cast<double>(),
-                        middle = view.bounds.center().cast<double>();
+  const Eigen::Vector3d to_light = to_light_of(view), middle = view.bounds.center().cast<double>();
   const double distance = kFar * view.bounds.radius(), room = view.look.room;
   const Eigen::Vector3d key = kExposure / (kKeyRadius * kKeyRadius) * kKey, sky = room * kExposure * kSky,
                         side = Eigen::Vector3d::UnitX().cross(to_light).normalized();
@@ -89,7 +93,7 @@ std::string lights(const MitsubaView& view) {
 // A page: white under the whole sky and key light.
 std::string ground(const MitsubaView& view) {
   if (!view.floor) return "";
-  const double facing = std::max(0.0, static_cast<double>(view.look.to_light.normalized().z()));
+  const double facing = std::max(0.0, to_light_of(view).z());
   const Eigen::Array3d open = kExposure * (facing * kKey + view.look.room * kSky).array();
   const Eigen::Vector3d middle(view.bounds.center().x(), view.bounds.center().y(), *view.floor);
   return fmt::format(

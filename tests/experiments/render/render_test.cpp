@@ -249,7 +249,7 @@ TEST(RenderedFiles, OptionsOutOfRangeAreRefused) {
   EXPECT_EQ(refusal({good}, {{"render.low", "1 0 0"}, {"render.high", "0 1 1"}}),
             "render.low must be less than render.high in x, y and z (--render.low, --render.high)");
   EXPECT_EQ(refusal({good}, {{"look", "friction"}}),
-            "look = friction must be cloth | curvature | wireframe | silhouette (--look)");
+            "look = friction must be cloth | grid | clay | curvature | wireframe | silhouette (--look)");
   EXPECT_EQ(refusal({good}, {{"render.unit", "foot"}}),
             "render.unit = foot must be metre | centimetre | millimetre | inch (--render.unit)");
   EXPECT_EQ(refusal({good}, {{"render.up", "z,y"}}),
