@@ -25,8 +25,9 @@ Studio::Room& Studio::room(const Scene& scene, const Cloth& cloth, const Picture
   const std::string wanted = choice.options.size + " " + choice.options.renderer;
   if (room_ && made_for_ == wanted) return *room_;
   room_.reset();
+  mesh_ = pictures::drawn_mesh(cloth.mesh, scene.cloth);
   room_ = std::make_unique<Room>([&, options = choice.options] {
-    return std::make_unique<pictures::SceneRenderer>(scene, options, cloth, bounds, std::nullopt,
+    return std::make_unique<pictures::SceneRenderer>(scene, options, mesh_, bounds, std::nullopt,
                                                      cuda_device);
   });
   made_for_ = wanted;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/workbench/pictures/scene_renderer.h"
+#include "experiments/workbench/pictures/subject.h"
 #include "sim/base/own_thread.h"
 #include "sim/time/simulation.h"
 
@@ -28,6 +29,7 @@ class Studio {
   Room& room(const Scene& scene, const Cloth& cloth, const PictureChoice& choice, const render::Box& bounds,
              int cuda_device);
 
+  experiments::DrawnMesh mesh_;  // of the room
   std::unique_ptr<Room> room_;
   std::string made_for_;  // size and renderer, which a room has for good
 };

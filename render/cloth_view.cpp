@@ -21,8 +21,8 @@ constexpr int kColorMapUnit = 2;
 constexpr float kLeastThickness = 1.2f;  // of cloth as it is drawn [pixels]
 // Of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
-constexpr float kRaking = 0.2f;          // elevation of a raking light above the cloth's plane [rad]
-constexpr float kLeastAlong = 0.2f;      // of a light's direction that must lie in that plane
+constexpr float kRaking = 0.2f;      // elevation of a raking light above the cloth's plane [rad]
+constexpr float kLeastAlong = 0.2f;  // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend

@@ -40,13 +40,6 @@ double mean_edge(const ClothMesh& mesh) {
   return sum / static_cast<double>(mesh.edge.size());
 }
 
-DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
-  DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_of(mesh, shape),
-                  mean_edge(mesh) / kStepsAnEdge};
-  drawn.pattern = rounded(drawn.pattern, drawn.quantum);
-  return drawn;
-}
-
 class SimulatedSubject : public Subject {
  public:
   SimulatedSubject(const Scene& scene, const Cloth& cloth, Simulation& simulation,
@@ -85,6 +78,13 @@ std::vector<float> SimulatedSubject::values(const std::string& look) {
 }
 
 }  // namespace
+
+DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape) {
+  DrawnMesh drawn{mesh.rest.size(), flat_triangles(mesh.face), pattern_of(mesh, shape),
+                  mean_edge(mesh) / kStepsAnEdge};
+  drawn.pattern = rounded(drawn.pattern, drawn.quantum);
+  return drawn;
+}
 
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                                    const std::string& reference) {

@@ -27,6 +27,9 @@ class Subject {
                                                        std::string& reason) = 0;
 };
 
+// As pictures draw it; its quantum is a fraction of the mean edge.
+DrawnMesh drawn_mesh(const ClothMesh& mesh, const ClothShape& shape);
+
 // `reference`: the folder of the run that look "difference" subtracts; "": none.  Cloth and simulation must
 // outlive it.
 std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simulation& simulation,
