@@ -334,7 +334,8 @@ class FramesAndSheet {
 
 // Friction and what stays of curvature are not in mesh files.
 void check_look(const std::string& look) {
-  static const std::vector<std::string> kLooks = {"cloth", "curvature", "wireframe", "silhouette"};
+  static const std::vector<std::string> kLooks = {"cloth",     "grid",      "clay",
+                                                  "curvature", "wireframe", "silhouette"};
   if (!std::count(kLooks.begin(), kLooks.end(), look)) throw refusal("look", look, join(kLooks, " | "));
 }
 

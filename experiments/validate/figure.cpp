@@ -18,6 +18,7 @@ using Style = render::Series::Style;
 constexpr const char* kLoops = "fab-shirley/loops_L_D1.csv";
 constexpr const char* kSwing = "swing-cotton-broad";
 constexpr const char* kDrapes = "drapes-jis-h100/means.csv";
+constexpr const char* kElastic = "drapes-soft-h100/means.csv";  // without friction, a tenth of the tension
 constexpr const char* kSpread = "spread-h100";
 constexpr const char* kFolds = "drapes-iso-h100/table.csv";
 constexpr const char* kBudget = "budget-polyester-tropical-h100/budget.csv";
@@ -165,7 +166,10 @@ std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& s
 }
 
 render::PlotPage validation_page(const fs::path& recorded) {
-  const std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
+  std::vector<PredictedDrape> drapes = read_drapes(recorded / kDrapes, recorded / kSpread);
+  for (const PredictedDrape& other : read_drapes(recorded / kElastic, recorded / kSpread))
+    for (PredictedDrape& drape : drapes)
+      if (drape.fabric == other.fabric) drape.elastic = other.elastic;
   return {"From the raw loop to decay, drape and folds",
           "friction fitted on one loop of a knit; its shape, with B and 2HB of each fabric, gives the rest",
           {loops_plot(recorded / kLoops), decay_plot(recorded / kSwing), drapes_plot(drapes),

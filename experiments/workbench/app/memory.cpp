@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMegabyte = 1e6;            // [bytes]
-constexpr double kProgram = 30 * kMegabyte;  // and the smallest cloths
+constexpr double kProgram = 32 * kMegabyte;  // and the smallest cloths
 
 // Of double precision, a triangle [bytes].
 constexpr double kCloth = 2300;        // 1300 in loops, the rest on the host

@@ -141,16 +141,17 @@ render::Image Pictures::picture(const std::string& look, const render::Camera& c
 }
 
 // What a page that compares runs has to know of their pictures.
-void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz) {
+void Pictures::note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
+                          std::optional<double> difference) {
   std::optional<Frames>& frames = run.manifest().frames;
   if (!frames) frames.emplace();
   frames->looks.clear();
   Frames::Instant instant{subject_->time(), scene_.phase_at(subject_->time())};
+  instant.difference_rms = difference;
   for (const Order& order : orders) {
     frames->looks.push_back({order.look});
     if (const auto bar = color_bar_of(scene_, options_, order.look))
       frames->looks.back().bar = {bar->label, bar->unit, bar->low, bar->high};
-    if (order.look == "difference") instant.difference_rms = root_mean_square(order.shown.values);
   }
   const render::Window at = camera().window_of(xyz, aspect_of(options_));
   instant.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
@@ -183,12 +184,14 @@ void Pictures::frame(Run& run, const std::vector<Eigen::Vector3d>& x, const rend
   }
   watch_border(run, orders.front().file, instant.xyz);
   ++frames_;
+  std::optional<double> difference;
   for (Order& order : orders) {
     if (order.shown.values.empty()) continue;
+    if (order.look == "difference") difference = root_mean_square(order.shown.values);
     order.shown.values = rounded(order.shown.values, kept_frames_.quantum(order.look));
     instant.values[order.look] = order.shown.values;
   }
-  note_frame(run, orders, instant.xyz);
+  note_frame(run, orders, instant.xyz, difference);
   scene_renderer_.post([this, orders = std::move(orders), instant = std::move(instant),
                         file = run.path(kKeptFrames)](SceneRenderer& studio) {
     const Stopwatch watch(render_seconds_);

@@ -89,7 +89,9 @@ class Pictures {
   };
 
   void take_positions(const std::vector<float>& xyz);
-  void note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz);
+  // `difference`: root mean square of what look "difference" shows, if it is drawn.
+  void note_frame(Run& run, const std::vector<Order>& orders, const std::vector<float>& xyz,
+                  std::optional<double> difference);
   void watch_border(Run& run, const std::filesystem::path& file, const std::vector<float>& xyz);
   void fill(SceneRenderer& studio, const Order& order);
   SheetView sheet_view(const std::vector<KeptInstant>& instants) const;

@@ -50,8 +50,8 @@ struct Twins {
 
   Twins(const std::string& format, const std::string& look, FlagList further = {}) {
     const FlagList common = {{"size", "480x270"}, {"look", look}, {"fps", "10"}};
-    FlagList flags = {
-        {"out", run.string()}, {"quiet", "true"}, {"quick", "true"}, {"export", format}, {"seconds", "0.3"}};
+    FlagList flags = {{"out", run.string()}, {"quiet", "true"},  {"quick", "true"},
+                      {"export", format},    {"seconds", "0.3"}, {"probe", "none"}};
     flags.insert(flags.end(), common.begin(), common.end());
     experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
     // Of swing's own: its strip is 90 x 30 mm.
