@@ -56,7 +56,7 @@ struct Twins {
     experiment_named("swing").run({"swing", "hysteron swing", flags, {}});
     // Of swing's own: its strip is 90 x 30 mm.
     flags = {
-        {"camera.direction", "0.25 -1 0.25"},
+        {"camera.direction", "0.2 -1 0.3"},
         {"camera.fov", "24"},
         {"render.low", "-0.063 0 -0.09"},
         {"render.high", "0.09 0.03 0.0135"},
