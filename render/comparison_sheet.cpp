@@ -187,6 +187,12 @@ Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
          widest_caption(sheet, page.numbers, page.letters) > static_cast<float>(page.cell_width))
     --page.numbers;
   page.row_height = row_heights(sheet, page.cell_width);
+  // Low pictures leave room for what stands beside them.
+  for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
+    const auto words = broken(sheet.rows[r].phase, page.letters, static_cast<float>(page.margin));
+    page.row_height[r] =
+        std::max(page.row_height[r], static_cast<int>(page.line() * static_cast<float>(1 + words.size())));
+  }
   const float room = static_cast<float>(page.width - 2 * page.gap);
   page.title_lines = static_cast<int>(broken(sheet.title, kTitle * page.letters, room).size());
   for (const std::string& note : sheet.notes)

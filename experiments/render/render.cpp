@@ -11,6 +11,7 @@
 #include "experiments/render/kept_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pictures/drawing.h"
 #include "experiments/workbench/pictures/mesh_pictures.h"
@@ -50,8 +51,7 @@ const KeyRow<F> kRows[] = {
 };
 // clang-format on
 
-constexpr int kCells = 12, kInstants = 5;     // pictures on the sheet of one sequence; of each of several
-constexpr int kColumn = 660, kWidest = 3300;  // of the sheet: a column's width, the whole at most [pixels]
+constexpr int kCells = 12, kInstants = 5;  // pictures on the sheet of one sequence; of each of several
 
 Keys keys_of(F& flags) {
   static const std::vector<std::string> kNames = {"size",
@@ -298,37 +298,56 @@ class FramesAndSheet {
   void draw_frame(const Column& column, const Surface& frame, std::size_t k) {
     const std::string when = column.instant(k), file = column.files()[k].string();
     run_.progress(file + ": " + std::to_string(frame.face.size()) + " triangles" + after(", ", when));
-    render::Image image = picture(frame, label(column) + after("\n", when), "mesh " + file);
-    for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n)
-      cells_.push_back({thumbnail(image), alone() ? when : column.name() + after(", ", when)});
+    render::Image image = picture(frame, "mesh " + file);
+    for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n) {
+      const float aspect = static_cast<float>(image.width()) / static_cast<float>(image.height());
+      const render::Window at = pictures_.camera().window_of(flat_points(frame.vertex), aspect);
+      cells_.push_back({image, when, {at.left, 1 - at.top, at.right, 1 - at.bottom}});
+    }
+    pictures_.letter_picture(image, label(column) + after("\n", when));
     const std::string folder = alone() ? "frames" : column.name();
     writer_.write(run_.path(fmt::format("{}/{:04}.png", folder, k)), std::move(image));
   }
 
-  render::Image picture(const Surface& frame, const std::string& caption, const std::string& what) {
+  render::Image picture(const Surface& frame, const std::string& what) {
     const auto stage = run_.stage("render");
-    return pictures_.picture(frame, caption, what);
+    return pictures_.picture(frame, what);
   }
 
-  // The cells stand sequence by sequence; on a sheet of several each has a column.
+  // The cells stand sequence by sequence.  Of several each has a column, of one each instant has.
   void write_sheet() {
-    render::SheetLayout layout{.title = flags_.title.empty() ? joined_names(columns_) : flags_.title};
-    std::vector<render::SheetEntry> by_row;
-    const std::size_t rows = columns_.front().shown.size();
-    for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t column = 0; column < columns_.size(); ++column)
-        by_row.push_back(std::move(cells_[column * rows + row]));
-    layout.columns =
-        static_cast<int>(alone() ? std::min<std::size_t>(rows, rows > 4 ? 3 : 2) : columns_.size());
-    layout.width = std::min(kWidest, kColumn * layout.columns);
-    render::write_png(run_.path("sheet.png"), render::contact_sheet(by_row, layout), render::PngEffort::best);
+    render::ComparisonSheet sheet;
+    sheet.title = flags_.title.empty() ? joined_names(columns_) : flags_.title;
+    sheet.scale_note = "in the middle";
+    sheet.in_sequence = alone();
+    const std::size_t rows = alone() ? 1 : columns_.front().shown.size();
+    const std::size_t wide = alone() ? cells_.size() : columns_.size();
+    std::vector<Crop> crops(rows);
+    for (std::size_t c = 0; c < wide; ++c)
+      for (std::size_t r = 0; r < rows; ++r) crops[r].include({.cloth = cells_[c * rows + r].cloth});
+    for (std::size_t r = 0; r < rows; ++r)
+      sheet.rows.push_back({alone() ? "" : cells_[r].when, "", pictures_.metres_per_pixel()});
+    for (std::size_t c = 0; c < wide; ++c) {
+      sheet.columns.push_back({.name = alone() ? cells_[c].when : columns_[c].name(), .numbers = {}});
+      for (std::size_t r = 0; r < rows; ++r)
+        sheet.columns.back().cells.push_back({crops[r].of(cells_[c * rows + r].image)});
+    }
+    if (const auto bar = pictures_.color_bar()) sheet.bars.push_back(*bar);
+    sheet.beside = alone() ? 0 : static_cast<int>(std::min<std::size_t>(wide, render::kMostBeside));
+    render::write_png(run_.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);
   }
+
+  struct Cell {
+    render::Image image;
+    std::string when;
+    std::array<double, 4> cloth;  // as Frames::Instant has it
+  };
 
   const F& flags_;
   const std::vector<Column>& columns_;
   Run& run_;
   MeshPictures pictures_;
-  std::vector<render::SheetEntry> cells_;
+  std::vector<Cell> cells_;
   render::PngWriter writer_;
 };
 

@@ -64,25 +64,33 @@ std::vector<float> MeshPictures::curvature_of(const Surface& frame, const std::s
   return {frame.curvature.begin(), frame.curvature.end()};
 }
 
-render::Image MeshPictures::picture(const Surface& frame, const std::string& caption,
-                                    const std::string& what) {
+render::Image MeshPictures::picture(const Surface& frame, const std::string& what) {
   if (frame.face != face_ || frame.vertex.size() != vertices_) {
     face_ = frame.face;
     vertices_ = frame.vertex.size();
     view_.set_cloth({vertices_, flat_triangles(face_), thread_coordinates(frame)});
   }
   view_.set_positions(flat_points(frame.vertex));
-  std::optional<render::ColorBar> bar;
   if (look_.show == render::Show::curvature) {
     curvature_ = curvature_of(frame, what);
     view_.set_values(curvature_);
-    bar = {look_.map, look_.value_low, look_.value_high, "curvature", "1/m"};
   }
-  const render::Camera camera = camera_of(options_, choice_.bounds);
-  render::Image image = view_.draw(camera);
+  render::Image image = view_.draw(camera());
   if (!view_.shows_cloth()) throw Error::run(what + " is not in its picture: frame where it is");
-  letter(image, camera, choice_.bounds.center(), caption, bar);
   return image;
+}
+
+void MeshPictures::letter_picture(render::Image& image, const std::string& caption) const {
+  letter(image, camera(), choice_.bounds.center(), caption, color_bar());
+}
+
+double MeshPictures::metres_per_pixel() const {
+  return camera().metres_per_pixel(choice_.bounds.center(), options_.height());
+}
+
+std::optional<render::ColorBar> MeshPictures::color_bar() const {
+  if (look_.show != render::Show::curvature) return {};
+  return render::ColorBar{look_.map, look_.value_low, look_.value_high, "curvature", "1/m"};
 }
 
 std::optional<double> MeshPictures::curvature_rms() const {

@@ -30,11 +30,16 @@ class MeshPictures {
   void add_body(const Surface& body);
   // The frames to come belong to another cloth.
   void begin_sequence() { face_.clear(); }
-  // `frame` [m] with its letters; `what` names it in messages.  Threads follow the first frame that has these
-  // triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::request where
+  // `frame` [m], still without letters; `what` names it in messages.  Threads follow the first frame that has
+  // these triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::request where
   // curvature is to be computed and the triangles allow none (surface_curvature), Error::run where the
   // picture shows nothing of it.
-  render::Image picture(const Surface& frame, const std::string& caption, const std::string& what);
+  render::Image picture(const Surface& frame, const std::string& what);
+  // Caption, scale and colour bar.
+  void letter_picture(render::Image& image, const std::string& caption) const;
+  render::Camera camera() const { return camera_of(options_, choice_.bounds); }
+  double metres_per_pixel() const;
+  std::optional<render::ColorBar> color_bar() const;  // of looks that show a value
   // Root of the mean square over the vertices last pictured [1/m]; nothing in other looks than "curvature".
   std::optional<double> curvature_rms() const;
 
