@@ -164,9 +164,9 @@ TEST_F(FigureTest, AnEdgeIsAsThickAsTheCloth) {
   }
 }
 
-// Edges of a figure against one of 256 passes.
+// Edges of a figure against one of four times the passes.
 TEST_F(FigureTest, EdgesAreSmooth) {
-  const Image image = figure({}), fine = figure({}, 256), where = silhouette();
+  const Image image = figure({}), fine = figure({}, 64), where = silhouette();
   double sum = 0;
   int edges = 0;
   for (int y = 0; y < kHeight; ++y)
