@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/depth_map.h"
+
 namespace hysteron::render {
 namespace {
 
@@ -22,14 +24,7 @@ TriangleMesh ground_square() {
 }
 
 GlTexture light_texture(const GlFunctions& gl, int side) {
-  GlTexture texture(gl);
-  gl.BindTexture(GL_TEXTURE_2D, texture.name());
-  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, side, side, 0, GL_RGBA, GL_FLOAT, nullptr);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
+  return filtered_texture(gl, GL_RGBA16F, GL_RGBA, side, side);
 }
 
 GlFramebuffer texture_target(const GlFunctions& gl, const GlTexture& texture) {

@@ -302,7 +302,8 @@ class FramesAndSheet {
     for (auto n = std::count(column.shown.begin(), column.shown.end(), static_cast<int>(k)); n > 0; --n) {
       const float aspect = static_cast<float>(image.width()) / static_cast<float>(image.height());
       const render::Window at = pictures_.camera().window_of(flat_points(frame.vertex), aspect);
-      cells_.push_back({image, when, {at.left, 1 - at.top, at.right, 1 - at.bottom}});
+      cells_.push_back({image, when, {}});
+      cells_.back().shown.cloth = {at.left, 1 - at.top, at.right, 1 - at.bottom};
     }
     pictures_.letter_picture(image, label(column) + after("\n", when));
     const std::string folder = alone() ? "frames" : column.name();
@@ -324,7 +325,7 @@ class FramesAndSheet {
     const std::size_t wide = alone() ? cells_.size() : columns_.size();
     std::vector<Crop> crops(rows);
     for (std::size_t c = 0; c < wide; ++c)
-      for (std::size_t r = 0; r < rows; ++r) crops[r].include({.cloth = cells_[c * rows + r].cloth});
+      for (std::size_t r = 0; r < rows; ++r) crops[r].include(cells_[c * rows + r].shown);
     for (std::size_t r = 0; r < rows; ++r)
       sheet.rows.push_back({alone() ? "" : cells_[r].when, "", pictures_.metres_per_pixel()});
     for (std::size_t c = 0; c < wide; ++c) {
@@ -340,7 +341,7 @@ class FramesAndSheet {
   struct Cell {
     render::Image image;
     std::string when;
-    std::array<double, 4> cloth;  // as Frames::Instant has it
+    Frames::Instant shown;  // where the cloth is
   };
 
   const F& flags_;

@@ -1,7 +1,7 @@
 // The pictures of a run: a sequence of frames, single pictures, a contact sheet.
 //
 //   simulation at rest:  positions (CUDA -> OpenGL, or by the host), values   -> studio's thread
-//   simulation goes on:  draw, letter, thumbnail                              -> PNG writer's threads
+//   simulation goes on:  draw, letter                                         -> PNG writer's threads
 #pragma once
 
 #include <filesystem>
@@ -68,7 +68,7 @@ class Pictures {
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
-  // Waits for the files so far.  A run that goes on reads its thumbnails from them.  Throws Error::machine.
+  // Waits for the files so far.  Throws Error::machine.
   void visit(Archive& archive, Run& run);
   // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
   // show; and what its pictures were drawn from, sheet.hyg.
