@@ -50,8 +50,7 @@ TEST(ReportOfDocumentation, WritesTheTablesBetweenTheirCommentsAndChecksThem) {
   const Outcome stale = program("report --check " + folder.path().string());
   EXPECT_EQ(stale.exit_code, 4);
   EXPECT_EQ(stale.err, "hysteron report: " + page.string() +
-                           ": its tables of keys or exit codes are not what --help says now; write them "
-                           "again: hysteron report " +
+                           ":3: these tables are not what --help says now; write it again: hysteron report " +
                            folder.path().string() + "\n");
   EXPECT_EQ(text_of(page), kEmpty) << "--check writes nothing";
   const Outcome written = program("report " + folder.path().string());
@@ -78,12 +77,12 @@ TEST(ReportOfDocumentation, HasTheExitCodesOfHelp) {
   EXPECT_NE(table.find("\n| 2 | the request is wrong |\n"), std::string::npos) << table;
 }
 
-TEST(ReportOfDocumentation, RefusesTablesWithoutTheirEnd) {
+TEST(ReportOfDocumentation, TellsOfTablesWithoutTheirEnd) {
   const Folder folder;
   std::ofstream(folder.path() / "scenes.md") << "<!-- keys:begin -->\n";
   const Outcome outcome = program("report " + folder.path().string());
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("scenes.md has <!-- keys:begin --> without <!-- keys:end --> below it"),
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.err.find("scenes.md:1: <!-- keys:begin --> needs <!-- keys:end --> below it"),
             std::string::npos)
       << outcome.err;
 }
