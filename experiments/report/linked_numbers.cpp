@@ -67,14 +67,22 @@ std::size_t opening(const std::string& prose, std::size_t close) {
   return prose.npos;
 }
 
+// A paragraph may be broken at any blank.
+std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    const bool blank = c == '\n' || c == ' ';
+    if (!blank || !line.ends_with(' ')) line += blank ? ' ' : c;
+  }
+  return line;
+}
+
 std::vector<Reference> references_in(const std::string& prose) {
   std::vector<Reference> all;
   for (std::size_t at = 0; (at = prose.find("][", at)) != prose.npos; ++at) {
     const std::size_t open = opening(prose, at), close = prose.find(']', at + 2);
     if (open == prose.npos || close == prose.npos) continue;
-    std::string label = prose.substr(at + 2, close - at - 2);
-    std::replace(label.begin(), label.end(), '\n', ' ');
-    all.push_back({open + 1, at - open - 1, label});
+    all.push_back({open + 1, at - open - 1, in_one_line(prose.substr(at + 2, close - at - 2))});
   }
   return all;
 }
@@ -101,7 +109,7 @@ void write_numbers(Page& page) {
       continue;
     }
     definition->second.used = true;
-    const std::string found = page.text.substr(link.text, link.text_length),
+    const std::string found = in_one_line(page.text.substr(link.text, link.text_length)),
                       &number = definition->second.number;
     if (number.empty() || number == found) continue;
     page.faults.push_back({line, "\"" + found + "\" must be \"" + number + "\"", true});

@@ -88,6 +88,8 @@ TEST_F(LinkedNumbers, AreWrittenIntoTheBracketsAndCheckedByReport) {
   EXPECT_EQ(text_of(root_.path() / "README.md"),
             "Again [12,345][steps].\n\n[steps]: results/crease/manifest.json \"/steps ,\"\n");
   EXPECT_EQ(faults(), "");
+  write_page("It opens to [127.8° ±\n  0.1 ± 2e-7][crease-angle] (the [run][run]).\n" + foot);
+  EXPECT_EQ(faults(), "") << "a paragraph may be broken at any blank";
 }
 
 TEST_F(LinkedNumbers, MustHaveADefinitionThatIsUsedAndLeadsToAFile) {
