@@ -40,7 +40,7 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
       ++quotations;
     }
   }
-  EXPECT_EQ(quotations, 3) << "two scripts of Python, one of ParaView";
+  EXPECT_EQ(quotations, 2) << "two scripts of Python";
 }
 
 TEST(Quotations, WithoutAnEndOrWithOtherTextAreFound) {
