@@ -88,13 +88,11 @@ std::string key_tables() {
   Command command;
   Phase phase;
   MetricRequest metric;
-  Options options;
   return section("Scene", bind_scene(scene)) + section("`[[pin]]`", bind_pin(pin)) +
          section("`[[obstacle]]`", bind_obstacle(obstacle)) +
          section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
          section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) +
-         section("`[[metric]]`", bind_metric(metric)) + section("Run and pictures", bind_options(options)) +
-         "\n";
+         section("`[[metric]]`", bind_metric(metric)) + "\n";
 }
 
 void write_keys(Page& page) {

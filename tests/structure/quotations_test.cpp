@@ -40,7 +40,7 @@ TEST(Quotations, InTheDocumentationAreTheFilesTheyName) {
       ++quotations;
     }
   }
-  EXPECT_EQ(quotations, 2) << "two scripts of Python";
+  EXPECT_EQ(quotations, 1) << "a script of Python";
 }
 
 TEST(Quotations, WithoutAnEndOrWithOtherTextAreFound) {
