@@ -65,9 +65,11 @@ std::vector<Page> documentation(const fs::path& folder) {
   std::vector<Page> pages;
   for (const fs::path& file : files) {
     Page page{file, whole_file(file, "cannot read " + file.string()), {}};
-    write_keys(page);
+    write_numbers(page);  // first, since tables may move lines
     write_tables(page);
-    write_numbers(page);
+    write_keys(page);
+    std::stable_sort(page.faults.begin(), page.faults.end(),
+                     [](const Fault& a, const Fault& b) { return a.line < b.line; });
     pages.push_back(std::move(page));
   }
   return pages;

@@ -39,6 +39,14 @@ std::string table_of(const Keys& keys) {
   return table;
 }
 
+// Those of a fabric are its file's, and in `--help fabric`.
+Keys without_fabric(Keys keys) {
+  std::erase_if(keys, [](const BoundKey& key) {
+    return key.description.path.starts_with("fabric.") && key.description.path != "fabric.name";
+  });
+  return keys;
+}
+
 std::string section(const std::string& title, const Keys& keys) {
   return "\n### " + title + "\n" + table_of(keys);
 }
@@ -88,7 +96,7 @@ std::string key_tables() {
   Command command;
   Phase phase;
   MetricRequest metric;
-  return section("Scene", bind_scene(scene)) + section("`[[pin]]`", bind_pin(pin)) +
+  return section("Scene", without_fabric(bind_scene(scene))) + section("`[[pin]]`", bind_pin(pin)) +
          section("`[[obstacle]]`", bind_obstacle(obstacle)) +
          section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
          section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) +

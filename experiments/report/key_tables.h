@@ -6,8 +6,8 @@
 
 namespace hysteron::experiments {
 
-// A table for each kind of key (scene, [[pin]], [[obstacle]], keyframe, [[command]], [[phase]]), from the
-// tables that reading, flags, --help and checks come from.
+// A table for each kind of key (scene, [[pin]], [[obstacle]], keyframe, [[command]], [[phase]], [[metric]]),
+// from the tables that reading, flags, --help and checks come from; fabrics and runs have theirs in --help.
 std::string key_tables();
 
 // A line for each exit code.

@@ -16,8 +16,8 @@ struct Fault {
 
 struct Page {
   std::filesystem::path file;
-  std::string text;           // first as it stands, then as it should be
-  std::vector<Fault> faults;  // in the order of lines, for each kind
+  std::string text;  // first as it stands, then as it should be
+  std::vector<Fault> faults;
 };
 
 // 1 for the first.

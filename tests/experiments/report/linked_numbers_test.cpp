@@ -97,7 +97,7 @@ TEST_F(LinkedNumbers, MustHaveADefinitionThatIsUsedAndLeadsToAFile) {
   EXPECT_EQ(faults(), "1: [nowhere] is not defined\n3: [idle] is defined and never used\n");
   write_page(
       "See [a][gone] and\n[b](../gone.md#part), [c](#part), [d](https://example.org).\n\n[gone]: gone.md\n");
-  EXPECT_EQ(faults(), "4: no file gone.md\n2: no file ../gone.md\n");
+  EXPECT_EQ(faults(), "2: no file ../gone.md\n4: no file gone.md\n");
   write_page(
       "See [5][x].\n\n[x]: ../results/bench.json \"/1/ms .0f\"\n[x]: ../results/bench.json \"/0/ms .0f\"\n");
   EXPECT_NE(faults().find("4: [x] is defined twice\n"), std::string::npos);
