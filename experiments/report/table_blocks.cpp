@@ -1,6 +1,7 @@
 #include "experiments/report/table_blocks.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "experiments/report/number_source.h"
 #include "sim/base/error.h"
@@ -157,7 +158,9 @@ void write_tables(Page& page) {
   const std::string before = page.text;
   std::string after;
   std::size_t from = 0;
-  for (std::size_t at; (at = before.find(kOpen, from)) != before.npos;) {
+  // At the start of a line: elsewhere it is quoted.
+  for (std::size_t at; (at = before.find(std::string("\n").append(kOpen), from)) != before.npos;) {
+    ++at;
     const int line = line_at(before, at);
     const std::size_t words = at + kOpen.size(), close = before.find(kClose, words),
                       first = close + kClose.size() + 1, end = before.find(kEnd, words);

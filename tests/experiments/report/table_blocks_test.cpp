@@ -20,7 +20,7 @@ class TableBlocks : public RecordedResults {
     return text.substr(open.size(), text.size() - open.size() - close.size());
   }
   std::string fault(const std::string& words) const {
-    write_page("<!-- table " + words + " -->\n<!-- /table -->\n");
+    write_page("Like `<!-- table`:\n<!-- table " + words + " -->\n<!-- /table -->\n");
     return faults();
   }
 };
@@ -51,13 +51,13 @@ TEST_F(TableBlocks, HaveARowForEachValueOfAColumnAndForEachFile) {
 
 TEST_F(TableBlocks, SayWhichRowOrColumnIsMissing) {
   EXPECT_EQ(fault("../results/bench.json law={} | law = wong; prandtl | ms = ms .1f"),
-            "1: prandtl, ms: ../results/bench.json has no row law=prandtl\n");
+            "2: prandtl, ms: ../results/bench.json has no row law=prandtl\n");
   EXPECT_EQ(fault("../results/bench.json law={} | law = each element | ms = ms .1f"),
-            "1: ../results/bench.json has no column element\n");
+            "2: ../results/bench.json has no column element\n");
   EXPECT_EQ(fault("../results/bench.json law={} | law = wong | ms"),
-            "1: \"ms\" must be HEAD = what stands below it\n");
+            "2: \"ms\" must be HEAD = what stands below it\n");
   EXPECT_EQ(fault("../results/bench.json"),
-            "1: a table needs a file, its rows and a column, with | between them\n");
+            "2: a table needs a file, its rows and a column, with | between them\n");
   write_page("\n<!-- table ../results/bench.json | law = wong | ms = ms .1f -->\n");
   EXPECT_EQ(faults(), "2: a table must end with <!-- /table --> below it\n");
 }
