@@ -1,18 +1,13 @@
 #include "experiments/report/key_tables.h"
 
-#include <algorithm>
-
 #include "experiments/run/metrics.h"
 #include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/experiment.h"
-#include "sim/base/error.h"
-#include "sim/base/whole_file.h"
 #include "sim/scene/keys.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 // A cell must not end at a bar.
 std::string cell(const std::string& text) {
@@ -44,6 +39,14 @@ std::string table_of(const Keys& keys) {
   return table;
 }
 
+// Those of a fabric are its file's, and in `--help fabric`.
+Keys without_fabric(Keys keys) {
+  std::erase_if(keys, [](const BoundKey& key) {
+    return key.description.path.starts_with("fabric.") && key.description.path != "fabric.name";
+  });
+  return keys;
+}
+
 std::string section(const std::string& title, const Keys& keys) {
   return "\n### " + title + "\n" + table_of(keys);
 }
@@ -55,18 +58,21 @@ struct Marked {
 };
 const Marked kMarked[] = {{"keys", key_tables}, {"exit-codes", exit_code_table}};
 
-// Whether the page has such a place; what is there becomes what should be.
-bool rewrite(KeyPage& page, const Marked& marked) {
+// What is there becomes what should be.
+void write_between(Page& page, const Marked& marked) {
   const std::string begin = "<!-- " + marked.name + ":begin -->", end = "<!-- " + marked.name + ":end -->";
   const std::size_t at = page.text.find(begin), first = at + begin.size();
-  if (at == page.text.npos) return false;
+  if (at == page.text.npos) return;
+  const int line = line_at(page.text, at);
   const std::size_t last = page.text.find(end, first);
-  if (last == page.text.npos)
-    throw Error::request(page.file.string() + " has " + begin + " without " + end + " below it");
+  if (last == page.text.npos) {
+    page.faults.push_back({line, begin + " needs " + end + " below it"});
+    return;
+  }
   const std::string tables = "\n" + marked.text();
-  page.stale = page.stale || page.text.compare(first, last - first, tables) != 0;
+  if (page.text.compare(first, last - first, tables) == 0) return;
+  page.faults.push_back({line, "these tables are not what --help says now", true});
   page.text.replace(first, last - first, tables);
-  return true;
 }
 
 }  // namespace
@@ -90,29 +96,15 @@ std::string key_tables() {
   Command command;
   Phase phase;
   MetricRequest metric;
-  Options options;
-  return section("Scene", bind_scene(scene)) + section("`[[pin]]`", bind_pin(pin)) +
+  return section("Scene", without_fabric(bind_scene(scene))) + section("`[[pin]]`", bind_pin(pin)) +
          section("`[[obstacle]]`", bind_obstacle(obstacle)) +
          section("`keys` of a pin or an obstacle", bind_keyframe(keyframe)) +
          section("`[[command]]`", bind_command(command)) + section("`[[phase]]`", bind_phase(phase)) +
-         section("`[[metric]]`", bind_metric(metric)) + section("Run and pictures", bind_options(options)) +
-         "\n";
+         section("`[[metric]]`", bind_metric(metric)) + "\n";
 }
 
-std::vector<KeyPage> key_pages(const fs::path& folder) {
-  std::vector<KeyPage> pages;
-  std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
-    if (entry.path().extension() != ".md") continue;
-    KeyPage page{entry.path(), whole_file(entry.path(), "cannot read " + entry.path().string())};
-    bool any = false;
-    for (const Marked& marked : kMarked) any = rewrite(page, marked) || any;
-    if (!any) continue;
-    pages.push_back(std::move(page));
-  }
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
-  std::sort(pages.begin(), pages.end(), [](const KeyPage& a, const KeyPage& b) { return a.file < b.file; });
-  return pages;
+void write_keys(Page& page) {
+  for (const Marked& marked : kMarked) write_between(page, marked);
 }
 
 }  // namespace hysteron::experiments

@@ -1,10 +1,11 @@
 #include "experiments/report/number_source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <sstream>
-#include <vector>
 
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/pages/simulated_run.h"
@@ -17,26 +18,34 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// The words of a marker, taken one after the other.
+// The words of a title, taken one after the other.
 class Words {
  public:
-  explicit Words(const std::string& text) : stream_(text) {}
+  explicit Words(const std::string& text) {
+    for (std::size_t at = 0; (at = text.find_first_not_of(" \n", at)) != text.npos;) {
+      const bool quoted = text[at] == '\'';
+      std::size_t end = quoted ? at + 1 : text.find_first_of(" \n", at);
+      // The apostrophe in `'the chapter's'` is followed by a letter.
+      while (quoted && (end = text.find('\'', end)) != text.npos && end + 1 < text.size() &&
+             text[end + 1] != ' ' && text[end + 1] != '\n')
+        ++end;
+      if (quoted && end == text.npos) throw Error::request("a quote is not closed");
+      words_.push_back(text.substr(at + quoted, end == text.npos ? end : end - at - quoted));
+      at = end == text.npos ? text.size() : end + quoted;
+    }
+  }
 
   std::string next(const char* what) {
-    std::string word;
-    if (!(stream_ >> std::ws) || stream_.peek() == EOF) throw Error::request(std::string("needs ") + what);
-    if (stream_.peek() != '"') {
-      stream_ >> word;
-      return word;
-    }
-    stream_.get();
-    if (!std::getline(stream_, word, '"') || stream_.eof()) throw Error::request("a quote is not closed");
-    return word;
+    if (done()) throw Error::request(std::string("needs ") + what);
+    return words_[at_++];
   }
-  bool done() { return !(stream_ >> std::ws) || stream_.peek() == EOF; }
+  // The next word, which stays; "" behind the last.
+  std::string ahead() const { return done() ? "" : words_[at_]; }
+  bool done() const { return at_ == words_.size(); }
 
  private:
-  std::istringstream stream_;
+  std::vector<std::string> words_;
+  std::size_t at_ = 0;
 };
 
 std::optional<double> as_number(const std::string& text) {
@@ -62,23 +71,45 @@ double at_pointer(const Json& json, const std::string& pointer, const std::strin
   }
 }
 
-// A run's metrics, or a JSON file.
-struct Source {
-  fs::path path;
-  std::string name;  // as the marker spells it
-  Json json;
-  bool is_metric = false;  // the number has a name that error keys start with
-  std::string key;
-  std::string cell;  // of a CSV file
+// A number, and what its errors are looked up in.
+struct Found {
+  double value = 0;                      // NaN for a cell that is none
+  std::optional<std::string> cell;       // of a table
+  std::string name;                      // of a metric or a column; "" of a JSON pointer
+  std::map<std::string, double> beside;  // the other metrics of the run, the other cells of the row
 };
 
-double metric_of(const Source& source, const std::string& key) {
-  const Json metrics = source.json.value("metrics", Json::object());
+Found metric_of(const Json& manifest, const std::string& key, const std::string& file) {
+  const Json metrics = manifest.value("metrics", Json::object());
+  Found found;
   std::vector<std::string> known;
-  for (const auto& [name, value] : metrics.items()) known.push_back(name);
-  if (!metrics.contains(key))
-    throw Error::request(source.name + "/manifest.json has no metric " + key + hint(key, known));
-  return number_of(metrics[key], "metric " + key + " of " + source.name);
+  for (const auto& [name, value] : metrics.items()) {
+    known.push_back(name);
+    if (value.is_number()) found.beside[name] = value.get<double>();
+  }
+  if (!metrics.contains(key)) throw Error::request(file + " has no metric " + key + hint(key, known));
+  found.value = number_of(metrics[key], "metric " + key + " of " + file);
+  found.name = key;
+  return found;
+}
+
+std::string text_in(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+// A CSV file, or a list of objects of which each is a row.
+TextTable table_at(const fs::path& path, const std::string& file) {
+  if (path.extension() == ".csv") return read_words(path);
+  const Json list = read_json(path);
+  TextTable table;
+  if (!list.is_array()) throw Error::request(file + " is no list: it needs a JSON pointer such as /steps");
+  for (const Json& object : list)
+    for (const auto& [key, value] : object.items())
+      if (std::find(table.head.begin(), table.head.end(), key) == table.head.end()) table.head.push_back(key);
+  for (const Json& object : list) {
+    table.rows.emplace_back();
+    for (const std::string& key : table.head)
+      table.rows.back().push_back(object.contains(key) ? text_in(object[key]) : "");
+  }
+  return table;
 }
 
 std::size_t column_of(const TextTable& table, const std::string& name, const std::string& file) {
@@ -103,42 +134,42 @@ std::vector<std::pair<std::size_t, std::string>> conditions(const TextTable& tab
   return wanted;
 }
 
-std::string cell_of(const Source& source, const std::string& row, const std::string& column) {
-  const TextTable table = read_words(source.path);
-  const auto wanted = conditions(table, row, source.name);
-  const std::size_t at = column_of(table, column, source.name);
+// Whether a field of a table is the one that is asked for; "4.0" is 4.
+bool same(const std::string& field, const std::string& asked) {
+  return field == asked || (as_number(field) && as_number(field) == as_number(asked));
+}
+
+Found cell_of(const TextTable& table, const std::string& row, const std::string& column,
+              const std::string& file) {
+  const auto wanted = conditions(table, row, file);
+  const std::size_t at = column_of(table, column, file);
   const std::vector<std::string>* found = nullptr;
   for (const auto& candidate : table.rows) {
     bool fits = true;
-    for (const auto& [c, value] : wanted) fits = fits && candidate[c] == value;
-    if (fits && found) throw Error::request(source.name + " has several rows " + row);
+    for (const auto& [c, value] : wanted) fits = fits && same(candidate[c], value);
+    if (fits && found) throw Error::request(file + " has several rows " + row);
     if (fits) found = &candidate;
   }
-  if (!found) throw Error::request(source.name + " has no row " + row);
-  return (*found)[at];
+  if (!found) throw Error::request(file + " has no row " + row);
+  Found cell{as_number((*found)[at]).value_or(std::nan("")), (*found)[at], column, {}};
+  for (std::size_t c = 0; c < table.head.size(); ++c)
+    if (const auto value = as_number((*found)[c])) cell.beside[table.head[c]] = *value;
+  return cell;
 }
 
-// Reads the words of one source and the number that they lead to; NaN for a cell that is none.
-double value_of(Source& source, Words& words) {
-  if (source.path.extension() == ".csv") {
-    const std::string row = words.next("a row"), column = words.next("a column");
-    source.cell = cell_of(source, row, column);
-    return as_number(source.cell).value_or(std::nan(""));
+// Reads the words of one source and the number that they lead to.
+Found found_in(const std::string& file, const fs::path& folder, Words& words) {
+  const fs::path path = folder / file, name = path.filename();
+  if (words.ahead().starts_with('/') && path.extension() == ".json")
+    return {at_pointer(read_json(path), words.next("a JSON pointer"), file), {}, "", {}};
+  if (name == "manifest.json" || name == "errors.csv") {
+    if (!fs::exists(path)) throw Error::request("no file " + file);
+    return metric_of(read_json(path.parent_path() / "manifest.json"), words.next("a metric"), file);
   }
-  source.key = words.next("a metric or a JSON pointer");
-  const bool is_file = source.path.extension() == ".json";
-  source.json = read_json(is_file ? source.path : source.path / "manifest.json");
-  if (source.key.starts_with('/')) return at_pointer(source.json, source.key, source.name);
-  if (is_file) throw Error::request(source.name + " needs a JSON pointer such as /0/ms_per_step");
-  source.is_metric = true;
-  return metric_of(source, source.key);
-}
-
-Source source_at(const std::string& name, const fs::path& root) {
-  Source source;
-  source.name = name;
-  source.path = root / name;
-  return source;
+  const TextTable table = table_at(path, file);
+  std::string row = words.next("a row");
+  while (words.ahead().find('=') != std::string::npos) row += "&" + words.next("a column");
+  return cell_of(table, row, words.next("a column"), file);
 }
 
 struct Format {
@@ -175,34 +206,49 @@ std::string written(double value, const Format& format) {
 }
 
 // " ± 0.1 ± 0.3 ± 0.2"
-std::string errors_of(const Source& source, const Format& format, double factor) {
-  if (!source.is_metric) throw Error::request("only a metric has errors: leave +- out");
-  const Json metrics = source.json.value("metrics", Json::object());
+std::string errors_of(const Found& found, const Format& format, double factor) {
+  const std::string& name = found.name;
+  const bool is_mean = name.ends_with("_mean");
+  const std::string one = is_mean ? name.substr(0, name.size() - 5) : name;
+  std::vector<std::string> errors = {one + "_step_error", one + "_mesh_error"};
+  if (is_mean)
+    errors.insert(errors.end(), {name + "_stderr", one + "_stderr"});
+  else
+    errors.push_back(one + "_draw_error");
   std::string text;
-  for (const char* kind : {"_step_error", "_mesh_error", "_draw_error"}) {
-    const auto error = metrics.find(source.key + kind);
-    if (error != metrics.end() && error->is_number())
-      text += " ± " + written(std::abs(factor) * error->get<double>(), format);
-  }
-  if (text.empty()) throw Error::request(source.key + " of " + source.name + " has no errors: leave +- out");
+  for (const std::string& error : errors)
+    if (const auto at = found.beside.find(error); !name.empty() && at != found.beside.end())
+      text += " ± " + written(std::abs(factor) * at->second, format);
+  if (text.empty())
+    throw Error::request((name.empty() ? "this number" : name) + " has no errors: leave +- out");
   return text;
 }
 
 }  // namespace
 
-fs::path path_in(const std::string& source) { return Words(source).next("a folder or a file"); }
+bool names_a_file(const std::string& word) { return word.ends_with(".csv") || word.ends_with(".json"); }
 
-std::string number_from(const std::string& text, const fs::path& root) {
-  Words words(text);
-  Source source = source_at(words.next("a folder or a file"), root);
-  double value = value_of(source, words), factor = 1;
+std::vector<std::string> values_of_column(const std::string& target, const std::string& column,
+                                          const fs::path& folder) {
+  const TextTable table = table_at(folder / target, target);
+  const std::size_t at = column_of(table, column, target);
+  std::vector<std::string> values;
+  for (const auto& row : table.rows)
+    if (std::find(values.begin(), values.end(), row[at]) == values.end()) values.push_back(row[at]);
+  return values;
+}
+
+std::string number_from(const NumberSource& source, const fs::path& folder) {
+  Words words(source.title);
+  Found found = found_in(source.target, folder, words);
+  double factor = 1;
   std::string word = words.next("a format");
-  if (word == "text" && words.done() && source.path.extension() == ".csv") return source.cell;
+  if (word == "text" && words.done() && found.cell) return *found.cell;
+  if (found.cell && found.cell->empty()) return "–";
   if (word == "minus" || word == "over") {
-    Source other = source_at(words.next("a folder or a file after minus or over"), root);
-    const double second = value_of(other, words);
-    value = word == "over" ? value / second : value - second;
-    source.is_metric = false;
+    const std::string other = names_a_file(words.ahead()) ? words.next("a file") : source.target;
+    const double second = found_in(other, folder, words).value;
+    found = {word == "over" ? found.value / second : found.value - second, {}, "", {}};
     word = words.next("a format");
   }
   if (word == "times") {
@@ -212,12 +258,12 @@ std::string number_from(const std::string& text, const fs::path& root) {
     factor = *read;
     word = words.next("a format");
   }
-  if (!std::isfinite(factor * value)) throw Error::request("this is no finite number");
-  std::string result = written(factor * value, format_of(word));
+  if (!std::isfinite(factor * found.value)) throw Error::request("this is no finite number");
+  std::string result = written(factor * found.value, format_of(word));
   if (words.done()) return result;
   word = words.next("a format of errors");
   if (word.starts_with("+-") && words.done())
-    return result + errors_of(source, format_of(word.substr(2)), factor);
+    return result + errors_of(found, format_of(word.substr(2)), factor);
   throw Error::request("\"" + word + "\" is one word too many");
 }
 

@@ -1,9 +1,9 @@
 // `hysteron report`: a run's folder, or a folder of runs, as one page; what documentation takes from runs and
 // from the tables of keys.
+#include <algorithm>
 #include <iostream>
 
-#include "experiments/report/key_tables.h"
-#include "experiments/report/marked_numbers.h"
+#include "experiments/report/documentation.h"
 #include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -24,7 +24,7 @@ struct ReportFlags {
 
 // clang-format off
 const KeyRow<ReportFlags> kRows[] = {
-    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page, a report.html below it, a number that the documentation beside it takes from it, or a table of keys is missing or stale"},
+    {"check", at<&ReportFlags::check>, "", any(), "", "write nothing; exit 4 if DIR's page or a report.html below it is missing or stale, or if a number, a table or a link of documentation is wrong"},
     {"self-contained", at<&ReportFlags::self_contained>, "", any(), "", "embed pictures instead of linking them: a page that can be sent alone"},
 };
 // clang-format on
@@ -51,53 +51,48 @@ bool are_pages_stale(const fs::path& folder) {
   return !stale.empty();
 }
 
-bool are_numbers_stale(const fs::path& results) {
-  const std::vector<StaleNumber> stale = stale_numbers(results);
-  for (const StaleNumber& number : stale) {
-    complain() << number.file.string() << ":" << number.line << ": \"" << number.found << "\" must be \""
-               << number.expected << "\"; write it again: hysteron report " << results.string() << std::endl;
-  }
-  return !stale.empty();
-}
-
-bool are_keys_stale(const fs::path& folder, const std::vector<KeyPage>& pages) {
+// Whether there are any; those that writing the page again does not mend are told always.
+bool tell_faults(const Page& page, const fs::path& folder, bool all) {
   bool any = false;
-  for (const KeyPage& page : pages) {
-    if (!page.stale) continue;
-    complain() << page.file.string()
-               << ": its tables of keys or exit codes are not what --help says now; write them again: "
-               << "hysteron report " << folder.string() << std::endl;
+  for (const Fault& fault : page.faults) {
+    if (fault.mended && !all) continue;
+    complain() << page.file.string() << ":" << fault.line << ": " << fault.what
+               << (fault.mended ? "; write it again: hysteron report " + folder.string() : "") << std::endl;
     any = true;
   }
   return any;
 }
 
 int check(const fs::path& folder) {
-  const std::vector<KeyPage> documentation = key_pages(folder);
-  if (!documentation.empty()) return are_keys_stale(folder, documentation) ? kDiffers : 0;
-  const bool pages = are_pages_stale(folder), numbers = !has_manifest(folder) && are_numbers_stale(folder);
-  return pages || numbers ? kDiffers : 0;
+  bool stale = false;
+  if (!is_documentation(folder)) return are_pages_stale(folder) ? kDiffers : 0;
+  for (const Page& page : documentation(folder)) stale = tell_faults(page, folder, true) || stale;
+  return stale ? kDiffers : 0;
 }
 
-void write_keys(const std::vector<KeyPage>& documentation) {
-  for (const KeyPage& page : documentation) {
+int write_documentation(const fs::path& folder) {
+  bool wrong = false;
+  for (const Page& page : documentation(folder)) {
+    wrong = tell_faults(page, folder, false) || wrong;
+    if (std::none_of(page.faults.begin(), page.faults.end(), [](const Fault& f) { return f.mended; }))
+      continue;
     AtomicFile file(page.file.string());
     file.stream() << page.text;
     file.commit();
     std::cout << page.file.string() << std::endl;
   }
+  return wrong ? kDiffers : 0;
 }
 
-void write(const fs::path& folder, PageForm form) {
-  const std::vector<KeyPage> documentation = key_pages(folder);
-  if (!documentation.empty()) return write_keys(documentation);
+int write(const fs::path& folder, PageForm form) {
   if (has_manifest(folder)) {
     const FolderLock still(folder);  // a run that is not over writes this page itself
     std::cout << write_report(folder, form).string() << std::endl;
-    return;
+    return 0;
   }
+  if (is_documentation(folder)) return write_documentation(folder);
   std::cout << write_gallery(folder, form).string() << std::endl;
-  for (const fs::path& page : write_numbers(folder)) std::cout << page.string() << std::endl;
+  return 0;
 }
 
 int run_report(const CommandLine& line) {
@@ -111,10 +106,7 @@ int run_report(const CommandLine& line) {
   int exit_code = 0;
   for (const std::string& name : line.names) {
     const fs::path folder = folder_of(name);
-    if (flags.check)
-      exit_code = std::max(exit_code, check(folder));
-    else
-      write(folder, form);
+    exit_code = std::max(exit_code, flags.check ? check(folder) : write(folder, form));
   }
   return exit_code;
 }
@@ -125,8 +117,8 @@ Experiment report() {
   return {
       .name = "report",
       .question =
-          "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html, and "
-          "its numbers in the README.md and docs/ beside it; the tables of keys in a folder of documentation",
+          "write a run's folder as one page, report.html; a folder of runs as a gallery, index.html; in a "
+          "folder of documentation the numbers and tables that it takes from runs, and its tables of keys",
       .run = run_report,
       .own_keys = own_keys_of<kRows>,
       .names = "DIR",
