@@ -25,7 +25,8 @@ using Places = std::vector<std::size_t>;  // of columns
 // Where things are; decided before anything is drawn.
 struct Page {
   int width, gap, margin, cell_width;  // [pixels]; `margin` is that of times
-  std::size_t numbers;                 // behind a name
+  std::size_t numbers;                 // behind a name, or below it
+  int caption_lines;                   // 1, or 2 where no number finds room behind a name
   float letters;
   std::vector<Places> blocks;
   std::vector<int> row_height;  // of pictures
@@ -39,7 +40,7 @@ struct Page {
            note_lines * line();
   }
   int block_height() const {
-    int height = (families ? line() : 0) + line() + gap / 2;
+    int height = (families ? line() : 0) + caption_lines * line() + gap / 2;
     for (int row : row_height) height += row + gap;
     return height + gap;
   }
@@ -71,8 +72,8 @@ std::string fitting(std::string text, float letters, float room) {
   return text_width(text, letters) > room ? "" : text;
 }
 
-std::string caption_of(const ComparisonColumn& column, std::size_t numbers) {
-  std::string text = column.name;
+// What stands before numbers, and as many of them.
+std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers) {
   for (std::size_t i = 0; i < std::min(numbers, column.numbers.size()); ++i)
     text += (text.empty() ? "" : kBetween) + column.numbers[i];
   return text;
@@ -80,10 +81,13 @@ std::string caption_of(const ComparisonColumn& column, std::size_t numbers) {
 
 float mark_width(const ComparisonColumn& column, float letters) { return column.color ? 1.6f * letters : 0; }
 
-float widest_caption(const ComparisonSheet& sheet, std::size_t numbers, float letters) {
+// Of names with their marks and so many numbers, or of the numbers alone.
+float widest_caption(const ComparisonSheet& sheet, std::size_t numbers, float letters, bool named = true) {
   float widest = 0;
   for (const ComparisonColumn& column : sheet.columns)
-    widest = std::max(widest, mark_width(column, letters) + text_width(caption_of(column, numbers), letters));
+    widest =
+        std::max(widest, mark_width(column, letters) +
+                             text_width(with_numbers(named ? column.name : "", column, numbers), letters));
   return widest;
 }
 
@@ -170,6 +174,9 @@ bool has_one_scale(const ComparisonSheet& sheet) {
   return true;
 }
 
+// For words in the margin, whose last letter keeps off the pictures.
+float phase_room(const Page& page) { return static_cast<float>(page.margin) - page.letters; }
+
 Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
   Page page{};
   page.width = sheet.width;
@@ -182,14 +189,21 @@ Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
   if (page.blocks.size() > 1) columns = std::max(columns, beside);
   page.cell_width = (page.width - page.margin - page.gap) / static_cast<int>(columns) - page.gap;
   page.families = page.blocks.size() > 1 && families_of(sheet).size() > 1;
-  page.numbers = most_numbers(sheet);
-  while (page.numbers > 0 &&
-         widest_caption(sheet, page.numbers, page.letters) > static_cast<float>(page.cell_width))
-    --page.numbers;
+  const auto fitting_numbers = [&](bool named) {
+    std::size_t numbers = most_numbers(sheet);
+    while (numbers > 0 &&
+           widest_caption(sheet, numbers, page.letters, named) > static_cast<float>(page.cell_width))
+      --numbers;
+    return numbers;
+  };
+  page.numbers = fitting_numbers(true);
+  page.caption_lines = 1;
+  if (page.numbers == 0 && fitting_numbers(false) > 0)
+    page.numbers = fitting_numbers(false), page.caption_lines = 2;
   page.row_height = row_heights(sheet, page.cell_width);
   // Low pictures leave room for what stands beside them.
   for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
-    const auto words = broken(sheet.rows[r].phase, page.letters, static_cast<float>(page.margin));
+    const auto words = broken(sheet.rows[r].phase, page.letters, phase_room(page));
     page.row_height[r] =
         std::max(page.row_height[r], static_cast<int>(page.line() * static_cast<float>(1 + words.size())));
   }
@@ -381,7 +395,7 @@ class Drawing {
       y_ += page_.line();
     }
     for (std::size_t i = 0; i < block.size(); ++i) caption(sheet_.columns[block[i]], page_.left(i));
-    y_ += page_.line() + page_.gap / 2;
+    y_ += page_.caption_lines * page_.line() + page_.gap / 2;
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
       instant(sheet_.rows[r], r);
       for (std::size_t i = 0; i < block.size(); ++i)
@@ -395,7 +409,10 @@ class Drawing {
     const float letters = page_.letters, mark = mark_width(column, letters), x = static_cast<float>(left),
                 top = static_cast<float>(y_) + 0.3f * letters;
     if (column.color) draw_rectangle(image_, x, top, x + letters, top + letters, *column.color);
-    text(caption_of(column, page_.numbers), x + mark, y_, kInk, static_cast<float>(page_.cell_width) - mark);
+    const float room = static_cast<float>(page_.cell_width) - mark;
+    const bool below = page_.caption_lines == 2;
+    text(with_numbers(column.name, column, below ? 0 : page_.numbers), x + mark, y_, kInk, room);
+    if (below) text(with_numbers("", column, page_.numbers), x + mark, y_ + page_.line(), kGrey, room);
   }
 
   // In the margin: its time, and what is happening; a scale where rows differ in it.
@@ -404,7 +421,7 @@ class Drawing {
     if (page_.margin == 0) return;
     int y = y_;
     text(row.time, x, y, kInk, room);
-    for (const std::string& line : broken(row.phase, page_.letters, room - page_.letters))
+    for (const std::string& line : broken(row.phase, page_.letters, phase_room(page_)))
       text(line, x, y += page_.line(), kGrey, room);
     if (row.metres_per_pixel > 0 && !has_one_scale(sheet_))
       scale(row.metres_per_pixel * shown_pixels(r), x, y + 2 * page_.line(), 0.8 * page_.margin, "");

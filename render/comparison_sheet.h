@@ -26,7 +26,7 @@ struct ComparisonCell {
 
 struct ComparisonColumn {
   std::string name;
-  std::vector<std::string> numbers;     // behind the name, as many in all columns as find room in one line
+  std::vector<std::string> numbers;     // behind the name, or below it where none finds room; as many as do
   std::optional<Rgb8> color{};          // of the mark before the name
   std::string family{};                 // columns of one family stand together; "" of a page without families
   std::vector<ComparisonCell> cells{};  // one a row

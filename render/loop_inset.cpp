@@ -1,6 +1,7 @@
 #include "render/loop_inset.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -23,6 +24,9 @@ struct Frame {
   }
   float y(double m) const {
     return top + side * static_cast<float>((shown.high_moment - m) / (shown.high_moment - shown.low_moment));
+  }
+  bool holds(float px, float py) const {
+    return px >= left && px <= left + side && py >= top && py <= top + side;
   }
 };
 
@@ -54,11 +58,29 @@ void pale(Image& image, const Frame& at) {
       mix(image.at(x, y), kPlate, kOpacity);
 }
 
+// The part of a line that is within the frame (Liang & Barsky 1984); false if none is.
+bool clip(const Frame& at, float& x0, float& y0, float& x1, float& y1) {
+  const float dx = x1 - x0, dy = y1 - y0;
+  const std::array<std::array<float, 2>, 4> sides{
+      {{-dx, x0 - at.left}, {dx, at.left + at.side - x0}, {-dy, y0 - at.top}, {dy, at.top + at.side - y0}}};
+  float enters = 0, leaves = 1;
+  for (const auto& [way, room] : sides) {
+    if (way == 0 && room < 0) return false;
+    if (way < 0) enters = std::max(enters, room / way);
+    if (way > 0) leaves = std::min(leaves, room / way);
+  }
+  if (enters > leaves) return false;
+  x1 = x0 + leaves * dx, y1 = y0 + leaves * dy;
+  x0 += enters * dx, y0 += enters * dy;
+  return true;
+}
+
 void draw_path(Image& image, const Frame& at, const Path& path, float width, const Rgb8& color) {
   for (std::size_t i = 1; i < path.curvature.size(); ++i) {
-    const float x0 = at.x(path.curvature[i - 1]), y0 = at.y(path.moment[i - 1]), x1 = at.x(path.curvature[i]),
-                y1 = at.y(path.moment[i]);
-    if (std::isfinite(x0 + y0 + x1 + y1)) draw_line(image, x0, y0, x1, y1, width, color);
+    float x0 = at.x(path.curvature[i - 1]), y0 = at.y(path.moment[i - 1]), x1 = at.x(path.curvature[i]),
+          y1 = at.y(path.moment[i]);
+    if (std::isfinite(x0 + y0 + x1 + y1) && clip(at, x0, y0, x1, y1))
+      draw_line(image, x0, y0, x1, y1, width, color);
   }
 }
 
@@ -79,6 +101,21 @@ void give_air(double& low, double& high) {
 void LoopFrame::include(const Path& path) {
   render::include(low_curvature, high_curvature, path.curvature);
   render::include(low_moment, high_moment, path.moment);
+}
+
+LoopFrame LoopFrame::median(const std::vector<LoopFrame>& frames) {
+  LoopFrame median;
+  for (double LoopFrame::*end : {&LoopFrame::low_curvature, &LoopFrame::high_curvature,
+                                 &LoopFrame::low_moment, &LoopFrame::high_moment}) {
+    std::vector<double> ends;
+    for (const LoopFrame& frame : frames) ends.push_back(frame.*end);
+    const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
+    if (middle == ends.end()) continue;
+    std::nth_element(ends.begin(), middle, ends.end(), farther);
+    median.*end = *middle;
+  }
+  return median;
 }
 
 void draw_line(Image& image, float x0, float y0, float x1, float y1, float width, const Rgb8& color) {
@@ -112,12 +149,13 @@ void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share,
   const bool below = at.y(0) - at.top < at.side / 2;
   draw_text(image, "M", left ? at.x(0) - 1.3f * letters : at.x(0) + 0.35f * letters,
             below ? at.top + at.side : at.top + letters, {kLetter, letters});
+  const bool above = at.y(0) - 1.4f * letters >= at.top;
   draw_text(image, "κ", left ? at.left : at.left + at.side - text_width("κ", letters),
-            at.y(0) - 0.4f * letters, {kLetter, letters});
+            at.y(0) + (above ? -0.4f : 1.4f) * letters, {kLetter, letters});
   draw_path(image, at, inset.reference, bold, kGhost);
   draw_path(image, at, inset.path, bold, inset.color);
   const float x = at.x(inset.path.curvature.back()), y = at.y(inset.path.moment.back());
-  if (std::isfinite(x + y)) {
+  if (std::isfinite(x + y) && at.holds(x, y)) {
     draw_line(image, x, y, x, y, 4.6f * bold, kPlate);
     draw_line(image, x, y, x, y, 3.4f * bold, inset.color);
   }

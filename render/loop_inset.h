@@ -19,6 +19,8 @@ struct LoopFrame {
   double low_curvature = 0, high_curvature = 0, low_moment = 0, high_moment = 0;
 
   void include(const Path& path);
+  // As far as half of these reach; what goes beyond is cut off.
+  static LoopFrame median(const std::vector<LoopFrame>& frames);
   bool empty() const { return low_curvature == high_curvature || low_moment == high_moment; }
 };
 
@@ -36,7 +38,7 @@ void draw_line(Image& image, float x0, float y0, float x1, float y1, float width
 
 // A square of `share` of the picture's width, or twice that of its height where that is less, in that corner,
 // with axes through zero named M and κ, whose capitals are `letters` pixels high.  Points that are not finite
-// make gaps.  An empty path draws nothing.
+// make gaps; what is outside of the frame is not drawn.  An empty path draws nothing.
 void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share, float letters);
 
 }  // namespace hysteron::render

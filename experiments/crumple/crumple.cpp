@@ -1,6 +1,6 @@
 // Crumpling: a sheet or a tube is crushed, opened, spread and hung, and keeps wrinkles (as the chapter's
 // Figure 4.1); with `--law all`, or several laws separated by commas, each of them, on one page.  The scene's
-// file says how: crumple-sphere, crumple-tube, crumple-fist, or one's own.
+// file says how: crumple-sphere, crumple-table, crumple-fist, crumple-knot, or one's own.
 #include <fmt/core.h>
 
 #include <algorithm>

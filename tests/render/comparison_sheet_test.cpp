@@ -104,11 +104,33 @@ TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
     for (int x = right.left; x < page.width(); ++x) EXPECT_GT(page.at(x, y)[0], 200);
 }
 
+TEST(ComparisonSheet, SetsNumbersBelowNamesWhereNoneFindsRoomBehind) {
+  ComparisonSheet sheet = sheet_of(5, 2);
+  for (ComparisonColumn& column : sheet.columns) column.name = "viscoelastic law";
+  const Extent first = extent_of(draw_comparison(sheet), color_of(0, 0));
+  for (std::size_t c = 1; c < 5; ++c)
+    EXPECT_EQ(extent_of(draw_comparison(sheet), color_of(c, 0)).top, first.top) << "all in one block";
+  for (ComparisonColumn& column : sheet.columns) column.numbers.clear();
+  const double line = 1.65 * sheet_letters(sheet.width);
+  EXPECT_NEAR(first.top - extent_of(draw_comparison(sheet), color_of(0, 0)).top, line, 1);
+}
+
 TEST(ComparisonSheet, WantsACellForEachRow) {
   EXPECT_EQ(error_of([] { draw_comparison({}); }).exit_code(), 2);
   ComparisonSheet sheet = sheet_of(2, 2);
   sheet.columns[1].cells.pop_back();
   EXPECT_EQ(error_of([&] { draw_comparison(sheet); }).exit_code(), 2);
+}
+
+// Words in the margin make their row as high as they are, however low its pictures.
+TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
+  ComparisonSheet sheet = sheet_of(4, 2, 400, 20);
+  const Extent low = extent_of(draw_comparison(sheet), color_of(0, 0));
+  sheet.rows[0].phase = "cycle 100, returned";
+  const Image page = draw_comparison(sheet);
+  const double line = 1.65 * sheet_letters(sheet.width);
+  EXPECT_GE(extent_of(page, color_of(0, 1)).top - extent_of(page, color_of(0, 0)).top, 4 * line - 2)
+      << "the time, cycle, 100, and returned; pictures are " << low.height() << " high";
 }
 
 // The same scale in all rows is said once, at the foot; rows that differ have a bar each.
@@ -144,6 +166,26 @@ TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
   const Extent cloth = extent_of(page, {90, 91, 92}), loop = extent_of(page, {0, 0, 220});
   EXPECT_GT(loop.right, 0);
   EXPECT_LT(loop.right, cloth.left);
+}
+
+// One law that bends ten times as far leaves the others' loops as large as they were.
+TEST(LoopInset, ReachesAsFarAsHalfOfThePathsAndCutsWhatGoesBeyond) {
+  std::vector<LoopFrame> frames(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double far = i == 2 ? 1000 : 100;
+    frames[i].include({{0, far}, {-1e-3 * far, 0}});
+  }
+  const LoopFrame frame = LoopFrame::median(frames);
+  EXPECT_EQ(frame.high_curvature, 100);
+  EXPECT_EQ(frame.low_moment, -0.1);
+  EXPECT_EQ(frame.low_curvature, 0);
+  const Rgb8 color{200, 30, 30};
+  Image picture(200, 150, {128, 128, 128});
+  draw_loop(picture, {{{0, 1000}, {0, 0}}, {}, color, frame}, Corner::bottom_right, 0.28f, 10);
+  const Extent line = extent_of(picture, color);
+  EXPECT_GT(line.width(), 20);
+  EXPECT_LT(line.right, 200 - 4) << "within the inset, whose dot is outside";
+  EXPECT_LT(line.height(), 5);
 }
 
 TEST(LoopInset, OfNoPathDrawsNothing) {

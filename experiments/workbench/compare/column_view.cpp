@@ -246,6 +246,7 @@ ProbedLoops::ProbedLoops(const std::vector<SweepColumn>& columns)
   for (const SweepColumn& column : columns)
     for (const Curve& curve : probed_curves(column))
       if (const double bent = most_bent(column, curve); bent > most) most = bent, direction = curve.plot;
+  std::vector<render::LoopFrame> frames;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     for (const Curve& curve : probed_curves(columns[c])) {
       if (curve.plot != direction) continue;
@@ -254,8 +255,9 @@ ProbedLoops::ProbedLoops(const std::vector<SweepColumn>& columns)
       loops_[c] = {curvature.x, {curvature.y, render::series_from_csv(file, "time", curve.y, "").y}};
     }
     if (law_of(columns[c]) == "prandtl" && !reference_ && !loops_[c].time.empty()) reference_ = c;
-    frame_.include(loops_[c].path);
+    if (!loops_[c].time.empty()) frames.emplace_back().include(loops_[c].path);
   }
+  frame_ = render::LoopFrame::median(frames);
 }
 
 render::Path ProbedLoops::Loop::until(double end) const {

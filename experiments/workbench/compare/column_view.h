@@ -76,7 +76,7 @@ class ProbedLoops {
   std::vector<Loop> loops_;
   std::vector<render::Rgb8> colors_;
   std::optional<std::size_t> reference_;
-  render::LoopFrame frame_;  // as large as all
+  render::LoopFrame frame_;  // of all; half of them reach beyond it at most
 };
 
 }  // namespace hysteron::experiments
