@@ -125,6 +125,7 @@ TEST(ComparisonSheet, WantsACellForEachRow) {
 // Words in the margin make their row as high as they are, however low its pictures.
 TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
   ComparisonSheet sheet = sheet_of(4, 2, 400, 20);
+  sheet.beside = 4;
   const Extent low = extent_of(draw_comparison(sheet), color_of(0, 0));
   sheet.rows[0].phase = "cycle 100, returned";
   const Image page = draw_comparison(sheet);
