@@ -127,7 +127,7 @@ TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
   ComparisonSheet sheet = sheet_of(4, 2, 400, 20);
   sheet.beside = 4;
   const Extent low = extent_of(draw_comparison(sheet), color_of(0, 0));
-  sheet.rows[0].phase = "cycle 100, returned";
+  for (ComparisonRow& row : sheet.rows) row.phase = "cycle 100, returned";
   const Image page = draw_comparison(sheet);
   const double line = 1.65 * sheet_letters(sheet.width);
   EXPECT_GE(extent_of(page, color_of(0, 1)).top - extent_of(page, color_of(0, 0)).top, 4 * line - 2)
