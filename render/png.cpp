@@ -1,29 +1,15 @@
+#include <fmt/core.h>
 #include <png.h>
 #include <zlib.h>
 
-#include <algorithm>
-#include <cctype>
 #include <csetjmp>
-#include <memory>
 #include <new>
 #include <string>
 
 #include "render/image.h"
-#include "render/palette.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STBI_NO_HDR
-#define STBI_NO_LINEAR
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace hysteron::render {
 namespace {
@@ -46,125 +32,83 @@ void choose_effort(png_structp png, PngEffort effort) {
   if (fast) png_set_compression_strategy(png, Z_RLE);  // as quick, and dithered colours repeat nowhere else
 }
 
-// What the header of a PNG file says of its pixels, and where they are.
-struct Pixels {
-  int width, height, color_type;
-  std::span<const Rgb8> palette;  // of PNG_COLOR_TYPE_PALETTE
-  const std::uint8_t* first;
-  size_t row_bytes;
-};
-
 // libpng leaves through longjmp; this function holds no object with a destructor.
-bool encode(png_structp png, png_infop header, const Pixels& pixels, PngEffort effort,
+bool encode(png_structp png, png_infop header, const Image& image, PngEffort effort,
             std::vector<std::uint8_t>& out) {
-  static_assert(sizeof(png_color) == sizeof(Rgb8));
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &out, append_bytes, no_flush);
-  png_set_IHDR(png, header, pixels.width, pixels.height, 8, pixels.color_type, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, header, image.width(), image.height(), 8,
+               image.channels() == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
   choose_effort(png, effort);
-  if (!pixels.palette.empty()) {
-    png_set_PLTE(png, header, reinterpret_cast<const png_color*>(pixels.palette.data()),
-                 static_cast<int>(pixels.palette.size()));
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);  // differences of colour numbers say nothing
-    png_set_compression_level(png, 6);  // on long runs of one number, 9 takes 4 times as long for 5 % less
-  }
   png_write_info(png, header);
-  for (int y = 0; y < pixels.height; ++y) png_write_row(png, pixels.first + y * pixels.row_bytes);
+  for (int y = 0; y < image.height(); ++y) png_write_row(png, image.at(0, y));
   png_write_end(png, nullptr);
   return true;
 }
 
-std::uint32_t big_endian(const std::uint8_t* bytes) {
-  return static_cast<std::uint32_t>(bytes[0]) << 24 | bytes[1] << 16 | bytes[2] << 8 | bytes[3];
-}
-
-// What the chunks' check sums say, which stb_image does not read: "" if all is well.
-std::string damage_of(std::span<const std::uint8_t> bytes) {
-  constexpr size_t kSignature = 8, kAround = 12;  // [bytes]; of a chunk: length, type, check sum
-  size_t at = kSignature, data = 0;
-  while (at + kAround <= bytes.size()) {
-    const size_t length = big_endian(&bytes[at]);
-    const std::string type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
-    if (length > bytes.size() - at - kAround) break;
-    const uLong sum = crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
-    const bool named = std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c); });
-    if (sum != big_endian(&bytes[at + 8 + length]))
-      return (named ? "chunk " + type : std::string("a chunk without a name")) + " is damaged";
-    if (type == "IDAT" && (data += length) == 0)
-      return "chunk IDAT is empty";  // stb_image would copy from nowhere
-    if (type == "IEND") return "";
-    at += length + kAround;
+// The header of a file that is read; it frees what libpng holds of it.
+class Reading {
+ public:
+  // Throws Error::request where it is no PNG picture or announces more than its bytes can hold.
+  Reading(std::span<const std::uint8_t> bytes, const std::string& name) : name_(name) {
+    constexpr std::uint64_t kMostDeflated = 1032;  // zlib's technical details: bytes that one byte stands for
+    png_.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_memory(&png_, bytes.data(), bytes.size()))
+      throw failure("not a PNG picture");
+    png_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // where the file does not say
+    const std::uint64_t least = std::uint64_t{png_.height} * ((png_.width + 7) / 8);  // of one bit a pixel
+    const bool too_large = std::uint64_t{png_.width} * png_.height > kMostPixels;
+    if (too_large || least > kMostDeflated * bytes.size()) {
+      png_image_free(&png_);
+      throw Error::request(fmt::format(
+          "reading {}: its header announces {}x{} pixels, more than {}", name, size().width, size().height,
+          too_large ? fmt::format("the {} that are read", kMostPixels) : "its bytes can hold"));
+    }
   }
-  return "the file ends too early";
-}
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+  ~Reading() { png_image_free(&png_); }
 
-// What a header announces, against what the rest of the file can hold: "" if it may be so.
-std::string excess_of(int width, int height, std::size_t bytes) {
-  constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
-  constexpr std::int64_t kMostDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
-  const std::int64_t least = height * ((std::int64_t{width} + 7) / 8);  // of one bit a pixel
-  const std::string announced =
-      "its header announces " + std::to_string(width) + "x" + std::to_string(height) + " pixels, ";
-  if (std::int64_t{width} * height > kMostPixels)
-    return announced + "more than the " + std::to_string(kMostPixels) + " that are read";
-  if (least > kMostDeflated * static_cast<std::int64_t>(bytes))
-    return announced + "more than its bytes can hold";
-  return "";
-}
+  ImageSize size() const { return {static_cast<int>(png_.width), static_cast<int>(png_.height)}; }
 
-Error no_picture(const std::string& name) {
-  return Error::request("reading " + name + ": not a PNG picture (" + stbi_failure_reason() + ")");
-}
+  Image image() {
+    const bool transparent = png_.format & PNG_FORMAT_FLAG_ALPHA;
+    png_.format = transparent ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+    Image image(size().width, size().height, transparent ? 4 : 3);
+    if (!png_image_finish_read(&png_, nullptr, image.pixels().data(), 0, nullptr))
+      throw failure("a broken PNG picture");
+    return image;
+  }
 
-struct Header {
-  int width = 0, height = 0, channels = 0;
+ private:
+  static constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;  // 1 GiB of RGBA
+
+  Error failure(const char* what) const {
+    return Error::request(fmt::format("reading {}: {} ({})", name_, what, png_.message));
+  }
+
+  png_image png_ = {};
+  const std::string& name_;
 };
-
-// Throws Error::request unless the header can be true and no chunk is damaged.
-Header header_of(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Header header;
-  if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &header.width, &header.height,
-                             &header.channels))
-    throw no_picture(name);
-  const std::string excess = excess_of(header.width, header.height, bytes.size());
-  if (!excess.empty()) throw Error::request("reading " + name + ": " + excess);
-  const std::string damage = damage_of(bytes);
-  if (!damage.empty()) throw Error::request("reading " + name + ": a broken PNG picture: " + damage);
-  return header;
-}
-
-int channels_kept(int channels) { return channels == 2 || channels == 4 ? 4 : 3; }
 
 std::span<const std::uint8_t> bytes_in(const std::string& file) {
   return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
-}
-
-std::vector<std::uint8_t> encoded(const Pixels& pixels, PngEffort effort) {
-  std::vector<std::uint8_t> out;
-  out.reserve(pixels.row_bytes * pixels.height / 4 + 1024);
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop header = png ? png_create_info_struct(png) : nullptr;
-  const bool done = header && encode(png, header, pixels, effort, out);
-  png_destroy_write_struct(&png, &header);
-  if (!done) throw Error::machine("encoding a PNG: libpng failed, probably out of memory");
-  return out;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort) {
   if (image.empty()) throw Error::request("encoding a PNG: the picture is empty");
-  const int color_type = image.channels() == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
-  return encoded({image.width(), image.height(), color_type, {}, image.at(0, 0), image.row_bytes()}, effort);
-}
-
-std::vector<std::uint8_t> encode_png(const PaletteImage& image) {
-  if (image.index.empty()) throw Error::request("encoding a PNG: the picture is empty");
-  return encoded({image.width, image.height, PNG_COLOR_TYPE_PALETTE, image.colors, image.index.data(),
-                  static_cast<size_t>(image.width)},
-                 PngEffort::best);
+  std::vector<std::uint8_t> out;
+  out.reserve(image.pixels().size() / 4 + 1024);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop header = png ? png_create_info_struct(png) : nullptr;
+  const bool done = header && encode(png, header, image, effort, out);
+  png_destroy_write_struct(&png, &header);
+  if (!done) throw Error::machine("encoding a PNG: libpng failed, probably out of memory");
+  return out;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {
@@ -176,15 +120,7 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
 }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
-  const int kept = channels_kept(header_of(bytes, name).channels);
-  int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels =
-      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, kept);
-  if (!pixels) throw no_picture(name);
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owner(pixels, &stbi_image_free);
-  Image image(width, height, kept);
-  std::copy_n(pixels, image.pixels().size(), image.pixels().data());
-  return image;
+  return Reading(bytes, name).image();
 }
 
 Image read_png(const std::filesystem::path& path) {
@@ -193,9 +129,8 @@ Image read_png(const std::filesystem::path& path) {
 }
 
 ImageSize png_size(const std::filesystem::path& path) {
-  const std::string bytes = file_named(path, "reading " + path.string());
-  const Header header = header_of(bytes_in(bytes), path.string());
-  return {header.width, header.height};
+  const std::string bytes = file_named(path, "reading " + path.string()), name = path.string();
+  return Reading(bytes_in(bytes), name).size();
 }
 
 }  // namespace hysteron::render

@@ -12,7 +12,6 @@
 namespace hysteron::render {
 namespace {
 
-using test::error_of;
 
 // Cells are of one colour each, by column and row, on a page that has none of these.
 Rgb8 color_of(std::size_t column, std::size_t row) {
@@ -80,17 +79,6 @@ TEST(ComparisonSheet, KeepsFamiliesTogether) {
   for (int top : elastic) EXPECT_EQ(plastic.count(top), 0u);
 }
 
-// Wide strips would make a page that is wider than three times its height.
-TEST(ComparisonSheet, OfWideStripsIsNotAStripItself) {
-  const Image page = draw_comparison(sheet_of(5, 1, 600, 100));
-  EXPECT_LE(page.width(), 3 * page.height());
-}
-
-TEST(ComparisonSheet, EnlargesSmallPicturesToItsCells) {
-  const Image page = draw_comparison(sheet_of(2, 1, 80, 60));
-  EXPECT_GT(extent_of(page, color_of(0, 0)).width(), 600);
-}
-
 // A name, however long, stays in its column.
 TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
   ComparisonSheet sheet = sheet_of(2, 1);
@@ -113,13 +101,6 @@ TEST(ComparisonSheet, SetsNumbersBelowNamesWhereNoneFindsRoomBehind) {
   for (ComparisonColumn& column : sheet.columns) column.numbers.clear();
   const double line = 1.65 * sheet_letters(sheet.width);
   EXPECT_NEAR(first.top - extent_of(draw_comparison(sheet), color_of(0, 0)).top, line, 1);
-}
-
-TEST(ComparisonSheet, WantsACellForEachRow) {
-  EXPECT_EQ(error_of([] { draw_comparison({}); }).exit_code(), 2);
-  ComparisonSheet sheet = sheet_of(2, 2);
-  sheet.columns[1].cells.pop_back();
-  EXPECT_EQ(error_of([&] { draw_comparison(sheet); }).exit_code(), 2);
 }
 
 // Words in the margin make their row as high as they are, however low its pictures.
@@ -187,13 +168,6 @@ TEST(LoopInset, ReachesAsFarAsHalfOfThePathsAndCutsWhatGoesBeyond) {
   EXPECT_GT(line.width(), 20);
   EXPECT_LT(line.right, 200 - 4) << "within the inset, whose dot is outside";
   EXPECT_LT(line.height(), 5);
-}
-
-TEST(LoopInset, OfNoPathDrawsNothing) {
-  Image picture(100, 100, Rgb8{255, 255, 255});
-  const Image before = picture;
-  draw_loop(picture, {}, Corner::bottom_right, 0.28f, 10);
-  EXPECT_EQ(picture, before);
 }
 
 TEST(DrawLine, CoversItsLengthTimesItsWidth) {

@@ -107,8 +107,7 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// A group of laws.txt; the laws of the group `fatigue` weaken, those of `parts` and `many` take a fabric's
-// parts.
+// Of a group (law_groups.h): FatigueLaws weaken, PartsLaws and ManyLaws take a fabric's parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
@@ -121,7 +120,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }
 
-// Every group; needs every_group.h.
+// Every group; needs every_law.h.
 template <class Real, int D, class Memory, class Visit, class... Groups>
 bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
   return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);

@@ -81,22 +81,6 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
 }
 
-TEST(Compare, InABatchHasTheTableOfColumnsByThemselves) {
-  const Folder folder;
-  const std::string line = "compare swing --laws linear,prandtl,dahl --no-images" + std::string(kSmall) +
-                           " --out " + folder.path().string();
-  ASSERT_EQ(program(line + "/alone").exit_code, 0);
-  ASSERT_EQ(program(line + "/together --batch 2").exit_code, 0);
-  const std::string table = text_of(folder.path() / "alone/table.csv");
-  EXPECT_NE(table.find("prandtl"), std::string::npos);
-  EXPECT_EQ(text_of(folder.path() / "together/table.csv"), table);
-  const Outcome drawn = program("compare swing --laws linear,prandtl --batch 2 --out " +
-                                (folder.path() / "drawn").string() + kSmall);
-  EXPECT_EQ(drawn.exit_code, 2);
-  EXPECT_NE(drawn.err.find("batch = 2 is of runs without pictures"), std::string::npos) << drawn.err;
-  EXPECT_FALSE(fs::exists(folder.path() / "drawn"));
-}
-
 TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
   const Folder folder;
   const fs::path root = folder.path(), out = root / "run" / "out";
@@ -128,28 +112,6 @@ TEST(Compare, RefusesTheSameColumnTwice) {
   EXPECT_EQ(twice.err, "hysteron compare: linear is named twice: columns must differ\n");
   EXPECT_EQ(program("compare swing --laws linear,,prandtl --out " + out + kSmall).exit_code, 2);
   EXPECT_FALSE(fs::exists(out));
-}
-
-TEST(Compare, ExplainsEachColumnAndWritesNothing) {
-  const Folder folder;
-  const std::string out = folder.path() / "out";
-  const Outcome outcome = program("compare swing --laws linear,prandtl --explain --out " + out + kSmall);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out.find("linear:\n"), 0u) << outcome.out;
-  EXPECT_NE(outcome.out.find("\nprandtl:\n"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find(" triangles, ", outcome.out.find("\nprandtl:\n")), std::string::npos);
-  EXPECT_FALSE(fs::exists(out));
-}
-
-TEST(Compare, KeepsACaptionFileThatIsNotItsOwnBeforeItRunsAnything) {
-  const Folder folder;
-  std::ofstream(folder.path() / "README.md") << "mine";
-  const Outcome outcome =
-      program("compare swing --laws linear,prandtl --out " + folder.path().string() + kSmall);
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("README.md is not of an earlier run"), std::string::npos) << outcome.err;
-  EXPECT_EQ(text_of(folder.path() / "README.md"), "mine");
-  EXPECT_FALSE(fs::exists(folder.path() / "linear"));
 }
 
 TEST(ColumnName, OfAFileIsItsStemAndStaysInItsFolder) {
@@ -286,14 +248,6 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_NE(refusal_of(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
 }
 
-// Which metrics there are is known once the columns have run, and they are kept.
-TEST(Compare, NamesTheMetricsThatThereAreWhereOneIsUnknown) {
-  const std::string words = refusal_of(" --no-images --compare.metrics turns,turn");
-  EXPECT_EQ(words.find("hysteron compare: compare.metrics = turn must be among turns, decay_shape, "), 0u)
-      << words;
-  EXPECT_NE(words.find("max_stretch_percent"), std::string::npos) << words;
-}
-
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = " --out " + (folder.path() / "out").string() + kSmall;
@@ -317,50 +271,6 @@ from = 0.04
   EXPECT_NE(text_of(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
       << outcome.out << outcome.err << text_of(out / "table.csv");
   EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
-}
-
-// On its own page, since those of the columns are read by few.  A clamp's mesh has no copies.
-TEST(Compare, WarnsOfWhatItsColumnsWarnOf) {
-  const Folder folder;
-  const fs::path scene = folder.path() / "copies.toml", out = folder.path() / "out";
-  std::ofstream(scene) << "cloth.copies = 2\n";
-  const Outcome outcome = program("compare swing --scene " + scene.string() +
-                                  " --laws linear,prandtl --no-images --out " + out.string() + kSmall);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string words = "linear, prandtl: cloth.copies = 2 (" + scene.string() + ":1) is not used: ";
-  EXPECT_EQ(outcome.err.find("warning: " + words), 0u) << outcome.err;
-  const auto warnings = nlohmann::json::parse(text_of(out / "manifest.json"))["warnings"];
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_TRUE(warnings[0].get<std::string>().starts_with(words)) << warnings;
-  EXPECT_NE(text_of(out / "report.html").find("Warning: " + words), std::string::npos);
-}
-
-// The height of a crease's plate is found by a run of its own, before the run has a folder.
-TEST(Compare, SaysWhyAColumnDidNotBegin) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome = program(
-      "compare crease --laws linear --triangles 60 --crease.force 1e7 --device cpu "
-      "--no-images --quiet --out " +
-      out.string());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(text_of(out / "table.csv").find("the plate reaches the plane"), std::string::npos);
-  EXPECT_FALSE(fs::exists(out / "linear"));
-}
-
-TEST(Compare, StatesTheStiffnessThatItMatched) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.match small-strain --out " + out + kSmall)
-                .exit_code,
-            0);
-  const auto page = nlohmann::json::parse(text_of(fs::path(out) / "manifest.json"))["scene"]["columns"];
-  const auto fabric =
-      nlohmann::json::parse(text_of(fs::path(out) / "linear/manifest.json"))["scene"]["fabric"];
-  const auto other =
-      nlohmann::json::parse(text_of(fs::path(out) / "prandtl/manifest.json"))["scene"]["fabric"];
-  EXPECT_GT(page[0]["stiffness_times"].get<double>(), 1.5);
-  EXPECT_NEAR(fabric["b2"].get<double>() / other["b1"].get<double>(), 1, 1e-4);
 }
 
 // Fabrics under the one law that the scene names, or the program's own.

@@ -12,25 +12,6 @@ namespace fs = std::filesystem;
 
 const char* const kEmpty = "# Keys\n\n<!-- keys:begin -->\n<!-- keys:end -->\n\nAfter them.\n";
 
-TEST(KeyTables, HaveALineForEveryKeyOfASceneButThoseOfItsFabric) {
-  const std::string tables = key_tables();
-  for (const KeyDescription& key : scene_keys())
-    EXPECT_EQ(tables.find("\n| `" + key.path + "` | ") == std::string::npos,
-              key.path.starts_with("fabric.") && key.path != "fabric.name")
-        << key.path;
-  for (const char* table : {"[[pin]]", "[[obstacle]]", "`keys`", "[[command]]", "[[phase]]"})
-    EXPECT_NE(tables.find(table), std::string::npos) << table;
-}
-
-TEST(KeyTables, SayUnitRangeChoicesDefaultAndPurpose) {
-  const std::string tables = key_tables();
-  for (const char* line : {"| `cloth.weld` | number | m | >= 0 | 0 | vertices of an OBJ",
-                           "| `element` | choice | | `shape`, `hinge` | shape | bending element |",
-                           "| `self-contact` | flag | | | false | ", "| `radius` | number | m | > 0 | 0.1 | ",
-                           "| `kind` | choice | | `ground`, `sphere`, ", "| `scale` | number | | > 0 | 1 | "})
-    EXPECT_NE(tables.find(line), std::string::npos) << line;
-}
-
 TEST(KeyTables, OfMarkdownHaveAsManyCellsInEveryLine) {
   std::istringstream lines(key_tables());
   int rows = 0;

@@ -39,9 +39,6 @@ TEST(DecidedKeys, AreRefusedByName) {
   EXPECT_EQ(program("swing --cloth.copies 3 --explain").err,
             "hysteron swing: --cloth.copies 3: swing does not use cloth.copies: the specimen is one flat "
             "rectangle, meshed to fit its clamp\n");
-  EXPECT_EQ(program("bench --hard --fabric.k0 40").err,
-            "hysteron bench: --fabric.k0 40: bench does not use fabric.k0: --hard takes steps of other "
-            "scenes\n");
 }
 
 // With the value that the experiment has by itself, too.
@@ -123,7 +120,7 @@ TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
       written("seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
   const Outcome outcome = run(scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const std::string words :
+  for (const std::string& words :
        {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
         "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
         "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {

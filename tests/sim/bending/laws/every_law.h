@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
-#include "sim/bending/laws/every_group.h"
+#include "sim/bending/laws/every_law.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
 #include "tests/examples/law/example_laws.h"
