@@ -7,7 +7,6 @@ install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hysteron/assets)
 
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/hysteron)  # below it as in this tree: "sim/time/simulation.h"
 install(DIRECTORY sim render DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
-install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/sim DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
 
 set(libraries laws base cgal sim reference identification render)
 if(HYSTERON_HAS_CUDA)

@@ -87,7 +87,7 @@ template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
                                                      int elements);
 
-// A group of laws (law_groups.h), compiled apart; null for a law of another group.
+// A group of laws (every_law.h), compiled apart; null for a law of another group.
 template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device&, const LawChoice&, int elements);
 

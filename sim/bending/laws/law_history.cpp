@@ -1,6 +1,5 @@
 #include "sim/bending/laws/law_history.h"
 
-#include "sim/bending/laws/every_group.h"
 #include "sim/bending/laws/law_visit.h"
 
 namespace hysteron {

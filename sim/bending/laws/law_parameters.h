@@ -72,7 +72,7 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
 // Names of the parameters that law `name` takes, in the order of LawChoice; none of an unknown law.
 std::vector<std::string> law_parameter_names(const std::string& name);
 
-// All laws of the interface in its order, which is that of laws.txt.
+// All laws of the interface in its order, which is that of every_law.h.
 const std::vector<LawEntry>& law_catalogue();
 
 }  // namespace hysteron

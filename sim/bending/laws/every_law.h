@@ -1,0 +1,41 @@
+// Every law, and the groups that their loops are compiled with (sim/CMakeLists.txt).  A new law is an include
+// here and its name in EveryLaw and in its groups.
+#pragma once
+
+#include "sim/bending/laws/bilinear.h"
+#include "sim/bending/laws/bridson.h"
+#include "sim/bending/laws/chapman.h"
+#include "sim/bending/laws/dahl.h"
+#include "sim/bending/laws/flexion_spring.h"
+#include "sim/bending/laws/gong.h"
+#include "sim/bending/laws/grinspun_edit.h"
+#include "sim/bending/laws/kim.h"
+#include "sim/bending/laws/law_description.h"
+#include "sim/bending/laws/linear.h"
+#include "sim/bending/laws/narain.h"
+#include "sim/bending/laws/obrien.h"
+#include "sim/bending/laws/pabst.h"
+#include "sim/bending/laws/prandtl.h"
+#include "sim/bending/laws/terzopoulos.h"
+#include "sim/bending/laws/wong.h"
+
+namespace hysteron {
+
+// In the order of `hysteron list laws`.
+using EveryLaw =
+    LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, BilinearLaw, WongLaw, PrandtlLaw,
+            GrinspunEditLaw, TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, DahlLaw, GongLaw, ChapmanLaw>;
+
+// A law's own group, where it takes three numbers of its fabric alone.
+struct MemorylessLaws : LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, GrinspunEditLaw> {};
+struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
+struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
+// Laws whose friction can weaken.
+struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
+// Laws that take what a fabric has beyond b1, b2 and k0, with few or with many stops.
+struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {};
+struct ManyLaws : LawList<PrandtlLaw, ChapmanLaw> {};
+
+using LawGroups = LawList<MemorylessLaws, FrictionLaws, FatigueLaws, PartsLaws, ManyLaws, PlasticLaws>;
+
+}  // namespace hysteron
