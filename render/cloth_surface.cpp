@@ -4,7 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "render/gl/capture.h"
+#include "render/gl/program.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {

@@ -1,6 +1,6 @@
 #include "render/static_mesh.h"
 
-#include "render/gl/capture.h"
+#include "render/gl/program.h"
 
 namespace hysteron::render {
 namespace {

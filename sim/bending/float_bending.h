@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/bending/bending.h"
-#include "sim/linear/float_stiffness.h"
+#include "sim/linear/gathered_forces.h"
 
 namespace hysteron {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/choices.h"
 #include "sim/bending/curvature_operator.h"
-#include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/device/archive_buffer.h"

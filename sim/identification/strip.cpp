@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/identification/profile_line.h"
+#include "sim/identification/profile.h"
 
 namespace hysteron {
 namespace {

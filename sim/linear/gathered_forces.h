@@ -17,4 +17,26 @@ struct GatheredForces {
   }
 };
 
+// A stiffness that products apply element by element, in single precision.
+
+template <class Device>
+class FloatStiffness {
+ public:
+  virtual ~FloatStiffness() = default;
+  // Rounds the stiffness as it was linearised last.
+  virtual void round() = 0;
+  // What that makes of a displacement, as the StiffnessProduct of double precision that it stands for.
+  virtual GatheredForces<float> apply(const Vec3<float>* p) = 0;
+  virtual std::size_t force_bytes() const = 0;  // of what apply() returns
+  virtual std::size_t bytes() const = 0;
+};
+
+// to[i] = from[i] for i in [0, count).
+template <class Device>
+void round_all(Device& device, const char* name, std::size_t count, const double* from, float* to) {
+  for_each(
+      device, {name, count * (sizeof(double) + sizeof(float))}, static_cast<int>(count),
+      HYST_KERNEL(int i) { to[i] = static_cast<float>(from[i]); });
+}
+
 }  // namespace hysteron

@@ -16,7 +16,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
-#include "sim/mesh/quad.h"
 
 namespace hysteron {
 namespace {

@@ -6,7 +6,6 @@
 #include "sim/mesh/mesh_doubts.h"
 #include "sim/mesh/obj_soup.h"
 #include "sim/mesh/topology.h"
-#include "sim/mesh/weld.h"
 
 namespace hysteron {
 namespace {

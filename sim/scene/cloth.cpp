@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/error.h"
+#include "sim/mesh/builders.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/mesh/garment.h"
-#include "sim/mesh/subdivision.h"
 #include "sim/scene/plausible.h"
 #include "sim/scene/shown_key.h"
 #include "sim/scene/start_shape.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "sim/bending/choices.h"
-#include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/friction_shape.h"
 #include "sim/bending/laws/law.h"
 #include "sim/mesh/length_unit.h"

@@ -13,7 +13,6 @@
 #include "sim/membrane/membrane.h"
 #include "sim/time/hands.h"
 #include "sim/time/ledger.h"
-#include "sim/time/vertex_ledger.h"
 
 namespace hysteron {
 

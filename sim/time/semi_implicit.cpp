@@ -30,7 +30,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/time/step_control.h"
+#include "sim/time/time_integrator.h"
 
 namespace hysteron {
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "sim/base/error.h"
-#include "sim/bending/laws/law_history.h"
+#include "sim/bending/laws/law_run.h"
 #include "sim/scene/mesh_files.h"
 #include "sim/time/together.h"
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "sim/scene/scene_reader.h"
-#include "sim/time/vertex_ledger.h"
+#include "sim/time/ledger.h"
 
 namespace hysteron::experiments {
 namespace {
