@@ -2,9 +2,7 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <csetjmp>
-#include <memory>
 #include <new>
 #include <string>
 
@@ -13,17 +11,6 @@
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 #include "sim/base/whole_file.h"
-
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_NO_STDIO
-#define STBI_NO_HDR
-#define STBI_NO_LINEAR
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
 
 namespace hysteron::render {
 namespace {
@@ -76,66 +63,43 @@ bool encode(png_structp png, png_infop header, const Pixels& pixels, PngEffort e
   return true;
 }
 
-std::uint32_t big_endian(const std::uint8_t* bytes) {
-  return static_cast<std::uint32_t>(bytes[0]) << 24 | bytes[1] << 16 | bytes[2] << 8 | bytes[3];
-}
-
-// What the chunks' check sums say, which stb_image does not read: "" if all is well.
-std::string damage_of(std::span<const std::uint8_t> bytes) {
-  constexpr size_t kSignature = 8, kAround = 12;  // [bytes]; of a chunk: length, type, check sum
-  size_t at = kSignature, data = 0;
-  while (at + kAround <= bytes.size()) {
-    const size_t length = big_endian(&bytes[at]);
-    const std::string type(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
-    if (length > bytes.size() - at - kAround) break;
-    const uLong sum = crc32(0, &bytes[at + 4], static_cast<uInt>(length + 4));
-    const bool named = std::all_of(type.begin(), type.end(), [](unsigned char c) { return std::isalpha(c); });
-    if (sum != big_endian(&bytes[at + 8 + length]))
-      return (named ? "chunk " + type : std::string("a chunk without a name")) + " is damaged";
-    if (type == "IDAT" && (data += length) == 0)
-      return "chunk IDAT is empty";  // stb_image would copy from nowhere
-    if (type == "IEND") return "";
-    at += length + kAround;
-  }
-  return "the file ends too early";
-}
-
 // What a header announces, against what the rest of the file can hold: "" if it may be so.
-std::string excess_of(int width, int height, std::size_t bytes) {
+std::string excess_of(std::int64_t width, std::int64_t height, std::size_t bytes) {
   constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
   constexpr std::int64_t kMostDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
-  const std::int64_t least = height * ((std::int64_t{width} + 7) / 8);  // of one bit a pixel
   const std::string announced =
       "its header announces " + std::to_string(width) + "x" + std::to_string(height) + " pixels, ";
-  if (std::int64_t{width} * height > kMostPixels)
+  if (width * height > kMostPixels)
     return announced + "more than the " + std::to_string(kMostPixels) + " that are read";
-  if (least > kMostDeflated * static_cast<std::int64_t>(bytes))
+  if (height * ((width + 7) / 8) > kMostDeflated * static_cast<std::int64_t>(bytes))  // of one bit a pixel
     return announced + "more than its bytes can hold";
   return "";
 }
 
-Error no_picture(const std::string& name) {
-  return Error::request("reading " + name + ": not a PNG picture (" + stbi_failure_reason() + ")");
+bool has_end(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint8_t kEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+  return bytes.size() >= sizeof kEnd &&
+         std::equal(std::begin(kEnd), std::end(kEnd), bytes.end() - sizeof kEnd);
 }
 
-struct Header {
-  int width = 0, height = 0, channels = 0;
+// A picture whose header libpng has read.
+struct Opened {
+  // Throws Error::request unless the header can be true and the file has its end.
+  Opened(std::span<const std::uint8_t> bytes, const std::string& name) : reading("reading " + name + ": ") {
+    if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
+      throw Error::request(reading + "not a PNG picture (" + header.message + ")");
+    const std::string excess = excess_of(header.width, header.height, bytes.size());
+    if (excess.empty() && has_end(bytes)) return;
+    png_image_free(&header);
+    throw Error::request(reading +
+                         (excess.empty() ? "a broken PNG picture: the file ends too early" : excess));
+  }
+  Opened(const Opened&) = delete;
+  ~Opened() { png_image_free(&header); }
+
+  std::string reading;
+  png_image header{.version = PNG_IMAGE_VERSION};
 };
-
-// Throws Error::request unless the header can be true and no chunk is damaged.
-Header header_of(std::span<const std::uint8_t> bytes, const std::string& name) {
-  Header header;
-  if (!stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &header.width, &header.height,
-                             &header.channels))
-    throw no_picture(name);
-  const std::string excess = excess_of(header.width, header.height, bytes.size());
-  if (!excess.empty()) throw Error::request("reading " + name + ": " + excess);
-  const std::string damage = damage_of(bytes);
-  if (!damage.empty()) throw Error::request("reading " + name + ": a broken PNG picture: " + damage);
-  return header;
-}
-
-int channels_kept(int channels) { return channels == 2 || channels == 4 ? 4 : 3; }
 
 std::span<const std::uint8_t> bytes_in(const std::string& file) {
   return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
@@ -176,14 +140,13 @@ void write_png(const std::filesystem::path& path, const Image& image, PngEffort 
 }
 
 Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
-  const int kept = channels_kept(header_of(bytes, name).channels);
-  int width = 0, height = 0, channels = 0;
-  stbi_uc* pixels =
-      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, kept);
-  if (!pixels) throw no_picture(name);
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> owner(pixels, &stbi_image_free);
-  Image image(width, height, kept);
-  std::copy_n(pixels, image.pixels().size(), image.pixels().data());
+  Opened opened(bytes, name);
+  png_image& header = opened.header;
+  const bool alpha = header.format & PNG_FORMAT_FLAG_ALPHA;
+  header.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  Image image(static_cast<int>(header.width), static_cast<int>(header.height), alpha ? 4 : 3);
+  if (!png_image_finish_read(&header, nullptr, image.pixels().data(), 0, nullptr))
+    throw Error::request(opened.reading + "a broken PNG picture: " + header.message);
   return image;
 }
 
@@ -194,8 +157,8 @@ Image read_png(const std::filesystem::path& path) {
 
 ImageSize png_size(const std::filesystem::path& path) {
   const std::string bytes = file_named(path, "reading " + path.string());
-  const Header header = header_of(bytes_in(bytes), path.string());
-  return {header.width, header.height};
+  const Opened opened(bytes_in(bytes), path.string());
+  return {static_cast<int>(opened.header.width), static_cast<int>(opened.header.height)};
 }
 
 }  // namespace hysteron::render
