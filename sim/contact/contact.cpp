@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "sim/contact/sharp_obstacles.h"
+#include "sim/contact/obstacle_set.h"
 #include "sim/contact/touch.h"
 
 namespace hysteron {

@@ -13,7 +13,7 @@
 
 #include <optional>
 
-#include "sim/contact/contact_model.h"
+#include "sim/contact/compression.h"
 #include "sim/contact/face_contact.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/device/algorithms.h"

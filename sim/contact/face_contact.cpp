@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "sim/contact/face_touch.h"
-#include "sim/contact/sharp_obstacles.h"
+#include "sim/contact/obstacle_set.h"
 #include "sim/contact/sliding_stop.h"
 #include "sim/contact/touch.h"
 

@@ -8,7 +8,7 @@
 // sphere of radius R the middle of an equilateral triangle with edges h lies h^2/(6 R) lower.
 #pragma once
 
-#include "sim/contact/contact_model.h"
+#include "sim/contact/compression.h"
 #include "sim/contact/obstacle_set.h"
 #include "sim/device/algorithms.h"
 #include "sim/device/archive_buffer.h"

@@ -2,7 +2,7 @@
 // goes farther than the corner that goes farthest, so that the triangle's distance can be followed as a
 // vertex's is (sweep.h).
 #include "sim/contact/face_contact.h"
-#include "sim/contact/face_point.h"
+#include "sim/contact/face_touch.h"
 #include "sim/contact/sweep.h"
 
 namespace hysteron {

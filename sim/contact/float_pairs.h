@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sim/contact/self_contact.h"
-#include "sim/linear/element_stiffness.h"
 #include "sim/linear/gathered_forces.h"
 
 namespace hysteron {

@@ -1,6 +1,9 @@
 // Forces of elements on their vertices, gathered in a fixed order.
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
+
 #include "sim/device/device.h"
 
 namespace hysteron {
@@ -38,5 +41,20 @@ void round_all(Device& device, const char* name, std::size_t count, const double
       device, {name, count * (sizeof(double) + sizeof(float))}, static_cast<int>(count),
       HYST_KERNEL(int i) { to[i] = static_cast<float>(from[i]); });
 }
+
+// A stiffness that products apply element by element, in the parts from which it is assembled.
+
+// Sum over the elements of B^T T B with B: how up to three strains change with the positions of the
+// element's vertices, T: how its forces change with the strains.
+class ElementStiffness {
+ public:
+  using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // B, three columns for each vertex [strain/m]
+
+  virtual ~ElementStiffness() = default;
+  virtual int elements() const = 0;
+  virtual std::span<const int> vertices(int element) const = 0;
+  // B and T where the stiffness was linearised last; rows of strains that an element does not have are zero.
+  virtual void linearised(int element, Rates& rates, Eigen::Matrix3d& stiffness) const = 0;
+};
 
 }  // namespace hysteron

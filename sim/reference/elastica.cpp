@@ -17,7 +17,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSeconds = 1;        // of a step, for laws with a clock
+constexpr double kSeconds = 1;       // of a step, for laws with a clock
 constexpr double kBalanced = 1e-12;  // unbalanced moment over w L^2 load
 constexpr int kMostNewtonSteps = 60, kMostHalvings = 30;
 
