@@ -13,23 +13,12 @@
 
 #include <optional>
 
-#include "sim/contact/compression.h"
 #include "sim/contact/face_contact.h"
-#include "sim/contact/obstacle_set.h"
 #include "sim/device/algorithms.h"
-#include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
-
-// Friction of one vertex as an implicit step sees it: what depends on the normal force, held fixed.
-template <class Real>
-struct LaggedFriction {
-  Vec3<Real> normal;
-  Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
-  Real limit;        // mu f_n [N]; 0: no contact
-};
 
 template <class Real, class Device>
 class Contact {
@@ -76,6 +65,8 @@ class Contact {
   std::size_t bytes() const;
 
  private:
+  VertexContact<Real> view() const { return {model_, set_, area_.data()}; }
+
   Device& device_;
   std::vector<Obstacle> obstacle_;
   double fabric_friction_;
@@ -84,13 +75,10 @@ class Contact {
   ObstacleSet<Real> set_;
   double moved_from_ = 0, moved_to_ = 0;  // for which it is [s]
   Buffer<Real, Device> area_;
-  Buffer<Vec3<Real>, Device> slip_;  // E [m]
-  Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
+  FrictionStops<Real, Device> stops_;
   Buffer<char, Device> spared_;
-  Buffer<double, Device> stored_;  // in it [J]
-  Buffer<double, Device> loss_, work_, energy_, inside_;
-  Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
-  Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
+  Buffer<double, Device> energy_, inside_;
+  Buffer<LaggedFriction<Real>, Device> lagged_;     // of implicit steps; empty before the first
   std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
   GrowingBuffer<Real, Device> share_;               // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;
