@@ -14,7 +14,7 @@
 
 #include "render/caption.h"
 #include "render/image.h"
-#include "render/loop_inset.h"
+#include "render/inset.h"
 
 namespace hysteron::render {
 

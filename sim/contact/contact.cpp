@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sim/contact/obstacle_set.h"
+#include "sim/contact/sweep.h"
 
 namespace hysteron {
 
@@ -124,6 +125,122 @@ template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
   return bytes_of(area_, stops_, spared_, energy_, lagged_, inside_, share_, scratch_) +
          (faces_ ? faces_->bytes() : 0);
+}
+
+// Contact in an implicit step.  Friction follows the normal force and therefore has no potential; with the
+// force of the last iterate it has one, a stop's: k_t |e|^2/2 up to the limit, then limit |e|.
+
+namespace {
+
+// Stretch of the tangential stop at `moved` = x - before.
+template <class Real>
+HYST_HD Vec3<Real> lagged_slip(const LaggedFriction<Real>& lagged, const Vec3<Real>& moved) {
+  const Vec3<Real> e = moved + lagged.start;
+  return e - lagged.normal * lagged.normal.dot(e);
+}
+
+}  // namespace
+
+template <class Real, class Device>
+void Contact<Real, Device>::lag(const Vec3<Real>* x) {
+  if (lagged_.size() == 0) lagged_ = Buffer<LaggedFriction<Real>, Device>(device_, vertices_);
+  const VertexContact<Real> contact = view();
+  const StopView<Real> stops = stops_.view();
+  LaggedFriction<Real>* lagged = lagged_.data();
+  for_each(
+      device_, "contact friction, lagged", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = contact.touch_of(i, x);
+        lagged[i] = {t.normal, -t.obstacle_motion, t.friction * t.strongest};
+        if (stops.touching[i] == t.index + 1) lagged[i].start += stops.slip[i];
+      });
+  if (faces_) faces_->lag(set_, x);
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient) {
+  const VertexContact<Real> contact = view();
+  const LaggedFriction<Real>* lagged = lagged_.data();
+  double* energy = energy_.data();
+  for_each(
+      device_, "contact, tried", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = contact.touch_of(i, x);
+        energy[i] = t.energy;
+        gradient[i] -= t.normal_force;
+        if (!(lagged[i].limit > 0)) return;
+        const Real k = contact.model.stop_stiffness(lagged[i].limit, contact.area[i]);
+        Vec3<Real> back;
+        energy[i] += lagged[i].energy_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, back);
+        gradient[i] += back;
+      });
+  if (faces_) faces_->evaluate(set_, x, before, Real(-1), gradient, energy + vertices_);
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
+                                          BlockRowsView<Real> matrix, Real sliding_share) {
+  const VertexContact<Real> contact = view();
+  const LaggedFriction<Real>* lagged = lagged_.data();
+  Mat3<Real>* diagonal = matrix.diagonal;
+  for_each(
+      device_, "contact stiffness", vertices_, HYST_KERNEL(int i) {
+        diagonal[i] += contact.touch_of(i, x).normal_stiffness;
+        if (!(lagged[i].limit > 0)) return;
+        const Real k = contact.model.stop_stiffness(lagged[i].limit, contact.area[i]);
+        diagonal[i] +=
+            lagged[i].stiffness_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, sliding_share);
+      });
+  if (faces_) faces_->add_stiffness(set_, x, before, Real(1), matrix, sliding_share);
+}
+
+// Obstacles that vertices, or they themselves, would pass through in one step.
+
+// The guess of a step: each vertex by itself, so that one does not hold up the others.
+template <class Real, class Device>
+void Contact<Real, Device>::keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
+  if (!set_.has_thin()) return;
+  const ObstacleSet<Real> set = set_;
+  const Real rest = static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
+  for_each(
+      device_, "contact: guess", vertices_, HYST_KERNEL(int i) {
+        if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest);
+      });
+  if (faces_) faces_->keep_out(set, start, end, held, rest);
+}
+
+template <class Real, class Device>
+bool Contact<Real, Device>::reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held) {
+  if (!set_.has_thin()) return true;
+  const ObstacleSet<Real> set = set_;
+  Real* share = share_.reserve(vertices_);
+  for_each(
+      device_, "contact: reached", vertices_, HYST_KERNEL(int i) {
+        share[i] = held[i] || hysteron::reaches(set, start[i], end[i]) ? Real(1) : Real(0);
+      });
+  if (!(smallest(device_, scratch_, share, vertices_, Real(1)) > 0)) return false;
+  return !faces_ || faces_->reaches(set, start, end, held);
+}
+
+// Where all go the same share of their way, as along a direction of Newton's method.
+template <class Real, class Device>
+double Contact<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction,
+                                            const char* held, double max_step) {
+  if (!set_.has_thin()) return max_step;
+  const ObstacleSet<Real> set = set_;
+  const Real asked = static_cast<Real>(max_step);
+  Real* share = share_.reserve(vertices_);
+  for_each(
+      device_, "contact: collisions", vertices_, HYST_KERNEL(int i) {
+        share[i] = 1;
+        if (held[i]) return;
+        const Vec3<Real> way = asked * direction[i];
+        for (int o = 0; o < set.count; ++o) {
+          if (!set.item[o].is_thin()) continue;
+          const Real free = free_share(set.item[o], x[i], way);
+          share[i] = free < share[i] ? free : share[i];
+        }
+      });
+  const double free = max_step * static_cast<double>(smallest(device_, scratch_, share, vertices_, Real(1)));
+  return faces_ ? faces_->feasible_step(set, x, direction, held, free) : free;
 }
 
 template class Contact<double, ThisDevice>;

@@ -30,7 +30,7 @@ class Contact {
   // Adds step * force to rhs and step^2 * stiffness to the matrix, unless that is null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            const BlockRowsView<Real>* matrix);
-  // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
+  // Implicit steps.  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
   // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part
   // (sliding_share: sliding_stop.h).
@@ -43,7 +43,7 @@ class Contact {
   bool has_faces() const { return faces_.has_value(); }
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
-  // has another side, nor it through them (contact_sweep.cpp, face_sweep.cpp).  keep_out() ends each path of
+  // has another side, nor it through them (sweep.h, face_sweep.cpp).  keep_out() ends each path of
   // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
   // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
   void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);

@@ -125,7 +125,7 @@ HYST_HD Real least_possible(const Shape<Real>& shape, const Vec3<Real> (&p)[3]) 
 }
 
 inline constexpr double kFaceShare = 1.0 / 6;  // of a triangle's area
-inline constexpr double kCentring = 0.1;       // c of face_point.h, over the thickness
+inline constexpr double kCentring = 0.1;       // c of face_point(), over the thickness
 
 template <class Real>
 struct FaceTouch {

@@ -1,7 +1,7 @@
 // Friction elements of bending from the loops of a FAB tester: the test is simulated with trial elements, and
 // the forces compared.
 //
-// Friction is sought in one of the forms of friction_form.h: stops on a fixed grid, so that a coarse record
+// Friction is sought in one of the forms below: stops on a fixed grid, so that a coarse record
 // decides about stiffnesses alone, or a shape of two numbers.  What is sought has a prior, without which
 // elements that a cycle hardly slips would go to nothing or grow without bound (Tarantola 2005, section 3.2):
 // a friction moment by the work of the loop over the change of the bend; b2 by HB/b2 of textiles.

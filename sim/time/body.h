@@ -8,7 +8,7 @@
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
-#include "sim/device/device_counts.h"
+#include "sim/device/kernel_profile.h"
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
 #include "sim/time/hands.h"
@@ -43,7 +43,7 @@ struct Body {
   Body(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op);
 
   std::unique_ptr<Device> device;
-  Eigen::Vector3d origin;  // of positions here and in the next two, in the world [m]: local_frame.h
+  Eigen::Vector3d origin;  // of positions here and in the next two, in the world [m]: cloth.h
   Scene scene;
   Cloth cloth;
   int vertices;

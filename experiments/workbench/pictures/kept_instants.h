@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/loop_inset.h"
+#include "render/inset.h"
 #include "sim/base/archive.h"
 
 namespace hysteron::experiments {

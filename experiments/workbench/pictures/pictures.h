@@ -15,7 +15,7 @@
 #include "experiments/workbench/pictures/scene_renderer.h"
 #include "experiments/workbench/pictures/subject.h"
 #include "render/contact_sheet.h"
-#include "render/loop_inset.h"
+#include "render/inset.h"
 #include "render/png_writer.h"
 #include "sim/base/own_thread.h"
 

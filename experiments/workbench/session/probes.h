@@ -7,7 +7,7 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/session/record.h"
-#include "render/loop_inset.h"
+#include "render/inset.h"
 #include "sim/mesh/material_point.h"
 #include "sim/time/simulation.h"
 

@@ -7,7 +7,7 @@
 // 1926, for any spectrum).  N is the capacity; elements that the fabric does not have carry nothing.
 //
 // Two spectra, along warp and along weft, have no radial return.  Stop j then has stiffnesses
-// A_j = diag(p_j, p'_j, sqrt(p_j p'_j)) and slips on an ellipsoid (stop_ellipsoid.h) of half axes r_j, r'_j
+// A_j = diag(p_j, p'_j, sqrt(p_j p'_j)) and slips on an ellipsoid (StopEllipsoid) of half axes r_j, r'_j
 // and sqrt(r_j r'_j), so that bends along warp and along weft follow their own spectrum exactly.  Chosen
 // here: the geometric means for twist, which are those of the metric (curvature_operator.h) where the weft
 // spectrum is what the metric makes of the other.  A law of one component bends along warp, or across the
