@@ -13,7 +13,6 @@
 namespace hysteron::render {
 
 // A shared library opened at run time.  It is never closed: drivers keep threads and exit handlers.
-
 class SharedLibrary {
  public:
   // The first of `names` that opens; is_open() tells whether one did.

@@ -32,7 +32,6 @@ class BendingElements : public ElementStiffness {
 };
 
 // The bending stiffness of a scene of double precision as a product in single precision.
-
 template <class Device>
 class FloatBending : public FloatStiffness<Device> {
  public:

@@ -220,7 +220,6 @@ std::unique_ptr<LawLoop<Real, Device>> make_loop_of(Device& device, const Law& l
 
 // Loops of a group of laws.  law_loops.cpp.in instantiates them, a file for each group, dimension and
 // precision: they are the slowest to compile.
-
 template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device& device, const LawChoice& choice,
                                                        int elements) {

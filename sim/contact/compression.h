@@ -52,7 +52,6 @@ ObstacleShell<double> obstacle_shell(const Scene& scene);
 double distance_under(const ObstacleShell<double>& shell, double pressure);
 
 // What contact of vertices and of triangles with obstacles have in common.
-
 template <class Real>
 struct ContactModel {
   ObstacleShell<Real> shell;

@@ -24,7 +24,6 @@ namespace hysteron {
 // phi, the signed distance of a convex solid, is convex, so that the minimum is one of nested convex
 // functions of one variable.  c > 0 makes the point unique where the solid's edge or side runs along the
 // triangle: it then moves on without jumps, and d has a gradient, w_k n at corner k (envelope theorem).
-
 template <class Real>
 struct FacePoint {
   Vec3<Real> weight;

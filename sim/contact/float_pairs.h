@@ -26,7 +26,6 @@ class FloatPairs : public FloatStiffness<Device> {
 };
 
 // The stiffness of self-contact pair by pair, on the CPU: between the closest points of each.
-
 template <class Real>
 class PairElements : public ElementStiffness {
  public:

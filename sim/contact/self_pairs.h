@@ -76,7 +76,6 @@ class SelfPairs {
 
 // Whether hands lead the layers that they hold through each other: vertices that are all held are in no pair
 // of self-contact.
-
 template <class Real, class Device>
 class HandSweep {
  public:

@@ -8,7 +8,6 @@
 namespace hysteron {
 
 // A law's moments along a measured series.
-
 class MomentModel : public CurveModel {
  public:
   // `law`: its curve is ignored.  `offset`: the instrument's zero over the largest moment is the nuisance.

@@ -19,7 +19,6 @@ namespace hysteron {
 // Sparse Cholesky factorisation of a symmetric positive definite matrix of 3x3 blocks, front by front (Duff &
 // Reid 1983; Liu 1992): A = L L^T.  On one thread, in one order: the same bits whatever the number of
 // threads.
-
 class SparseCholesky {
  public:
   explicit SparseCholesky(const Couplings& couplings);

@@ -21,7 +21,6 @@ struct GatheredForces {
 };
 
 // A stiffness that products apply element by element, in single precision.
-
 template <class Device>
 class FloatStiffness {
  public:

@@ -19,7 +19,6 @@ namespace hysteron {
 // r |u| - r^2/2: convex in strain.  It is what is stored and what is lost on the way.  Chosen here: three
 // mechanisms, not one radial set, since yarns that are pulled and yarns that turn at their crossings rub at
 // different places.  Green's strain does not change with a rotation, and so neither does friction.
-
 template <class Real>
 struct StrainStop {
   Real limit;      // r (strain)

@@ -57,7 +57,6 @@ struct PlyHeader {
 PlyHeader read_ply_header(std::string_view text, const std::string& what);
 
 // The numbers of a PLY file, read by CGAL.
-
 struct PlyContent {
   std::vector<Eigen::Vector3d> vertex;
   std::vector<double> curvature;                // per vertex; empty: not in the file

@@ -12,7 +12,6 @@ namespace hysteron {
 // A strip stretched between two clamps, its in-plane law with stops on the engineering strain d/L - 1.
 // Without tension it is slack: it buckles, and keeps the strain at which tension ended until it is taut
 // again.
-
 class StretchedStripTest {
  public:
   // At its length L [m] between the clamps, virgin.  `law`: of force per width [N/m] against strain.

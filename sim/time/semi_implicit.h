@@ -83,7 +83,6 @@ class ChapterSteps : public TimeIntegrator<Real, Device> {
 };
 
 // `explicit`: symplectic Euler, every force explicit.
-
 template <class Real, class Device>
 class ExplicitEuler : public TimeIntegrator<Real, Device> {
  public:

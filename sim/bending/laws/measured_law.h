@@ -27,7 +27,6 @@ namespace hysteron {
 // n = d/|d|.  Lost by the flow: b2 K_y |d|.  For one component that is d = (|M - h K_p| - b2 K_y)/(T + h) on
 // straight branches; a tensor flows along the direction that the minimum has, which for a cylinder is its
 // own. Chosen here, not in a source: the form, linear hardening, and that the whole moment drives the flow.
-
 template <class Law>
 struct Setting {
   using Scalar = typename Law::Scalar;

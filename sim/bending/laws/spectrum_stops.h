@@ -31,7 +31,6 @@ namespace hysteron {
 // The slip U - E follows the normal of the surface in moments (maximal dissipation): what is lost is
 // (A E).(U - E) = l, never negative, and the potential, the Moreau envelope of the bound, is convex in U.
 // With A and B multiples of one matrix it is the radial return.  The stiffnesses may be 0 together.
-
 template <class Real>
 struct StopReturn {
   Vec<Real, 3> elastic;  // E [1/m]
