@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/device/device_counts.h"
 #include "sim/device/host_device.h"
 #include "sim/device/kernel_profile.h"
 

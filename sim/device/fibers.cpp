@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
-#include "sim/device/kernel_profile.h"
+#include "sim/device/device_counts.h"
 
 namespace hysteron {
 namespace {

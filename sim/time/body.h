@@ -8,7 +8,7 @@
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
-#include "sim/device/kernel_profile.h"
+#include "sim/device/device_counts.h"
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
 #include "sim/time/hands.h"

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/device/device_counts.h"
 #include "sim/device/gl_positions.h"
 #include "sim/device/kernel_profile.h"
 #include "sim/scene/cloth.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/device/kernel_profile.h"
+#include "sim/device/device_counts.h"
 #include "sim/time/back_end.h"
 #include "tests/sim/time/scenes.h"
 

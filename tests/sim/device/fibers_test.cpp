@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/device/kernel_profile.h"
+#include "sim/device/device_counts.h"
 
 namespace hysteron {
 namespace {
