@@ -2,14 +2,14 @@
 # The chapter's figures and the comparisons that it announces, by one command:
 #   experiments/figures.sh                  into out/figures, with index.html over all of them
 #   experiments/figures.sh --quick          small versions
-#   experiments/figures.sh drape crease     only these: laws crumple swing drape crease fold cost
+#   experiments/figures.sh drape crease     only these: laws crumple swing drape crease fold
 #   experiments/figures.sh --out DIR ...    other options, KEY=VALUE in one word, go to every run (--device=cuda,
 #                                           --fabric=wool-tropical)
 # Each figure is a PNG, plots an SVG as well; captions stand in README.md beside them and on the page.
 set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/setup.sh"
 
-all_parts=(laws crumple swing drape crease fold cost)
+all_parts=(laws crumple swing drape crease fold)
 out=$root/out/figures
 quick=() more=() parts=()
 while [[ $# -gt 0 ]]; do
@@ -80,9 +80,6 @@ draw_crease() {
 
 # Fatigue over cycles.
 draw_fold() { hysteron fold "$@" --out "$out/fold"; }
-
-# What a law costs.
-draw_cost() { hysteron bench --laws "$@" --out "$out/bench"; }
 
 mkdir -p "$out"
 for part in "${parts[@]}"; do "draw_$part" "${quick[@]}" "${more[@]}"; done

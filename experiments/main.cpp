@@ -37,10 +37,8 @@ int main(int count, char** words) {
     line = parse_command_line(count, words);
     if (!line) return flushed(0);
     experiment = line->experiment;
-    const Experiment& chosen = experiment_named(experiment);
-    if (!chosen.run) throw Error::request("not built yet");
     choose_gpu(*line);
-    const int exit_code = chosen.run(*line);
+    const int exit_code = experiment_named(experiment).run(*line);
     say_last_words(*line);
     return flushed(exit_code);
   });

@@ -24,7 +24,7 @@ program_packages=(
   "libtinyobjloader-dev|reads OBJ meshes"
   "libstb-dev|text in pictures"
   "fonts-dejavu-core|font of the captions"
-  "libpng-dev|writes PNG, with zlib"
+  "libpng-dev|reads and writes PNG, with zlib"
   "libegl-dev|OpenGL without a display: headers and EGL"
   "libgl1-mesa-dri|OpenGL in software, where no GPU draws"
   "gnuplot-nox|draws the plots"

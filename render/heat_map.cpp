@@ -49,40 +49,17 @@ gnuplot::PanelPage layout(const HeatMaps& page) {
           kGapY};
 }
 
-// The lines that the legend names, each once.
-std::vector<Series> named_lines(const HeatMaps& page) {
-  std::vector<Series> named;
-  for (const HeatMap& map : page.maps) {
-    for (const Series& line : map.lines) {
-      const bool known = std::any_of(named.begin(), named.end(),
-                                     [&](const Series& other) { return other.label == line.label; });
-      if (!known && !line.label.empty()) named.push_back(line);
-    }
-  }
-  return named;
-}
-
-// A swatch and a name for each kind, a stroke and a name for each line, in a row below the subtitle.
+// A swatch and a name for each kind, in a row below the subtitle.
 std::string legend(const HeatMaps& page, const gnuplot::PanelPage& at) {
-  constexpr int kStroke = 2 * kSwatch;
   std::string script;
   int x = at.left;
-  const auto name_at = [&](const std::string& name, int width) {
-    script += gnuplot::text_at(name, at.point(x + width + 7, kLegend + kSwatch / 2.0), "left font ',13'");
-    x += width + kLegendGap + kLegendLetter * static_cast<int>(name.size());
-  };
   for (const CellKind& kind : page.kinds) {
     script += "set object rectangle from " + at.point(x, kLegend + kSwatch) + " to " +
               at.point(x + kSwatch, kLegend) + " fillcolor rgb '" + kind.color +
               "' fillstyle solid noborder\n";
-    name_at(kind.name, kSwatch);
-  }
-  for (const Series& line : named_lines(page)) {
-    script += "set arrow from " + at.point(x, kLegend + kSwatch / 2.0) + " to " +
-              at.point(x + kStroke, kLegend + kSwatch / 2.0) + " nohead lw " +
-              gnuplot::number(line.line_width) + (line.style == Series::Style::dashed ? " dt 2" : "") +
-              " lc rgb '" + line.color + "'\n";
-    name_at(line.label, kStroke);
+    script +=
+        gnuplot::text_at(kind.name, at.point(x + kSwatch + 7, kLegend + kSwatch / 2.0), "left font ',13'");
+    x += kSwatch + kLegendGap + kLegendLetter * static_cast<int>(kind.name.size());
   }
   return script;
 }
@@ -110,23 +87,18 @@ std::string cell_blocks(const HeatMaps& page, int index) {
   return cells + "END\n" + texts + "END\n";
 }
 
-std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int index,
-                         std::size_t first_series) {
+std::string map_commands(const HeatMaps& page, const gnuplot::PanelPage& at, int index) {
   const HeatMap& map = page.maps[index];
   const std::string i = std::to_string(index);
   std::string script = at.margins(index) + "set xtics " + (upright(page) ? "rotate by 90 right " : "") +
                        tick_list(page.x.ticks, at.lowest(index)) + "\nset ytics " +
                        tick_list(page.y.ticks, at.first_column(index)) + "\nset title " +
                        gnuplot::label_text(map.title) + " font ',13' offset 0,-0.6\n";
-  std::string plot = map.lines.empty() ? "plot " : gnuplot::plot_command(map.lines, first_series);
-  if (!map.lines.empty()) plot.back() = ' ';
-  const std::string cells = "$cells" + i + " using 1:2:(" + gnuplot::number(kHalfCell) + "):(" +
-                            gnuplot::number(kHalfCell) +
-                            "):3 with boxxyerror fs solid noborder lc rgb variable";
-  const std::string texts = "$texts" + i + " using 1:2:3 with labels font ',10' textcolor rgb '#222222'";
-  // Cells first, so that lines are drawn over them.
-  plot = "plot " + cells + ", " + (map.lines.empty() ? "" : plot.substr(5) + ", ") + texts + "\n";
-  return script + plot + "unset label\nunset object\nunset arrow\n";
+  const std::string half = gnuplot::number(kHalfCell);
+  const std::string plot = "plot $cells" + i + " using 1:2:(" + half + "):(" + half +
+                           "):3 with boxxyerror fs solid noborder lc rgb variable, $texts" + i +
+                           " using 1:2:3 with labels font ',10' textcolor rgb '#222222'\n";
+  return script + plot + "unset label\nunset object\n";
 }
 
 std::string common_commands(const HeatMaps& page) {
@@ -159,12 +131,9 @@ void write_heat_maps(const std::filesystem::path& base, const HeatMaps& page) {
   std::string data, drawing = "set multiplot\n" +
                               gnuplot::page_texts(at, page.title, page.subtitle, page.x.label, page.y.label) +
                               legend(page, at);
-  std::size_t series = 0;
   for (int i = 0; i < at.count; ++i) {
-    const std::vector<Series>& lines = page.maps[i].lines;
-    data += cell_blocks(page, i) + gnuplot::data_blocks(lines, series);
-    drawing += map_commands(page, at, i, series);
-    series += lines.size();
+    data += cell_blocks(page, i);
+    drawing += map_commands(page, at, i);
   }
   gnuplot::write_both(base, at.width(), at.height(), data + common_commands(page),
                       drawing + "unset multiplot\n");

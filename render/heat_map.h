@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "render/plot.h"
-
 namespace hysteron::render {
 
 struct HeatMapCell {
@@ -18,8 +16,6 @@ struct HeatMapCell {
 struct HeatMap {
   std::string title;
   std::vector<std::vector<HeatMapCell>> rows;  // from below; each as long as the x axis has ticks
-  std::vector<Series> lines =
-      {};  // over the cells, whose middles are at x, y = 0, 1, 2 ...; may leave the map
 };
 
 // An axis of cells, a tick at each.

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "experiments/accuracy/output.h"
@@ -10,14 +9,12 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/error.h"
-#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 namespace {
 
 struct AccuracyFlags {
   std::string problem = "all", device = "cpu";
-  int batch = 1;
   Options options;
 };
 
@@ -26,7 +23,6 @@ using F = AccuracyFlags;
 const KeyRow<F> kRows[] = {
     {"problem", at<&F::problem>, "", any(), "", "bend, sag, droop, buckle, decay, swing, crease; several separated by commas, or all"},
     {"device", at<&F::device>, "", any(), "cpu | cuda", "where settings are computed, one after the other; on the cpu by one thread"},
-    {"batch", at<&F::batch>, "", between(1, 1024), "", "of settings on cuda: how many share its launches; from 2 on their times are not known, and nothing is said of what is cheapest"},
 };
 // clang-format on
 
@@ -58,9 +54,7 @@ std::vector<Problem> problems_of(const F& flags) {
 // Settings that cannot be solved are findings too; a machine that fails is not.
 Found tried(const Problem& problem, const Setting& setting) {
   try {
-    Found found = problem.solve(setting);
-    if (jobs_together() > 1) found.seconds = NAN;
-    return found;
+    return problem.solve(setting);
   } catch (const Error& error) {
     if (error.exit_code() == 1) throw;
     Found found;
@@ -69,26 +63,15 @@ Found tried(const Problem& problem, const Setting& setting) {
   }
 }
 
-std::string words_of(const Found& found) {
-  if (!found.failed.empty()) return found.failed;
-  return fmt::format("error {:.3g}", found.error) +
-         (found.is_timed() ? fmt::format(", {:.3g} s", found.seconds) : "");
-}
-
-Solution solved(const Problem& problem, const F& flags, Run& run) {
+Solution solved(const Problem& problem, Run& run) {
   Solution solution{problem, {}};
-  for (const Setting& setting : problem.settings) solution.solved.push_back({setting, {}});
-  const auto solve = [&](int i) {
-    auto& [setting, found] = solution.solved[static_cast<std::size_t>(i)];
-    found = tried(problem, setting);
-    run.progress(fmt::format("{}, {}: {}", problem.name, describe(solution, setting), words_of(found)));
-  };
-  const int count = static_cast<int>(solution.solved.size());
-  if (flags.device == "cuda" && flags.batch > 1) {
-    if (problem.prepare) problem.prepare(problem.settings);
-    run_together_by(flags.batch, count, 1, solve);
-  } else {
-    for (int i = 0; i < count; ++i) solve(i);
+  for (const Setting& setting : problem.settings) {
+    const Found found = tried(problem, setting);
+    solution.solved.push_back({setting, found});
+    run.progress(fmt::format("{}, {}: {}", problem.name, describe(solution, setting),
+                             found.failed.empty()
+                                 ? fmt::format("error {:.3g}, {:.3g} s", found.error, found.seconds)
+                                 : found.failed));
   }
   return solution;
 }
@@ -101,7 +84,7 @@ int run_accuracy(const CommandLine& line) {
   run.reserve({"table.csv", "orders.csv", "cheapest.csv"});
   std::vector<Solution> solutions;
   for (const Problem& problem : problems) {
-    solutions.push_back(solved(problem, flags, run));
+    solutions.push_back(solved(problem, run));
     write_accuracy(run, solutions);  // a run that is cut short keeps what it has found
   }
   write_accuracy_metrics(run, solutions);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -42,12 +41,10 @@ struct Found {
   double error = 0;                 // as the problem defines it, no sign, 0.01 is 1 %
   double uncertainty = 0;           // of the reference, in the error's unit; 0: beyond the digits that count
   int triangles = 0;
-  long steps = 0;      // substeps, or parts of steps, or equilibria
-  double seconds = 0;  // wall clock of the simulation, without set-up and reference; NaN in a batch of others
+  long steps = 0;         // substeps, or parts of steps, or equilibria
+  double seconds = 0;     // wall clock of the simulation, without set-up and reference
   std::size_t bytes = 0;  // that the simulation holds on its device
   std::string failed;     // why there is no number; else empty
-
-  bool is_timed() const { return std::isfinite(seconds); }
 };
 
 struct Problem {
@@ -58,9 +55,7 @@ struct Problem {
   std::string reference;  // where the reference comes from
   std::vector<Setting> settings;
   std::function<Found(const Setting&)> solve;  // may throw Error::request, Error::run: noted as failed
-  // On a GPU, before settings are solved together: computes together the simulations that they share.
-  std::function<void(const std::vector<Setting>&)> prepare{};
-  std::string load = "load";        // what Setting::load is
+  std::string load = "load";                   // what Setting::load is
   bool reference_per_mesh = false;  // errors on different meshes, or sizes, say nothing about each other
 };
 

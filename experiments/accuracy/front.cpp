@@ -79,7 +79,7 @@ std::vector<std::size_t> pareto_front(const Solution& solution) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < solution.solved.size(); ++i) {
     const auto& [setting, found] = solution.solved[i];
-    if (solution.comparable(setting) && found.failed.empty() && found.is_timed()) order.push_back(i);
+    if (solution.comparable(setting) && found.failed.empty()) order.push_back(i);
   }
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return solution.solved[a].found.seconds < solution.solved[b].found.seconds;
@@ -92,11 +92,6 @@ std::vector<std::size_t> pareto_front(const Solution& solution) {
       front.push_back(i);
     }
   return front;
-}
-
-bool is_timed(const Solution& solution) {
-  return std::all_of(solution.solved.begin(), solution.solved.end(),
-                     [](const Solved& s) { return s.found.is_timed(); });
 }
 
 std::optional<std::size_t> cheapest(const Solution& solution, double error) {

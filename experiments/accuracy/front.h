@@ -24,9 +24,6 @@ struct Solution {
   bool comparable(const Setting& setting) const;
 };
 
-// Whether the time of each setting is known: then there is a front, and a cheapest one.
-bool is_timed(const Solution& solution);
-
 // Indices of the comparable settings that no other one beats in both error and time, fastest first.
 std::vector<std::size_t> pareto_front(const Solution& solution);
 

@@ -5,10 +5,8 @@
 #include <map>
 #include <memory>
 #include <tuple>
-#include <utility>
 
 #include "sim/base/error.h"
-#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 
@@ -62,35 +60,21 @@ class References {
  public:
   explicit References(const MotionQuestion& question) : question_(question) {}
 
-  // Computed when it is first asked for.  Throws what its runs have thrown.
+  // Computed when it is first asked for; what its runs throw is thrown then, and whenever it is asked for
+  // again.
   const Reference& of(const Setting& setting) {
-    prepare({setting});
-    const Reference& known = known_.at(key_of(setting));
-    if (known.failure) std::rethrow_exception(known.failure);
-    return known;
-  }
-  // Their times are no result, so that on a GPU all runs of all references may share its launches.
-  void prepare(const std::vector<Setting>& settings) {
-    std::vector<const Setting*> missing;
-    for (const Setting& setting : settings)
-      if (known_.try_emplace(key_of(setting)).second) missing.push_back(&setting);
-    if (missing.empty()) return;
-    std::vector<Trajectory> runs(2 * missing.size());
-    run_together(missing[0]->device == DeviceChoice::cuda, static_cast<int>(runs.size()), 1, [&](int i) {
-      const Setting& setting = *missing[i / 2];
-      try {
-        runs[i] = reference_run(question_, setting, (1 + i % 2) * question_.reference.step);
+    const auto [at, is_new] = known_.try_emplace(key_of(setting));
+    Reference& found = at->second;
+    if (is_new) try {
+        found.trajectory = reference_run(question_, setting, question_.reference.step);
+        // A third of what the last halving of the steps has changed, at second order.
+        const Trajectory coarse = reference_run(question_, setting, 2 * question_.reference.step);
+        found.uncertainty = distance(found.trajectory, coarse, question_.length) / 3;
       } catch (const Error&) {
-        known_.at(key_of(setting)).failure = std::current_exception();
+        found.failure = std::current_exception();
       }
-    });
-    for (std::size_t k = 0; k < missing.size(); ++k) {
-      Reference& found = known_.at(key_of(*missing[k]));
-      if (found.failure) continue;
-      // A third of what the last halving of the steps has changed, at second order.
-      found.uncertainty = distance(runs[2 * k], runs[2 * k + 1], question_.length) / 3;
-      found.trajectory = std::move(runs[2 * k]);
-    }
+    if (found.failure) std::rethrow_exception(found.failure);
+    return found;
   }
 
  private:
@@ -107,7 +91,6 @@ class References {
 
 void ask_for_motion(const MotionQuestion& question, Problem& problem) {
   const auto references = std::make_shared<References>(question);
-  problem.prepare = [references](const std::vector<Setting>& settings) { references->prepare(settings); };
   problem.solve = [question, references](const Setting& setting) {
     const Reference& exact = references->of(setting);
     Found found;

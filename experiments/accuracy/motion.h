@@ -25,7 +25,7 @@ struct MotionQuestion {
   std::function<double(const Cloth&, const std::vector<Eigen::Vector3d>&)> value;
 };
 
-// Gives the problem its solve() and prepare(): error is the distance from the reference.
+// Gives the problem its solve(): error is the distance from the reference.
 void ask_for_motion(const MotionQuestion& question, Problem& problem);
 
 }  // namespace hysteron::experiments

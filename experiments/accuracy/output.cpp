@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
 
 #include "render/plot.h"
 #include "sim/base/csv.h"
@@ -44,11 +42,9 @@ void write_table(Run& run, const std::vector<Solution>& solutions) {
                 number(f.error),
                 number(f.uncertainty),
                 f.steps,
-                f.is_timed() ? number(f.seconds) : "",
+                number(f.seconds),
                 f.bytes,
-                !is_timed(solution) ? ""
-                : on_front          ? "yes"
-                                    : "no",
+                on_front ? "yes" : "no",
                 f.failed});
     }
   }
@@ -66,7 +62,6 @@ void write_orders(Run& run, const std::vector<Solution>& solutions) {
 
 // Cell of the table: what it takes.
 std::string cheapest_text(const Solution& solution, double target) {
-  if (!is_timed(solution)) return "unknown";
   const auto best = cheapest(solution, target);
   if (!best) return "none";
   const Solved& solved = solution.solved[*best];
@@ -86,17 +81,10 @@ void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
 // Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.
 constexpr double kLeastDrawn = 1e-6;
 
-void sort_by_time(render::Series& series) {
-  std::vector<std::pair<double, double>> points;
-  for (std::size_t i = 0; i < series.x.size(); ++i) points.emplace_back(series.x[i], series.y[i]);
-  std::sort(points.begin(), points.end());
-  for (std::size_t i = 0; i < points.size(); ++i) std::tie(series.x[i], series.y[i]) = points[i];
-}
-
 render::Plot plot_of(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
   for (const auto& [setting, found] : solution.solved) {
-    if (!found.failed.empty() || !found.is_timed() || !solution.comparable(setting)) continue;
+    if (!found.failed.empty() || !solution.comparable(setting)) continue;
     const std::string label = series_of(solution, setting);
     auto at = std::find_if(plot.series.begin(), plot.series.end(),
                            [&](const render::Series& s) { return s.label == label; });
@@ -105,7 +93,6 @@ render::Plot plot_of(const Solution& solution) {
     at->x.push_back(found.seconds);
     at->y.push_back(std::max(found.error, kLeastDrawn));
   }
-  for (render::Series& series : plot.series) sort_by_time(series);
   render::Series front{"front", {}, {}, render::Series::Style::dashed, "#222222"};
   for (std::size_t i : pareto_front(solution)) {
     front.x.push_back(solution.solved[i].found.seconds);
@@ -132,7 +119,6 @@ void write_accuracy_metrics(Run& run, const std::vector<Solution>& solutions) {
     run.metric(name + ".failed_count",
                std::count_if(solution.solved.begin(), solution.solved.end(),
                              [](const Solved& s) { return !s.found.failed.empty(); }));
-    if (!is_timed(solution)) continue;
     run.metric(name + ".front_count", pareto_front(solution).size());
     double seconds = 0;
     for (const Solved& s : solution.solved) seconds += s.found.seconds;
@@ -152,17 +138,6 @@ void print_accuracy(const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
     fmt::print("\n{}: {}\nerror: {}; reference: {}\n", solution.problem.name, solution.problem.title,
                solution.problem.error, solution.problem.reference);
-    const auto front = pareto_front(solution);
-    for (std::size_t i = 0; i < solution.solved.size(); ++i) {
-      const auto& [setting, found] = solution.solved[i];
-      const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-      fmt::print("{} {:<58}", on_front ? '*' : ' ', describe(solution, setting));
-      if (found.failed.empty())
-        fmt::print(" {:10.4f} % {:>9} s {:8} steps\n", 100 * found.error,
-                   found.is_timed() ? fmt::format("{:.3f}", found.seconds) : "?", found.steps);
-      else
-        fmt::print(" {}\n", found.failed);
-    }
     for (double target : kTargets)
       fmt::print("cheapest within {:4.1f} %: {}\n", 100 * target, cheapest_text(solution, target));
   }

@@ -111,7 +111,7 @@ int run_batch(const CommandLine&) {
   std::optional<Interrupts> interrupts;
   if (any(members, [](const CommandLine& line) { return last_text(line.flags, "checkpoint", "0") != "0"; }))
     interrupts.emplace();
-  run_together(on_gpu, static_cast<int>(members.size()), 1, [&](int i) {
+  run_together(on_gpu, static_cast<int>(members.size()), [&](int i) {
     Member& member = members[static_cast<std::size_t>(i)];
     if (member.line)
       member.ending =

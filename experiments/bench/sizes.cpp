@@ -7,7 +7,6 @@
 #include <map>
 
 #include "experiments/bench/step_profile.h"
-#include "experiments/bench/wall_clock.h"
 #include "sim/base/error.h"
 #include "sim/scene/cloth.h"
 #include "sim/time/simulation.h"
@@ -53,10 +52,8 @@ class TimesBySize {
  public:
   TimesBySize(const Scene& scene, const SizeChoice& choice,
               const std::function<void(const Metrics&)>& measured)
-      : scene_(scene), choice_(choice), measured_(measured), budget_(choice.budget) {
+      : scene_(scene), choice_(choice), measured_(measured) {
     std::sort(choice_.triangles.begin(), choice_.triangles.end());
-    scene_.law = choice_.laws.front();
-    if (scene_.law != scene.law) scene_.param.clear();
   }
 
   SizeTable table() {
@@ -71,26 +68,22 @@ class TimesBySize {
   void add_rows() {
     Cloth cloth;
     const std::string unfit = attempt(fall_, [&] { cloth = fallen(); });
-    for (const Integrator integrator : choice_.integrators)
-      for (const std::string& law : choice_.laws) {
-        double& explicit_step = explicit_step_.emplace(integrator, scene_.step).first->second;
-        Scene scene = scene_;
-        take(integrator, explicit_step, scene);
-        scene.law = law;
-        if (law != scene_.law) scene.param.clear();
-        const int triangles = unfit.empty() ? cloth.mesh.faces() : scene.triangles;
-        Metrics row = blank_row(scene, triangles, unfit);
-        if (unfit.empty())
-          row.set("skipped",
-                  attempt(row_[{integrator, law}], [&] { explicit_step = measure(scene, cloth, row); }));
-        measured_(row);
-        table_.rows.push_back(std::move(row));
-      }
+    for (const Integrator integrator : choice_.integrators) {
+      double& explicit_step = explicit_step_.emplace(integrator, scene_.step).first->second;
+      Scene scene = scene_;
+      take(integrator, explicit_step, scene);
+      const int triangles = unfit.empty() ? cloth.mesh.faces() : scene.triangles;
+      Metrics row = blank_row(scene, triangles, unfit);
+      if (unfit.empty())
+        row.set("skipped", attempt(row_[integrator], [&] { explicit_step = measure(scene, cloth, row); }));
+      measured_(row);
+      table_.rows.push_back(std::move(row));
+    }
   }
 
   // Why it was not done; "" if it was.
   std::string attempt(Experience& experience, const std::function<void()>& work) {
-    const std::string refusal = budget_.refusal(experience.expected(scene_.triangles));
+    const std::string refusal = refusal_of(experience.expected(scene_.triangles));
     if (!refusal.empty()) return refusal;
     const Stopwatch clock;
     try {
@@ -101,6 +94,15 @@ class TimesBySize {
     }
     experience = {static_cast<double>(scene_.triangles), clock.seconds()};
     return "";
+  }
+
+  // Why what is expected to take so long [s] is left out; "" if it fits.
+  std::string refusal_of(double expected) const {
+    const double left = std::max(choice_.budget - clock_.seconds(), 0.0);
+    if (expected < left) return "";
+    if (left == 0) return fmt::format("the budget of {:.0f} s is used up", choice_.budget);
+    return fmt::format("some {:.0f} s are needed, {:.0f} of {:.0f} s are left", expected, left,
+                       choice_.budget);
   }
 
   Cloth fallen() const {
@@ -146,9 +148,9 @@ class TimesBySize {
   Scene scene_;  // its step: the longest explicit one
   SizeChoice choice_;
   const std::function<void(const Metrics&)>& measured_;
-  Budget budget_;
+  Stopwatch clock_;
   Experience fall_;
-  std::map<std::pair<Integrator, std::string>, Experience> row_;
+  std::map<Integrator, Experience> row_;
   std::map<Integrator, double> explicit_step_;  // that was stable with fewer triangles
   SizeTable table_;
 };
@@ -158,19 +160,6 @@ class TimesBySize {
 SizeTable times_by_size(const Scene& scene, const SizeChoice& choice,
                         const std::function<void(const Metrics&)>& measured) {
   return TimesBySize(scene, choice, measured).table();
-}
-
-void compare_with_linear(std::vector<Metrics>& rows) {
-  const auto key = [](const Metrics& row) {
-    return std::pair(row["integrator"].text(), row.number("triangles"));
-  };
-  std::map<std::pair<std::string, double>, double> linear;
-  for (const Metrics& row : rows)
-    if (row["law"].text() == "linear") linear[key(row)] = row.number("ms_per_step");
-  for (Metrics& row : rows) {
-    const auto found = linear.find(key(row));
-    row.set("ratio_to_linear", found == linear.end() ? NAN : row.number("ms_per_step") / found->second);
-  }
 }
 
 }  // namespace hysteron::experiments

@@ -14,7 +14,6 @@ namespace hysteron::experiments {
 struct SizeChoice {
   std::vector<double> triangles;
   std::vector<Integrator> integrators;
-  std::vector<std::string> laws;
   int steps = 9;        // that are timed, each by itself
   double budget = 120;  // of wall clock [s]
 };
@@ -25,7 +24,7 @@ struct SizeTable {
   double copy_bandwidth = 0;  // bytes read plus written [byte/s]
 };
 
-// A row for each number of triangles, ascending, each integrator and each law, in this order; `measured`
+// A row for each number of triangles, ascending, and each integrator, in this order; `measured`
 // hears of every one at once.
 //
 // The scene's cloth first falls for 0.2 s; the steps that are timed go on from that shape, at rest.  Explicit
@@ -35,9 +34,6 @@ struct SizeTable {
 // triangles, and rows that cannot go on say so in `skipped`; their numbers are not known.
 SizeTable times_by_size(const Scene& scene, const SizeChoice& choice,
                         const std::function<void(const Metrics&)>& measured);
-
-// Sets in every row how its time compares with that of law `linear`: ratio_to_linear.
-void compare_with_linear(std::vector<Metrics>& rows);
 
 // table.csv and, with pictures, plot_sizes with its caption in README.md.
 void write_sizes(Run& run, const SizeTable& table, bool pictures);

@@ -12,12 +12,12 @@ namespace {
 
 using render::Series;
 
-// Rows of one integrator and law; x: triangles.
+// Rows of one integrator; x: triangles.
 Series curve_of(const std::vector<Metrics>& rows, const Metrics& like, const char* key, std::string label,
                 Series::Style style) {
   Series curve{std::move(label), {}, {}, style};
   for (const Metrics& row : rows) {
-    if (row["integrator"] != like["integrator"] || row["law"] != like["law"]) continue;
+    if (row["integrator"] != like["integrator"]) continue;
     curve.x.push_back(row.number("triangles"));
     curve.y.push_back(row.number(key));
   }
@@ -37,11 +37,10 @@ render::Plot plot_of(const SizeTable& table) {
                     {"triangles", true},
                     {"time per step [ms]", true}};
   const std::vector<const Metrics*> curves = curves_in(table.rows);
-  const bool one_law = (*curves.front())["law"] == (*curves.back())["law"];
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const Metrics& like = *curves[k];
-    const std::string label = like["integrator"].text() + (one_law ? "" : ", " + like["law"].text());
-    Series measured = curve_of(table.rows, like, "ms_per_step", label, Series::Style::line_and_points);
+    Series measured =
+        curve_of(table.rows, like, "ms_per_step", like["integrator"].text(), Series::Style::line_and_points);
     Series floor = curve_of(table.rows, like, "floor_ms_per_step", "", Series::Style::dashed);
     measured.color = floor.color = render::hex(render::method_color(k));
     plot.series.push_back(std::move(measured));

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "experiments/bench/wall_clock.h"
-
 namespace hysteron::experiments {
 namespace {
 

@@ -1,6 +1,7 @@
 // What a step takes and asks of its device, and where its time goes, kernel by kernel.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -9,6 +10,16 @@
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
+
+class Stopwatch {
+ public:
+  // Since it was made [s].
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
 
 // Of one step, as a mean over all that were timed; not known by default.
 struct StepCost {

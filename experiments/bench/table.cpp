@@ -47,12 +47,6 @@ void print_json(const std::vector<Metrics>& rows) {
   std::cout << list.dump(2) << std::endl;
 }
 
-Options table_options(const Setup& setup) {
-  Options options = setup.options;
-  options.json = false;
-  return options;
-}
-
 void write_table(Run& run, const std::vector<Metrics>& rows) {
   std::vector<CsvField> head;
   for (const auto& [key, value] : rows.front()) head.push_back(key);
@@ -64,12 +58,6 @@ void write_table(Run& run, const std::vector<Metrics>& rows) {
     file.row(fields);
   }
   file.commit();
-}
-
-void finish_table(Run& run, const Setup& setup, const std::vector<Metrics>& rows) {
-  write_table(run, rows);
-  run.finish();
-  if (setup.options.json) print_json(rows);
 }
 
 }  // namespace hysteron::experiments

@@ -29,12 +29,7 @@ class RowPrinter {
 
 void print_json(const std::vector<Metrics>& rows);
 
-// What a table's run takes: --json is that of its rows, not of the manifest.
-Options table_options(const Setup& setup);
-
 // table.csv; all rows have the keys of the first.
 void write_table(Run& run, const std::vector<Metrics>& rows);
-// Writes table.csv and the manifest, and prints the rows with --json.
-void finish_table(Run& run, const Setup& setup, const std::vector<Metrics>& rows);
 
 }  // namespace hysteron::experiments

@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 using F = DiffFlags;
 // clang-format off
 const KeyRow<DiffFlags> kRows[] = {
-    {"out", at<&F::out>, "", any(), "", "heat map, a PNG file; of folders: a folder for heat maps, diff.html, diff.csv"},
+    {"out", at<&F::out>, "", any(), "", "heat map, a PNG file; of folders: a folder for heat maps and diff.csv"},
     {"limits", at<&F::limits_file>, "", any(), "", "a TOML file of limits, or one of assets/limits by its name; flags take precedence"},
     {"junit", at<&F::junit>, "", any(), "", "a JUnit XML file, with a test case for each picture"},
     {"pixels-per-degree", at<&F::pixels_per_degree>, "1/degree", between(1, 1000), "", "of the eye that FLIP assumes; default 67: 3840 pixels on 0.7 m, seen from 0.7 m"},
@@ -177,7 +177,23 @@ Json json_of(const FolderDiff& diff) {
   return all;
 }
 
-int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, const std::string& command) {
+// A row for each picture.
+void write_table(const fs::path& path, const FolderDiff& diff) {
+  std::vector<CsvField> head = {"picture"};
+  for (const Measure& m : all_measures()) head.push_back(m.column);
+  head.push_back("error");
+  CsvFile file(path, head);
+  for (const FolderDiff::Row& row : diff.rows) {
+    std::vector<CsvField> fields = {row.name};
+    for (const Measure& m : all_measures())
+      fields.push_back(row.error.empty() ? CsvField(row.measures.*m.value) : CsvField(""));
+    fields.push_back(row.error);
+    file.row(fields);
+  }
+  file.commit();
+}
+
+int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty()) {
     require_outside(flags.out, a);
     require_outside(flags.out, b);
@@ -197,7 +213,7 @@ int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags, c
   } else {
     print_row("worst", width, diff.compared() > 0 ? cells(diff.worst) : no_cells());
   }
-  if (!flags.out.empty()) write_folder_diff(diff, flags, command);
+  if (!flags.out.empty()) write_table(fs::path(flags.out) / "diff.csv", diff);
   std::vector<TestCase> cases;
   int exit_code = 0;  // what could not be compared weighs more than what differs
   for (const FolderDiff::Row& row : diff.rows) {
@@ -227,7 +243,7 @@ int run_diff(const CommandLine& line) {
     throw Error::request((fs::is_directory(a) ? a : b).string() + " is a folder and " +
                          (fs::is_directory(a) ? b : a).string() +
                          " is not: give two pictures or two folders");
-  return diff_folders(a, b, flags, line.command);
+  return diff_folders(a, b, flags);
 }
 
 }  // namespace

@@ -62,8 +62,4 @@ std::vector<std::string> pictures_in_either(const std::filesystem::path& a, cons
 FolderDiff::Row compare_in_folders(const std::filesystem::path& a, const std::filesystem::path& b,
                                    const std::string& name, const DiffFlags& flags, render::Image& heat);
 
-// Writes FOLDER/diff.csv (a row for each picture) and FOLDER/diff.html (self-contained: the table and the
-// pictures that differ most, with the heat maps of FOLDER/heat).  Throws Error::machine.
-void write_folder_diff(const FolderDiff& diff, const DiffFlags& flags, const std::string& command);
-
 }  // namespace hysteron::experiments

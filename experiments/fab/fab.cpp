@@ -1,14 +1,10 @@
 // `hysteron fab`: the loop test of a FAB tester, a strip between clamps that is buckled or stretched in
-// growing cycles, along the clamps' own way where data are given, or to given compressions; as an elastica,
-// and beside it as a sheet of triangles.
+// growing cycles, along the clamps' own way where data are given, or to given compressions; as an elastica.
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "experiments/fab/loops.h"
-#include "experiments/fab/sheet_output.h"
-#include "experiments/fab/sheet_pictures.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
@@ -27,13 +23,10 @@ struct TestFlags {
   double gauge = 0.021, slack = 0.0015, width = 0.04;
   std::string compressions = "0.0038,0.0063,0.0088";
   int steps = 60;
-  std::string on = "strip";
-  SheetShape sheet;
   Options options;
 };
 
 using F = TestFlags;
-using S = SheetShape;
 // clang-format off
 const KeyRow<TestFlags> kRows[] = {
     {"fabric.name", at<&F::fabric>, "", any(), "", "NAME or FILE, as `fit --fab` writes it or any other"},
@@ -46,32 +39,11 @@ const KeyRow<TestFlags> kRows[] = {
     {"fab.compressions", at<&F::compressions>, "", any(), "", "without data: of the cycles, from the gauge on, separated by commas [m]"},
     {"fab.width", at<&F::width>, "m", between(1e-3, 1), "", "without data: of the strip"},
     {"fab.steps", at<&F::steps>, "", between(4, 1e5), "", "without data: rows of a branch"},
-    {"on", at<&F::on>, "", any(), "strip | sheet", "the strip as an elastica alone, or beside it a sheet of triangles, which bends"},
-};
-const KeyRow<TestFlags> kSheetRows[] = {
-    {"mesh", at<&F::sheet, &S::mesh>, "", any(), "", "of the sheet: aligned, aligned-45, flipped, unionjack, equilateral, random"},
-    {"triangles", at<&F::sheet, &S::triangles>, "", between(160, 1e6), "", "about how many it has; a repeat with a quarter of them tells the error"},
-    {"cloth.width", at<&F::sheet, &S::width>, "m", at_least(0), "", "of the sheet; 0: the strip's"},
-    {"size", at<&F::options, &Options::size>, "", any(), "", "of its pictures, WIDTHxHEIGHT pixels"},
-    {"renderer", at<&F::options, &Options::renderer>, "", any(), "auto | egl | osmesa", "how they are drawn"},
 };
 // clang-format on
-constexpr int kQuickSteps = 20, kQuickTriangles = 400;
-constexpr double kQuickWidth = 8e-3;  // [m]
+constexpr int kQuickSteps = 20;
 
-Keys keys_of(TestFlags& flags) {
-  Keys keys = bind(kRows, flags);
-  for (const BoundKey& key : bind(kSheetRows, flags)) keys.push_back(key);
-  return with_output_options(keys, flags.options);
-}
-
-void refuse_sheet_keys(const CommandLine& line) {
-  for (const Flag& flag : line.flags)
-    for (const KeyRow<TestFlags>& row : kSheetRows)
-      if (flag.path == row.path)
-        throw Error::request("--" + flag.path + " is of the sheet: it needs --on sheet")
-            .of(flag.path, flag.text);
-}
+Keys keys_of(TestFlags& flags) { return with_output_options(bind(kRows, flags), flags.options); }
 
 std::vector<double> numbers_of(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
@@ -121,46 +93,10 @@ void print_cycles(const ComparedLoops& compared) {
   }
 }
 
-double height_of(const FabRun& run) {  // to which the strip buckles at most [m]
-  double height = 0;
-  for (const auto& line : run.shapes)
-    for (const Eigen::Vector2d& point : line) height = std::max(height, point.y());
-  return height;
-}
-
-SheetRun tested_sheet(Run& run, const TestFlags& flags, const FabSheet& sheet, const ComparedLoops& compared,
-                      const std::string& title) {
-  SheetPictures pictures(run, flags.options, sheet, compared.loops, height_of(compared.run));
-  const auto watch = [&](const SheetRow& row, Simulation& simulation) {
-    if (row.row + 1 == compared.loops.branches[row.branch].distance.size())
-      run.progress(fmt::format("sheet, branch {} of {}: {:+.3f} N/m", row.branch + 1,
-                               compared.loops.branches.size(), row.force));
-    if (!flags.options.no_images) pictures.watch(row, simulation);
-  };
-  const SheetRun result = test_sheet(sheet, compared.loops, watch);
-  if (!flags.options.no_images) pictures.finish("Sheet between clamps, " + title);
-  run.manifest().element = name_of(sheet.scene.element);
-  run.manifest().law = sheet.scene.law;
-  return result;
-}
-
-SheetRepeats verify_by_sheet(Run& run, const TestFlags& flags, const FabSheet& sheet, ComparedLoops& compared,
-                             const std::string& title) {
-  compared.sheet = tested_sheet(run, flags, sheet, compared, title);
-  SheetRepeats repeats = repeated(compared.loops, sheet.scene.fabric, flags.sheet);
-  if (!flags.options.no_images) draw_difference(run, title, compared);
-  return repeats;
-}
-
 int run_test(const CommandLine& line) {
   TestFlags flags;
   const Keys keys = keys_of(flags);
-  set_keys(line, keys, [&] {
-    flags.steps = std::min(flags.steps, kQuickSteps);
-    flags.sheet.triangles = std::min(flags.sheet.triangles, kQuickTriangles);
-    flags.sheet.width = kQuickWidth;
-  });
-  if (flags.on == "strip") refuse_sheet_keys(line);
+  set_keys(line, keys, [&] { flags.steps = std::min(flags.steps, kQuickSteps); });
   flags.fabric = last_text(line.flags, "fabric", flags.fabric);
   check_test(flags.test);
   const Fabric fabric = read_fabric(flags.fabric, "--fabric").fabric;
@@ -169,26 +105,18 @@ int run_test(const CommandLine& line) {
   const FabLoops loops = measured ? find_loops(read_fab(flags.data, tester_units(flags.units), "fab"),
                                                flags.direction, flags.test)
                                   : loops_without_data(flags);
-  std::optional<FabSheet> sheet;
-  if (flags.on == "sheet") sheet = fab_sheet(loops, fabric, flags.sheet);
   Run run(line, flags.options, to_json(keys));
   run.reserve({"fab.csv"});
-  if (sheet && !flags.options.no_images) run.reserve({"sheet.png", "frames/0000.png"});
-  ComparedLoops compared(loops, run_fab(loops, strip), measured);
+  const ComparedLoops compared(loops, run_fab(loops, strip), measured);
   const std::string title = fabric.name + ", " + loops.name();
-  std::optional<SheetRepeats> repeats;
-  if (sheet) repeats = verify_by_sheet(run, flags, *sheet, compared, title);
   add_metrics(run, compared);
-  if (repeats) add_sheet_metrics(run, compared, *repeats);
   write_loops(run, "fab.csv", compared);
   if (!flags.options.no_images) {
     draw_loops(run, "plot_fab", "FAB loops of " + title, compared);
     draw_shapes(run, "plot_shapes", "Strip between clamps, " + title, compared);
   }
   finish_with_report(run);
-  if (flags.options.json) return 0;
-  print_cycles(compared);
-  if (repeats) print_sheet(compared, *repeats);
+  if (!flags.options.json) print_cycles(compared);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "render/plot.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/identification/fab_cycles.h"
@@ -14,7 +15,6 @@ namespace {
 using Style = render::Series::Style;
 
 constexpr const char* kCycleColors[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"};
-constexpr const char* kSheetColor = "#222222";
 constexpr double kMillimetre = 1e3;
 
 const char* color_of(int cycle) { return kCycleColors[cycle % std::size(kCycleColors)]; }
@@ -34,6 +34,18 @@ double rms_of(const BranchForces& a, const BranchForces& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < a[i].size(); ++k, ++count) sum += std::pow(a[i][k] - b[i][k], 2);
   return std::sqrt(sum / static_cast<double>(count));
+}
+
+// Force [N/m] against distance [mm] of both branches of a cycle, one behind the other, without a label.
+render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle,
+                         render::Series::Style style) {
+  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
+  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
+    for (std::size_t i = 0; i < force[b].size(); ++i) {
+      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
+      series.y.push_back(force[b][i]);
+    }
+  return series;
 }
 
 }  // namespace
@@ -73,7 +85,6 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
     };
     add("", compared.run.force);
     if (compared.measured) add("measured_", measured);
-    if (compared.sheet) add("sheet_", compared.sheet->force);
   }
   if (compared.measured) {
     run.metric("difference_rms_N_per_m", rms_of(compared.run.force, measured));
@@ -92,7 +103,6 @@ void write_loops(Run& run, const std::string& name, const ComparedLoops& compare
   std::vector<CsvField> head = {"direction", "test",           "branch", "clamp_distance_m",
                                 "force_N",   "gauge_length_m", "width_m"};
   if (compared.measured) head.emplace_back("measured_force_N");
-  if (compared.sheet) head.emplace_back("sheet_force_N");
   CsvFile file(run.path(name), head);
   const BranchForces measured = compared.measured_forces();
   for (std::size_t b = 0; b < loops.branches.size(); ++b)
@@ -105,21 +115,9 @@ void write_loops(Run& run, const std::string& name, const ComparedLoops& compare
                                    loops.gauge,
                                    loops.width};
       if (compared.measured) row.emplace_back(measured[b][i] * loops.width);
-      if (compared.sheet) row.emplace_back(compared.sheet->force[b][i] * loops.width);
       file.row(row);
     }
   file.commit();
-}
-
-render::Series series_of(const FabLoops& loops, const BranchForces& force, int cycle,
-                         render::Series::Style style) {
-  render::Series series{.label = "", .x = {}, .y = {}, .style = style, .color = color_of(cycle)};
-  for (int b = 2 * cycle; b <= 2 * cycle + 1; ++b)
-    for (std::size_t i = 0; i < force[b].size(); ++i) {
-      series.x.push_back(kMillimetre * loops.branches[b].distance[i]);
-      series.y.push_back(force[b][i]);
-    }
-  return series;
 }
 
 void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {
@@ -130,13 +128,6 @@ void draw_loops(Run& run, const std::string& name, const std::string& title, con
     model.label = "cycle " + std::to_string(cycle + 1) +
                   fmt::format(", {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.run.force, cycle));
     plot.series.push_back(model);
-    if (compared.sheet) {
-      render::Series sheet = series_of(compared.loops, compared.sheet->force, cycle, Style::dashed);
-      sheet.label =
-          fmt::format("sheet, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, compared.sheet->force, cycle));
-      sheet.color = kSheetColor;
-      plot.series.push_back(sheet);
-    }
     if (!compared.measured) continue;
     render::Series data = series_of(compared.loops, measured, cycle, Style::points);
     data.label = fmt::format("measured, {:.3g} mJ/m", 1e3 * loop_area(compared.loops, measured, cycle));
@@ -159,14 +150,6 @@ void draw_shapes(Run& run, const std::string& name, const std::string& title, co
     add_line(compared.run.shapes[i], up, series);
     plot.series.push_back(series);
   }
-  if (compared.sheet)
-    for (const auto& line : compared.sheet->shapes) {
-      render::Series series{.label = &line == &compared.sheet->shapes[0] ? "sheet" : "", .x = {}, .y = {}};
-      series.style = Style::points;
-      series.color = kSheetColor;
-      add_line(line, up, series);
-      plot.series.push_back(series);
-    }
   run.plot(name, plot);
 }
 

@@ -19,7 +19,6 @@ struct StabilityFlags {
   std::string integrator = "all", law, sweep = "all";
   CellEffort effort;
   double threads = 0, limit_steps = 2000;
-  int batch = 256;
   Options options;
 };
 
@@ -34,7 +33,6 @@ const KeyRow<F> kRows[] = {
     {"work", at<&F::effort, &CellEffort::work>, "", positive(), "", "explicit substeps after which a cell's time is cut short; a step of implicit or bdf2 counts 20"},
     {"limit-steps", at<&F::limit_steps>, "", between(100, 1e7), "", "steps through which the energy must stay bounded (sweep explicit-limit)"},
     {"threads", at<&F::threads>, "", between(0, 1024), "", "of the host, a cell at a time each; 0: all cores, or 1 on cuda"},
-    {"batch", at<&F::batch>, "", between(1, 1024), "", "of cells on cuda: how many share its launches; 1: each has a wall clock time of its own"},
 };
 // clang-format on
 constexpr double kQuickWork = 300, kQuickLimitSteps = 600;
@@ -59,8 +57,7 @@ std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& r
   std::vector<Cell> cells = cells_of(sweeps, choice_of(flags));
   const auto stage = run.stage("cells");
   const std::size_t every = std::max<std::size_t>(1, cells.size() / 20);
-  const CellsAtOnce at_once{threads_of(flags), flags.device == "cuda" ? flags.batch : 1};
-  try_all(cells, flags.effort, at_once, [&](std::size_t done) {
+  try_all(cells, flags.effort, threads_of(flags), [&](std::size_t done) {
     if (done % every == 0)
       run.progress(std::to_string(done) + " of " + std::to_string(cells.size()) + " cells");
   });
@@ -86,14 +83,12 @@ int run_stability(const CommandLine& line) {
     write_cells(run, sweeps, cells);
     write_counts(run, cells);
     if (!flags.options.no_images) draw_maps(run, sweeps, cells);
-    if (!flags.options.json) print_counts(sweeps, cells);
+    if (!flags.options.json) print_counts(cells);
   }
   if (with_limit) {
     const std::vector<MeasuredLimit> limits = measure_limits(
         limit_cases(flags.options.quick), static_cast<int>(flags.limit_steps), threads_of(flags));
     write_limits(run, limits);
-    if (!flags.options.no_images) draw_limits(run, limits);
-    if (!flags.options.json) print_limits(limits);
   }
   finish_with_report(run);
   return 0;

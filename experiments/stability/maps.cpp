@@ -46,7 +46,6 @@ Scene falling_square() {
 Sweep against_step(const std::string& name, const std::string& title, const SweepAxis& x,
                    const SweepChoice& choice, void (*set)(Scene&, double)) {
   Sweep sweep{name, title, x, steps(choice.quick), choice.few_laws(), {}};
-  sweep.step_limits = true;
   sweep.at = [set, x = sweep.x, y = sweep.y, laws = sweep.variants](int variant, int column, int row) {
     Scene scene = falling_square();
     set(scene, x.values[column]);

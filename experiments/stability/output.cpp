@@ -59,7 +59,7 @@ void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<C
               if_ran(f.steps),
               if_ran(f.substeps),
               if_ran(f.retried_steps),
-              f.wall_seconds ? CsvField(*f.wall_seconds) : CsvField(""),
+              f.wall_seconds,
               f.message});
   }
   file.commit();
@@ -79,7 +79,7 @@ void write_counts(Run& run, const std::vector<Cell>& cells) {
   run.metric("diverged_default", count(cells, name_of(default_scene().integrator))[Outcome::diverged]);
 }
 
-void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {
+void print_counts(const std::vector<Cell>& cells) {
   fmt::print("{:<14}", "integrator");
   for (Outcome outcome : kOutcomes) fmt::print(" {:>9}", name_of(outcome));
   for (const std::string& integrator : integrators_in(cells)) {
@@ -88,13 +88,6 @@ void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cel
     for (Outcome outcome : kOutcomes) fmt::print(" {:9}", counts[outcome]);
   }
   fmt::print("\n");
-  for (const Cell& cell : cells) {
-    if (cell.finding.outcome != Outcome::diverged) continue;
-    const Sweep& sweep = sweeps[cell.sweep];
-    fmt::print("diverged: {}, {}, {}, {}, {}: {} (growth {:.3g})\n", sweep.name, cell.integrator,
-               sweep.variants[cell.variant], sweep.x.ticks[cell.column], sweep.y.ticks[cell.row],
-               cell.finding.message, cell.finding.energy_growth);
-  }
 }
 
 void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
@@ -116,17 +109,6 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   run.metric("limit_smallest_ratio", least);
   run.metric("limit_largest_ratio", most);
   if (least_resonant < kMostRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
-}
-
-void print_limits(const std::vector<MeasuredLimit>& limits) {
-  fmt::print("measured limit of the explicit bending step over the bound in use:\n");
-  for (const MeasuredLimit& limit : limits) {
-    const LimitCase& of = limit.of;
-    fmt::print("{:<11} {:<5} {:<4} {:<8} damping {:<6g} s  amplitude {:<6g} m  {:.3g} / {:.3g} s = {:.3f}\n",
-               of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
-               of.condition.damping, of.condition.amplitudes.back(), limit.measured, limit.bound,
-               limit.ratio());
-  }
 }
 
 }  // namespace hysteron::experiments

@@ -17,12 +17,10 @@ void write_counts(Run& run, const std::vector<Cell>& cells);
 // plot_<sweep>: a map for each integrator and variant.
 void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells);
 
-// limit.csv, limit_smallest_ratio and limit_largest_ratio, plot_explicit-limit.
+// limit.csv, limit_smallest_ratio and limit_largest_ratio.
 void write_limits(Run& run, const std::vector<MeasuredLimit>& limits);
-void draw_limits(Run& run, const std::vector<MeasuredLimit>& limits);
 
-// Counts and every diverged cell, on stdout.
-void print_counts(const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells);
-void print_limits(const std::vector<MeasuredLimit>& limits);
+// On stdout.
+void print_counts(const std::vector<Cell>& cells);
 
 }  // namespace hysteron::experiments

@@ -9,7 +9,6 @@
 #include "sim/base/parallel.h"
 #include "sim/mesh/intersections.h"
 #include "sim/scene/scene_reader.h"
-#include "sim/time/together.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -132,8 +131,7 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
     finding.outcome = error.exit_code() == 2 ? Outcome::refused : Outcome::diverged;
     finding.message = error.what();
   }
-  if (jobs_together() == 1)
-    finding.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  finding.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return finding;
 }
 
@@ -158,18 +156,15 @@ std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& 
   return cells;
 }
 
-void try_all(std::vector<Cell>& cells, const CellEffort& effort, CellsAtOnce at_once,
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t)>& done) {
   std::size_t finished = 0;
   std::mutex reporting;
-  const auto find = [&](std::size_t i) {
+  in_parallel(cells.size(), threads, [&](std::size_t i) {
     cells[i].finding = find_out(cells[i].attempt, effort);
     const std::lock_guard lock(reporting);
     done(++finished);
-  };
-  if (at_once.batch <= 1) return in_parallel(cells.size(), at_once.threads, find);
-  run_together_by(at_once.batch, static_cast<int>(cells.size()), at_once.threads,
-                  [&](int i) { find(static_cast<std::size_t>(i)); });
+  });
 }
 
 }  // namespace hysteron::experiments

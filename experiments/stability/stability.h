@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,7 @@ struct Finding {
   double seconds_asked = 0, seconds_simulated = 0;
   long steps = 0, retried_steps = 0;
   int substeps = 0;
-  std::optional<double> wall_seconds{};  // none of a cell that shared a GPU with others
+  double wall_seconds = 0;
 };
 
 // Beyond this energy growth a run counts as diverged.  Explicit bending conserves a neighbouring energy, from
@@ -74,7 +73,6 @@ struct Sweep {
   SweepAxis x, y;
   std::vector<std::string> variants;  // "prandtl", "hinge"
   std::function<Attempt(int variant, int column, int row)> at;
-  bool step_limits = false;  // y are steps: the explicit limits are drawn as lines
 };
 
 // What the sweeps cover.
@@ -109,13 +107,8 @@ struct Cell {
 };
 // The cells of all sweeps under all integrators, not yet tried.
 std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
-// How many are tried at a time.
-struct CellsAtOnce {
-  int threads = 1;  // each takes one after the other,
-  int batch = 1;    // or, on a GPU, its part of so many, which share launches
-};
-// Tries them; `done` is called after each with how many are done.
-void try_all(std::vector<Cell>& cells, const CellEffort& effort, CellsAtOnce at_once,
+// Tries them, so many at a time; `done` is called after each with how many are done.
+void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t done)>& done);
 
 }  // namespace hysteron::experiments

@@ -1,4 +1,4 @@
-// Choices of the solver's that are no keys: what `bench --hard` compares, and their values in use.
+// Choices of the solver's that are no keys, and their values in use.
 #pragma once
 
 namespace hysteron {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "sim/bending/curvature_operator.h"
-#include "sim/bending/law_cost.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron {
@@ -20,10 +19,6 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
 
 // Bound on dM/dK of the scene's law on an element of this dimension [N m].
 double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op);
-
-// Cost of a law's loop alone; threads 0 = all.  Error::machine without a GPU.
-LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision, int threads);
-LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision);
 
 // Jobs that take turns on the calling thread (together.h).
 void run_on_gpu_together(int count, const std::function<void(int)>& job);

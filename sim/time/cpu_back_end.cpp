@@ -1,3 +1,4 @@
+#include "sim/bending/law_loop.h"
 #include "sim/time/back_end.h"
 #include "sim/time/stepper.h"
 
@@ -16,12 +17,6 @@ double law_largest_stiffness(const Scene& scene, const CurvatureOperator& op) {
   return make_law_loop<double>(cpu, choose_law(scene.law, scene.fabric.virgin_curve(), scene.param),
                                op.dimension, 0)
       ->largest_stiffness();
-}
-
-LawCost cpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision, int threads) {
-  Cpu cpu(threads);
-  return precision == Precision::fp32 ? law_cost<float>(cpu, choice, dimension, elements)
-                                      : law_cost<double>(cpu, choice, dimension, elements);
 }
 
 std::string cpu_description() { return "cpu: " + Cpu(0).description(); }

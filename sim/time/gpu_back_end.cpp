@@ -12,12 +12,6 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene& scene, const Cloth&
   return std::make_unique<Stepper<double, Cuda>>(std::move(gpu), scene, cloth, op, limits);
 }
 
-LawCost gpu_law_cost(const LawChoice& choice, int dimension, int elements, Precision precision) {
-  Cuda gpu(0);
-  return precision == Precision::fp32 ? law_cost<float>(gpu, choice, dimension, elements)
-                                      : law_cost<double>(gpu, choice, dimension, elements);
-}
-
 void run_on_gpu_together(int count, const std::function<void(int)>& job) { CudaBatch(0, count).run(job); }
 
 int gpu_count(std::string& reason) { return cuda_device_count(reason); }

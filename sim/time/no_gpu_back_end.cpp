@@ -19,8 +19,6 @@ std::unique_ptr<Simulation> make_gpu_simulation(const Scene&, const Cloth&, cons
   refuse();
 }
 
-LawCost gpu_law_cost(const LawChoice&, int, int, Precision) { refuse(); }
-
 void run_on_gpu_together(int, const std::function<void(int)>&) { refuse(); }
 
 int gpu_count(std::string& reason) {

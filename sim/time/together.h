@@ -5,17 +5,12 @@
 
 namespace hysteron {
 
-// job(i) for i in [0, count), each of which makes simulations of its own and advances them, on `threads`
-// threads of the host.  On a GPU the jobs of a thread take turns: while one of them waits the next goes on,
-// and loops that several have ordered are launched once for all of them, so that many small cloths fill a GPU
-// that each by itself would leave idle.  On a CPU each thread takes one job after the other.  Every
-// simulation gets the bits that it has by itself.  Throws what a job has thrown when all have ended;
-// Error::machine without a GPU.
-void run_together(bool on_gpu, int count, int threads, const std::function<void(int)>& job);
-
-// On a GPU the same with `most` of the jobs at a time: where one ends the next begins, so that the GPU has as
-// many almost to the end.
-void run_together_by(int most, int count, int threads, const std::function<void(int)>& job);
+// job(i) for i in [0, count), each of which makes simulations of its own and advances them.  On a GPU the
+// jobs take turns: while one of them waits the next goes on, and loops that several have ordered are launched
+// once for all of them, so that many small cloths fill a GPU that each by itself would leave idle.  On a CPU
+// they come one after the other.  Every simulation gets the bits that it has by itself.  Throws what a job
+// has thrown when all have ended; Error::machine without a GPU.
+void run_together(bool on_gpu, int count, const std::function<void(int)>& job);
 
 // How many jobs share the GPU's launches with the one that the calling thread runs, itself included: what a
 // wall clock measures, and what is launched, is then of all of them.  1: none.

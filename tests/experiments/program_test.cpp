@@ -17,16 +17,6 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-TEST(Program, RefusesEverySubcommandThatIsNotBuiltAndSaysSo) {
-  for (const Experiment& experiment : experiments()) {
-    if (experiment.run) continue;
-    const Outcome outcome = program(std::string(experiment.name) + " --whatever 3");
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, std::string("hysteron ") + experiment.name + ": not built yet\n");
-    EXPECT_EQ(outcome.out, "");
-  }
-}
-
 TEST(Program, NamesTheExperimentOnceInAMessage) {
   EXPECT_EQ(program("law --b1 -1 --in a --out b").err, "hysteron law: b1 = -1 N m must be >= 0 (--b1)\n");
   EXPECT_EQ(program("law --lw x").err, "hysteron law: unknown option --lw; did you mean --law?\n");
@@ -81,42 +71,6 @@ TEST(Program, NeedsNoHomeAndNoPlaceForTemporaryFiles) {
                            out + " >/dev/null 2>" + err;
   EXPECT_EQ(std::system(line.c_str()), 0) << text_of(err);
   EXPECT_EQ(without_warnings(text_of(err)), "");
-}
-
-TEST(Program, HelpsWithoutItsAssets) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  const std::string line = "env HYSTERON_ASSETS=/nonexistent " HYSTERON_PROGRAM " drape --help-all >" + out;
-  EXPECT_EQ(std::system(line.c_str()), 0);
-  EXPECT_NE(text_of(out).find("--fabric.b1 number"), std::string::npos);
-}
-
-// The first run and the one that replaces it.
-TEST(Program, LeavesTenThousandFilesOfOthersInItsFolderAlone) {
-  const Folder folder;
-  constexpr int kFiles = 10000;
-  const fs::path out = folder.path() / "out";
-  fs::create_directory(out);
-  for (int i = 0; i < kFiles; ++i) std::ofstream(out / ("note" + std::to_string(i)));
-  for (int run = 0; run < 2; ++run) {
-    const Outcome outcome =
-        program("swing --quick --triangles 40 --seconds 0.02 --no-images --quiet --out " + out.string());
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  }
-  const auto notes =
-      std::count_if(fs::directory_iterator(out), fs::directory_iterator(),
-                    [](const auto& entry) { return entry.path().filename().string().starts_with("note"); });
-  EXPECT_EQ(notes, kFiles);
-}
-
-TEST(Program, ListsTheFabricsWithTheirSource) {
-  const Outcome outcome = program("list fabrics");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.err, "");
-  for (const char* part : {"cotton-broad", "wool-tropical", "polyester-tropical", "polyester-faille",
-                           "1.157e-05", "0.001216", "52.5", "0.1238", "Matsudaira"}) {
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
-  }
 }
 
 // What was cut out of long sources: authors who are two, sentences without their ends, "assumed: assumed".
@@ -175,16 +129,6 @@ TEST(Program, ListsEveryNumberOfAFabricWithHowItIsKnown) {
   EXPECT_EQ(program("list fabrics silk-of-nowhere").exit_code, 2);
 }
 
-TEST(Program, ListsLawsScenesAndDevices) {
-  const Outcome outcome = program("list");
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* part : {"fabrics:", "laws:", "prandtl", "scenes:", "devices:", "cpu"}) {
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
-  }
-  EXPECT_EQ(program("list fabrcs").err,
-            "hysteron list: \"fabrcs\" must be fabrics | laws | scenes | devices\n");
-}
-
 TEST(Program, ListsAsJsonWhatItListsAsText) {
   const Outcome outcome = program("list --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -207,27 +151,6 @@ TEST(Program, SaysItsVersionAndCommit) {
     EXPECT_EQ(anywhere.exit_code, 0) << words;
     EXPECT_EQ(anywhere.out, outcome.out) << words;
   }
-}
-
-TEST(Program, SaysInItsHelpWhatItsExitCodesMean) {
-  EXPECT_NE(program("--help").out.find("\nExit codes:\n  0  done\n"), std::string::npos);
-  for (const Experiment& experiment : experiments()) {
-    const std::string help = program(std::string(experiment.name) + " --help").out;
-    EXPECT_NE(help.find("\n  2  the request is wrong\n"), std::string::npos) << experiment.name;
-    const bool differs = help.find(std::string("\n  4  ") + experiment.differs) != std::string::npos;
-    EXPECT_EQ(differs, *experiment.differs != 0) << experiment.name;
-  }
-}
-
-TEST(Program, ComparesIntegratorsByErrorAndTime) {
-  const Folder folder;
-  const Outcome outcome = program("accuracy --quick --problem crease --no-images --quiet --out " +
-                                  (folder.path() / "a").string());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string table = text_of(folder.path() / "a" / "table.csv");
-  for (const char* method : {"chapter", "semi-implicit", "implicit", "bdf2"})
-    EXPECT_NE(table.find(method), std::string::npos) << method;
-  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
 }
 
 // A plate that comes down to below the ground, from 0.1 s to 0.4 s; nothing is left of the sheet's room near
@@ -260,15 +183,6 @@ keys = [{time = 0.1}, {time = 0.4, position = [0, 0, -0.012]}]
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 15);  // moments before 0.3 s
 }
 
-TEST(Program, OffersToResumeWhatSimulatesAndStudies) {
-  for (const Experiment& experiment : experiments()) {
-    const std::string name = experiment.name;
-    EXPECT_EQ(program(name + " --help-all").out.find("--resume") != std::string::npos,
-              experiment.simulates || name == "sweep")
-        << name;
-  }
-}
-
 TEST(Program, WritesNoMomentsOntoItsCurvatures) {
   const Folder folder;
   const std::string in = folder.path() / "k.csv", link = folder.path() / "link.csv";
@@ -293,41 +207,6 @@ TEST(Program, TakesTheTrianglesThatAreAskedForThoughItIsQuick) {
     EXPECT_NE(asked.find(" triangles, "), std::string::npos) << line;
     EXPECT_EQ(program(line + " --quick --no-images --explain --device cpu").out, asked) << line;
   }
-}
-
-TEST(Program, TakesTheSecondsAndPicturesASecondThatAreAskedForThoughItIsQuick) {
-  const Folder folder;
-  const Outcome outcome = program(
-      "swing --quick --triangles 40 --seconds 0.5 --fps 40 --device cpu --no-images --quiet --json --out " +
-      (folder.path() / "a").string());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Json manifest = Json::parse(outcome.out);
-  EXPECT_NEAR(manifest["seconds_simulated"].get<double>(), 0.5, 1e-9);
-  const std::string table = text_of(folder.path() / "a" / "metrics.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 21);  // a row a fortieth of a second
-}
-
-TEST(Program, TestsALawInTheStepsThatAreAskedForThoughItIsQuick) {
-  const Folder folder;
-  ASSERT_EQ(program("kes --quick --steps 1234 --no-images --quiet --out " + (folder.path() / "k").string())
-                .exit_code,
-            0);
-  EXPECT_EQ(Json::parse(text_of(folder.path() / "k" / "manifest.json"))["scene"]["steps"], 1234);
-}
-
-TEST(Program, ShowsUnitRangeAndDefaultOfEveryFlagInItsHelp) {
-  std::string help = program("drape --help-all").out;
-  help.erase(std::unique(help.begin(), help.end(),
-                         [](char a, char b) { return std::isspace(a) && std::isspace(b); }),
-             help.end());
-  std::replace(help.begin(), help.end(), '\n', ' ');
-  for (const char* part :
-       {"radius of the pedestal [m], > 0, default 0.09",
-        "lowered | dropped | relifted | shaken, default lowered",
-        "pictures per simulated second [1/s], in (0, 10000], default 30", "default 6000", "default tr-bdf2"})
-    EXPECT_NE(help.find(part), std::string::npos) << part << " in\n" << help;
-  EXPECT_NE(program("swing --help scene").out.find("default 1000"), std::string::npos)
-      << "its own number of triangles";
 }
 
 // Along every path, and says what bringing it to rest has moved.
@@ -367,20 +246,6 @@ TEST(Program, EndsADrapeAtRest) {
     EXPECT_LT(manifest["metrics"]["integrator_share_percent"], 100) << release;
     EXPECT_LT(manifest["metrics"]["energy_remainder_relative"], 1e-9) << release;
   }
-}
-
-TEST(Program, DrivesALawThroughAFileOfCurvatures) {
-  const Folder folder;
-  const std::string in = folder.path() / "k.csv", out = folder.path() / "m.csv";
-  std::ofstream(in) << "curvature [1/m]\n50\n";
-  ASSERT_EQ(program("law --law linear --b1 1e-5 --b2 1e-5 --k0 50 --in " + in + " --out " + out).exit_code,
-            0);
-  const std::string table = text_of(out);
-  EXPECT_EQ(table.substr(0, table.find('\n')),
-            "curvature [1/m],moment [N],tangent [N m],stored [J/m2],dissipated [J/m2]");
-  double curvature = 0, moment = 0;
-  ASSERT_EQ(std::sscanf(table.c_str() + table.find('\n'), "%lf,%lf", &curvature, &moment), 2);
-  EXPECT_DOUBLE_EQ(moment, 1e-5 * 50);
 }
 
 }  // namespace

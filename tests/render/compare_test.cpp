@@ -34,28 +34,12 @@ TEST(Compare, MetricsMatchTheirDefinitions) {
   EXPECT_DOUBLE_EQ(compare(b, a).rmse, difference.rmse);
 }
 
-TEST(Compare, EightStepsAreNotOverEight) {
-  const Image a(1, 2, Rgb8{50, 50, 50});
-  Image b = a;
-  b.at(0, 0)[2] = 58;
-  b.at(0, 1)[2] = 59;
-  EXPECT_DOUBLE_EQ(compare(a, b).pixels_over_8_percent, 50.0);
-}
-
 TEST(Compare, AlphaIsIgnored) {
   const Image rgb(1, 1, Rgb8{1, 2, 3});
   Image rgba(1, 1, 4);
   const std::uint8_t pixel[] = {1, 2, 3, 77};
   std::copy_n(pixel, 4, rgba.at(0, 0));
   EXPECT_EQ(compare(rgb, rgba).mean_abs, 0);
-}
-
-TEST(Compare, OtherSizesAreRefused) {
-  const Error error = test::error_of([] { compare(Image(4, 3), Image(3, 4)); });
-  EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_NE(std::string(error.what()).find("4 x 3"), std::string::npos);
-  EXPECT_EQ(test::error_of([] { heat_map(Image(4, 3), Image(3, 4)); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { compare(Image(), Image()); }).exit_code(), 2);
 }
 
 TEST(HeatMap, ShowsTheLargestChannelOnTheSequentialMap) {

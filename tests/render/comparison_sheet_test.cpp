@@ -80,17 +80,6 @@ TEST(ComparisonSheet, KeepsFamiliesTogether) {
   for (int top : elastic) EXPECT_EQ(plastic.count(top), 0u);
 }
 
-// Wide strips would make a page that is wider than three times its height.
-TEST(ComparisonSheet, OfWideStripsIsNotAStripItself) {
-  const Image page = draw_comparison(sheet_of(5, 1, 600, 100));
-  EXPECT_LE(page.width(), 3 * page.height());
-}
-
-TEST(ComparisonSheet, EnlargesSmallPicturesToItsCells) {
-  const Image page = draw_comparison(sheet_of(2, 1, 80, 60));
-  EXPECT_GT(extent_of(page, color_of(0, 0)).width(), 600);
-}
-
 // A name, however long, stays in its column.
 TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
   ComparisonSheet sheet = sheet_of(2, 1);
@@ -102,13 +91,6 @@ TEST(ComparisonSheet, KeepsLongTextsInTheirColumns) {
   const Extent right = extent_of(page, color_of(1, 0));
   for (int y = 0; y < right.top; ++y)
     for (int x = right.left; x < page.width(); ++x) EXPECT_GT(page.at(x, y)[0], 200);
-}
-
-TEST(ComparisonSheet, WantsACellForEachRow) {
-  EXPECT_EQ(error_of([] { draw_comparison({}); }).exit_code(), 2);
-  ComparisonSheet sheet = sheet_of(2, 2);
-  sheet.columns[1].cells.pop_back();
-  EXPECT_EQ(error_of([&] { draw_comparison(sheet); }).exit_code(), 2);
 }
 
 // The same scale in all rows is said once, at the foot; rows that differ have a bar each.
@@ -144,13 +126,6 @@ TEST(ComparisonSheet, PutsInsetsWhereTheyHideNothing) {
   const Extent cloth = extent_of(page, {90, 91, 92}), loop = extent_of(page, {0, 0, 220});
   EXPECT_GT(loop.right, 0);
   EXPECT_LT(loop.right, cloth.left);
-}
-
-TEST(LoopInset, OfNoPathDrawsNothing) {
-  Image picture(100, 100, Rgb8{255, 255, 255});
-  const Image before = picture;
-  draw_loop(picture, {}, Corner::bottom_right, 0.28f, 10);
-  EXPECT_EQ(picture, before);
 }
 
 TEST(DrawLine, CoversItsLengthTimesItsWidth) {

@@ -59,12 +59,6 @@ TEST(ContactSheet, ChoosesColumnsNearThreeToTwo) {
   }
 }
 
-TEST(ContactSheet, ImpossiblePagesAreRefused) {
-  EXPECT_EQ(error_of([] { contact_sheet({}, {}); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { contact_sheet({{Image(), "x"}}, {}); }).exit_code(), 2);
-  EXPECT_EQ(error_of([] { contact_sheet(entries(5), {"", 5, 100}); }).exit_code(), 2);
-}
-
 constexpr std::size_t kFrame = 1280 * 720, kThumbnail = 640 * 360;  // [pixels]
 
 // Pixels read while `body` runs.

@@ -78,14 +78,6 @@ TEST_F(HeatMapTest, TextsAxesAndLegendAreDrawnAsTheyAre) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
 }
 
-TEST_F(HeatMapTest, LinesAreDrawnOverTheCells) {
-  HeatMaps page = two_maps();
-  page.maps[0].lines = {{.label = "", .x = {0, 2}, .y = {0.2, 0.2}, .color = "#0000FF", .line_width = 4}};
-  write_heat_maps(folder_.file("m"), page);
-  const Image image = read_png(folder_.file("m.png"));
-  EXPECT_GT(pixels_of(image, 2, 0, image.width(), 0, image.height()), 200);
-}
-
 TEST(HeatMap, WhatDoesNotFitItsAxesIsRefused) {
   const ScratchFolder folder;
   HeatMaps page = two_maps();

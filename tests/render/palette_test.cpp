@@ -74,17 +74,5 @@ TEST(Palette, RefusesNoPictureAndImpossibleCounts) {
   EXPECT_THROW(encode_png(PaletteImage{}), Error);
 }
 
-TEST(DecodingAPng, NamesWhatIsBroken) {
-  std::vector<std::uint8_t> file = encode_png(ramp(20, 20));
-  file.resize(file.size() / 2);
-  try {
-    decode_png(file, "sheet.png");
-    FAIL() << "half a picture";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("sheet.png"), std::string::npos) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace hysteron::render

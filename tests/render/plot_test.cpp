@@ -83,28 +83,6 @@ TEST_F(PlotTest, LineEndsAtAGap) {
   EXPECT_EQ(lines(), whole + 1);
 }
 
-TEST_F(PlotTest, GapsAndLogarithmicAxesAreDrawn) {
-  Plot plot = parabola();
-  plot.x.logarithmic = plot.y.logarithmic = true;
-  plot.series[0].y[15] = std::numeric_limits<double>::quiet_NaN();
-  write_plot(folder_.file("p"), plot);
-  EXPECT_TRUE(std::filesystem::exists(folder_.file("p.png")));
-}
-
-// 12 to 60: ticks at 20 and 50, none that is a power of ten.
-TEST_F(PlotTest, ShortLogarithmicAxesAreNumberedWithinTheDecade) {
-  Plot plot = parabola();
-  plot.y.logarithmic = true;
-  plot.series[0].x = {1, 2, 3};
-  plot.series[0].y = {12, 30, 60};
-  write_plot(folder_.file("p"), plot);
-  const std::string svg = text_of(folder_.file("p.svg"));
-  for (const char* tick : {">20<", ">50<"}) EXPECT_NE(svg.find(tick), std::string::npos) << tick;
-  plot.series[0].y = {1, 30, 6000};
-  write_plot(folder_.file("p"), plot);
-  EXPECT_EQ(text_of(folder_.file("p.svg")).find(">20<"), std::string::npos);
-}
-
 // The height of a text in an SVG [pixels from above]; -1 where it is not there once.
 double height_of(const std::string& svg, const std::string& text) {
   const std::string drawn = ">" + text + "</tspan>";
@@ -124,11 +102,6 @@ TEST_F(PlotTest, LinesHaveTheirLabelsAtTheirEndsAndApart) {
   EXPECT_GT(higher, 0);
   EXPECT_GT(low, high + 100);
   EXPECT_GT(high, higher + 14) << "the letters are 14 pixels";
-}
-
-TEST_F(PlotTest, ALineAloneHasNoLabel) {
-  write_plot(folder_.file("p"), parabola());
-  EXPECT_EQ(text_of(folder_.file("p.svg")).find("quoted</tspan>"), std::string::npos);
 }
 
 TEST_F(PlotTest, SmallNumbersTakeThePrefixOfTheirUnit) {

@@ -44,14 +44,5 @@ TEST(PngWriter, WriteStopsARunAfterAnError) {
   EXPECT_EQ(error.exit_code(), 1);
 }
 
-TEST(PngWriter, DestructionWritesWhatIsWaiting) {
-  const ScratchFolder folder;
-  {
-    PngWriter writer(1, 8);
-    for (int i = 0; i < 5; ++i) writer.write(folder.file(frame(i)), Image(64, 64));
-  }
-  EXPECT_EQ(folder.names().size(), 5u);
-}
-
 }  // namespace
 }  // namespace hysteron::render

@@ -86,13 +86,5 @@ TEST(Shapes, PlacementTurnsTheAxisAndMovesTheCentre) {
   EXPECT_EQ((placement * Eigen::Vector4f(0, 0, 0, 1)).head<3>().eval(), center);
 }
 
-TEST(Shapes, LengthsThatAreNotPositiveAreRefused) {
-  EXPECT_EQ(test::error_of([] { sphere_mesh(0); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { cylinder_mesh(1, -1, 0); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { capsule_mesh(std::nanf(""), 1); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { torus_mesh(1, 0); }).exit_code(), 2);
-  EXPECT_EQ(test::error_of([] { box_mesh({1, 0, 1}, 0); }).exit_code(), 2);
-}
-
 }  // namespace
 }  // namespace hysteron::render

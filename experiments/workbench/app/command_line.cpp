@@ -55,7 +55,6 @@ void add_command(CLI::App& program, const Experiment& experiment, Command& comma
   command.app = program.add_subcommand(experiment.name, experiment.question);
   command.app->allow_extras();
   command.app->set_version_flag("--version", program_version());
-  if (!experiment.run) return;
   for (const KeyDescription& key : every_option_of(experiment, Defaults::left_out))
     command.flags.emplace_back(option_name(key).substr(2), add_flag(*command.app, key));
   if (*experiment.names) command.app->add_option("names", command.names)->type_name(experiment.names);

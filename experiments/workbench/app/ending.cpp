@@ -22,7 +22,8 @@ Ending ending_of(const std::string& experiment, const std::function<int()>& body
     if (error.experiment().empty()) return failed(experiment, error.what(), error.exit_code());
     return {error.exit_code(), std::string("hysteron ") + error.what()};
   } catch (const std::bad_alloc&) {
-    return failed(experiment, "out of memory; use fewer triangles (--triangles)", 1);
+    return failed(experiment,
+                  "out of memory: use fewer triangles (--triangles), or allow more (--max-memory)", 1);
   } catch (const std::filesystem::filesystem_error& error) {
     return failed(experiment, "cannot use " + error.path1().string() + ": " + error.code().message(), 1);
   } catch (const std::exception& error) {

@@ -1,5 +1,7 @@
 #include "experiments/workbench/app/experiment.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -7,7 +9,6 @@
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/headlines.h"
-#include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"
 #include "sim/bending/laws/law_parameters.h"
@@ -55,6 +56,16 @@ Error with_owner(const Error& error, const Keys& known) {
   return owner.empty() ? error : Error::request(error.what() + ("; " + owner)).of(error.key(), "");
 }
 
+// What asks for more throws std::bad_alloc, which ends the run (ending.h).  [MB], of the process; 0: no
+// limit.
+void limit_memory(double megabytes) {
+  if (megabytes == 0) return;
+  rlimit limit{};
+  ::getrlimit(RLIMIT_DATA, &limit);
+  limit.rlim_cur = std::min(static_cast<rlim_t>(1e6 * megabytes), limit.rlim_max);
+  ::setrlimit(RLIMIT_DATA, &limit);
+}
+
 // Without those that change no file of a run, or whose outcome is in the scene.
 std::string choices_of(Keys keys) {
   static const std::set<std::string> kOthers = {"scene",        "camera",      "out",          "quick",
@@ -91,7 +102,7 @@ Setup set_up(const CommandLine& line, Setup setup, const Keys& own,
   make_mesh_paths_absolute(setup.scene);
   check_scene(setup.scene);
   check_options(setup.options);
-  check_memory(setup);
+  limit_memory(setup.options.max_memory);
   if (setup.options.errors) check_errors(line.experiment);
   setup.choices = choices_of(extra);
   setup.asked = asked_text(setup.scene);

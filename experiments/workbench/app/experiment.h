@@ -38,9 +38,9 @@ struct DecidedKey {
 
 struct Experiment {
   const char* name;
-  const char* question;                      // one line for --help
-  int (*run)(const CommandLine&) = nullptr;  // returns the exit code; null: announced, not built yet
-  bool simulates = false;                    // takes the keys of scenes and Options
+  const char* question;                                 // one line for --help
+  int (*run)(const CommandLine&) = nullptr;             // returns the exit code
+  bool simulates = false;                               // takes the keys of scenes and Options
   std::vector<KeyDescription> (*own_keys)() = nullptr;  // further flags; null: none
   Setup (*defaults)() =
       nullptr;  // of an experiment that simulates, for --help; null: they depend on the flags

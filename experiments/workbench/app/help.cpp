@@ -162,12 +162,11 @@ std::string opening(const Experiment& experiment, int width) {
   const std::string name = std::string("hysteron ") + experiment.name;
   const std::string names = *experiment.names ? std::string(" ") + experiment.names : "";
   return wrapped(name + ": " + experiment.question, width, 0, 0) + "\n\n" +
-         wrapped("Usage: " + name + names + (experiment.run ? " [options]" : ""), width, 2, 0) + "\n\n";
+         wrapped("Usage: " + name + names + " [options]", width, 2, 0) + "\n\n";
 }
 
 // Where the fabric of the defaults cannot be read, the options are listed all the same.
 std::vector<KeyDescription> shown_options_of(const Experiment& experiment) {
-  if (!experiment.run) return {};
   try {
     return options_of(experiment, Defaults::shown);
   } catch (const Error&) {

@@ -26,24 +26,25 @@ struct Options {
   std::string camera;                 // camera     a run's camera.json, before the keys camera.*
   Eigen::Vector3d camera_direction{0.8, -1.6, 0.9};  // camera.direction  from the cloth to the eye
   double camera_fov = 28;                            // camera.fov        full vertical angle [degree]
-  Numbers camera_target;               // camera.target     [m] in the picture's middle; empty: found
-  double camera_distance = 0;          // camera.distance   [m] from there to the eye; 0: found
-  Numbers camera_box;                  // camera.box        [m] framed, low then high; empty: found
-  std::string export_format = "none";  // export     none | ply | obj | vtk | gltf: meshes in out/mesh
-  std::string probe;                   // probe      "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
-  bool check_intersections = false;    // check-intersections  at every instant that is recorded
-  bool errors = false;                 // errors       of headlines, by repeating the run
-  int errors_draws = 2;                // errors.draws other meshes
-  int errors_jobs = 0;                 // errors.jobs  repeats at a time, 0: as many as fit
-  int errors_batch = 1;                // errors.batch repeats in a process, at most
-  double checkpoint = 0;               // checkpoint   [s] of wall clock between two; 0: none
-  bool resume = false;                 // resume       go on from OUT/checkpoint
-  double max_memory = 0;               // max-memory   [MB] that the run may take; 0: what the machine has
-  bool quick = false;                  // quick      a small version of the same question
-  std::string dump_scene;              // dump-scene write the resolved scene as TOML, and stop
-  bool explain = false;                // explain    print what the scene includes, and stop
-  bool quiet = false;                  // quiet      no progress on stderr
-  bool json = false;                   // json       the manifest on stdout
+  Numbers camera_target;       // camera.target     [m] in the picture's middle; empty: found
+  double camera_distance = 0;  // camera.distance   [m] from there to the eye; 0: found
+  Numbers camera_box;          // camera.box        [m] framed, low then high; empty: found
+  std::string export_format =
+      "none";                        // export     none | ply | obj | vtk | pc2 | mitsuba: meshes in out/mesh
+  std::string probe;                 // probe      "x,y[;x,y...]" [m] on the flat cloth: out/probes.csv
+  bool check_intersections = false;  // check-intersections  at every instant that is recorded
+  bool errors = false;               // errors       of headlines, by repeating the run
+  int errors_draws = 2;              // errors.draws other meshes
+  int errors_jobs = 0;               // errors.jobs  repeats at a time, 0: as many as fit
+  int errors_batch = 1;              // errors.batch repeats in a process, at most
+  double checkpoint = 0;             // checkpoint   [s] of wall clock between two; 0: none
+  bool resume = false;               // resume       go on from OUT/checkpoint
+  double max_memory = 0;             // max-memory   [MB] that the process may take; 0: no limit
+  bool quick = false;                // quick      a small version of the same question
+  std::string dump_scene;            // dump-scene write the resolved scene as TOML, and stop
+  bool explain = false;              // explain    print what the scene includes, and stop
+  bool quiet = false;                // quiet      no progress on stderr
+  bool json = false;                 // json       the manifest on stdout
 
   int width() const;   // [pixels], of `size`
   int height() const;  // [pixels]

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "experiments/workbench/compare/column_view.h"
-#include "experiments/workbench/pages/figure_captions.h"
 #include "experiments/workbench/pages/gallery_about.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/pictures.h"

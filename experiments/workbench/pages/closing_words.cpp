@@ -31,25 +31,6 @@ std::string question_of(const Manifest& manifest) {
   return compares ? manifest.scene.compared : manifest.experiment;
 }
 
-// Laws or fabrics whose metrics are called NAME.KEY, in their order.
-std::vector<std::string> names_in(const Metrics& metrics) {
-  std::vector<std::string> names;
-  for (const auto& [key, value] : metrics) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == key.npos) continue;
-    const std::string name = key.substr(0, dot);
-    if (names.empty() || names.back() != name) names.push_back(name);
-  }
-  return names;
-}
-
-Metrics metrics_of(const std::string& name, const Metrics& metrics) {
-  Metrics own;
-  for (const auto& [key, value] : metrics)
-    if (key.starts_with(name + ".")) own.set(key.substr(name.size() + 1), value);
-  return own;
-}
-
 // A result that was asked for: "recovery angle", "86.0 degree".
 struct Finding {
   std::string words, value;
@@ -91,8 +72,8 @@ std::string result_words(const Manifest& manifest) {
   const Metrics& metrics = manifest.metrics;
   std::string text;
   for (const auto& [words, value] : findings_in(manifest, metrics)) text += row(words, value);
-  for (const std::string& name : names_in(metrics)) {
-    const std::string line = one_line(manifest, metrics_of(name, metrics));
+  for (const auto& [name, own] : columns_in(metrics)) {
+    const std::string line = one_line(manifest, own);
     if (!line.empty()) text += row(name, line);
   }
   const std::string unrest = unrest_words(metrics);

@@ -22,13 +22,10 @@ std::string without_threads(const std::string& device) {
 }
 
 void gather(const Exhibit& exhibit, std::set<std::string>& devices, std::set<std::string>& dates) {
-  const auto take = [&](const std::optional<Manifest>& manifest) {
-    if (!manifest) return;
-    if (manifest->device) devices.insert(without_threads(*manifest->device));
-    dates.insert(manifest->started.substr(0, 10));
-  };
-  take(exhibit.manifest);
-  for (const Exhibit::List& list : exhibit.lists) take(list.manifest);
+  if (exhibit.manifest) {
+    if (exhibit.manifest->device) devices.insert(without_threads(*exhibit.manifest->device));
+    dates.insert(exhibit.manifest->started.substr(0, 10));
+  }
   for (const Exhibit& part : exhibit.parts) gather(part, devices, dates);
 }
 

@@ -1,61 +1,154 @@
 #include "experiments/workbench/pages/gallery_exhibit.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <sstream>
 
 #include "experiments/workbench/pages/error_words.h"
 #include "experiments/workbench/pages/gallery_about.h"
-#include "experiments/workbench/pages/gallery_pictures.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/metrics.h"
 #include "experiments/workbench/pages/pictures.h"
-#include "experiments/workbench/pages/text_table.h"
+#include "sim/base/whole_file.h"
 
 namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 8, kMostColumns = 8;  // of a table that is shown; larger ones are linked
+constexpr int kWidth = 900;                        // [pixels] of an embedded picture
+constexpr std::uintmax_t kLargestDrawing = 60000;  // [byte] SVG files above this are linked, and shown as PNG
+constexpr int kExhibitFrames = 12;
+
+// What names of files mean, see Options::look and Options::light.
+std::string words_of(std::string stem) {
+  static const std::map<std::string, std::string> kWords = {
+      {"sheet", "contact sheet"},
+      {"shadow", "shadow, from above"},
+      {"curvature", "curvature, drawn in colours"},
+      {"friction", "bending friction, drawn in colours"},
+      {"residual", "residual curvature, drawn in colours"},
+      {"raking", "in raking light, as wrinkles are photographed"}};
+  if (const auto known = kWords.find(stem); known != kWords.end()) return known->second;
+  if (stem.starts_with("plot_")) stem.replace(0, 5, "plot: ");
+  std::replace(stem.begin(), stem.end(), '_', ' ');
+  std::replace(stem.begin(), stem.end(), '-', ' ');
+  return stem;
+}
+
+// Captions that the run wrote into FOLDER/README.md: "![title](NAME.png)", and after it "**title** text".
+std::map<std::string, std::string> written_captions(const fs::path& folder) {
+  std::map<std::string, std::string> captions;
+  const fs::path readme = folder / "README.md";
+  if (!is_there(readme)) return captions;
+  std::istringstream stream(whole_file(readme, "cannot read " + readme.string()));
+  std::string file;
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t open = line.find("]("), close = line.rfind(')');
+    if (line.starts_with("![") && open != line.npos && close != line.npos && close > open) {
+      file = line.substr(open + 2, close - open - 2);
+    } else if (line.starts_with("**") && !file.empty()) {
+      for (std::size_t stars; (stars = line.find("**")) != line.npos;) line.erase(stars, 2);
+      line.erase(std::remove(line.begin(), line.end(), '`'), line.end());
+      captions[file] = line;
+      file.clear();
+    }
+  }
+  return captions;
+}
+
+// The first sentences of a caption; README.md has the others.
+std::string first_sentences(const std::string& caption) {
+  constexpr std::size_t kEnough = 100;  // letters
+  const std::size_t end = caption.find(". ", kEnough);
+  return caption.substr(0, end == caption.npos ? end : end + 1);
+}
+
+// ": cotton-broad, law prandtl, 0 to 3.67 s"
+std::string subject_words(const Manifest& manifest) {
+  std::string words = subject_of(manifest.scene);
+  if (const auto& seconds = manifest.seconds_simulated)
+    words += (words.empty() ? "" : ", ") + ("0 to " + seconds_text(*seconds));
+  return words.empty() ? "" : ": " + words;
+}
+
+// Plots are written as PNG and SVG.
+bool is_drawn(const fs::path& file) {
+  return is_plot(file) || is_there(fs::path(file).replace_extension(".svg"));
+}
+
+struct Picture {
+  fs::path file;        // PNG, or SVG where there is no PNG
+  std::string link;     // relative to the gallery
+  std::string caption;  // text
+};
+
+// Of the exhibit and its parts, the contact sheet first and plots last.
+std::vector<Picture> pictures_of(const Exhibit& exhibit, const std::string& prefix) {
+  std::vector<fs::path> files = files_ending(exhibit.folder, ".png");
+  for (const fs::path& file : files_ending(exhibit.folder, ".svg")) {
+    if (!is_there(fs::path(file).replace_extension(".png"))) files.push_back(file);
+  }
+  std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const auto rank = [](const fs::path& f) { return f.stem() == "sheet" ? 0 : is_drawn(f) ? 2 : 1; };
+    return rank(a) < rank(b);
+  });
+  std::map<std::string, std::string> captions = written_captions(exhibit.folder);
+  std::vector<Picture> pictures;
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string(), written = captions[name];
+    std::string caption = written;
+    if (written.empty()) {
+      caption = first_upper(prefix + words_of(file.stem().string()));
+      if (file.stem() == "sheet" && exhibit.manifest) caption += subject_words(*exhibit.manifest);
+    }
+    pictures.push_back({file, exhibit.name + "/" + name, caption});
+  }
+  for (const Exhibit& part : exhibit.parts) {
+    const std::string name = fs::path(part.name).filename().string();
+    for (const Picture& picture : pictures_of(part, prefix + name + ": ")) pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+std::string figure(const Exhibit& exhibit, const Picture& picture, PageForm form) {
+  const fs::path drawing = fs::path(picture.file).replace_extension(".svg");
+  const bool drawn = is_there(drawing);
+  const bool as_drawing = drawn && (drawing == picture.file || fs::file_size(drawing) <= kLargestDrawing);
+  const std::string words = exhibit.name + ": " + picture.caption.substr(0, picture.caption.find(". "));
+  const std::string svg = fs::path(picture.link).replace_extension(".svg").string();
+  const std::string shown = as_drawing ? svg : picture.link;
+  const bool linked = form == PageForm::linked;
+  return filled("picture.html",
+                {{"link", linked ? url_of(shown) : ""},
+                 {"image", image_of({as_drawing ? drawing : picture.file, shown, words, kWidth}, form)},
+                 {"caption", first_sentences(picture.caption)},
+                 {"drawing", linked && drawn && !as_drawing ? html_link(svg, "SVG") : ""}});
+}
+
+// The contact sheet over the full width, what else was drawn and plotted beside each other, frames to be
+// played.
+std::string pictures_html(const Exhibit& exhibit, PageForm form) {
+  std::string large, beside, plots;
+  for (const Picture& picture : pictures_of(exhibit, "")) {
+    const bool sheet = picture.file.stem() == "sheet" && picture.file.parent_path() == exhibit.folder;
+    (sheet ? large : is_drawn(picture.file) ? plots : beside) += figure(exhibit, picture, form);
+  }
+  return large + player(exhibit.folder, exhibit.name + "/", kExhibitFrames, form) +
+         html_group("grid", beside) + html_group("grid wide", plots);
+}
+
 constexpr std::size_t kMostCards = 4;
 constexpr std::size_t kMostWarnings = 4;  // of many runs in one, most are alike; the manifest has all
 
-std::string file_name(const fs::path& file) { return file.filename().string(); }
-
-// A table of a readable size, or nothing.
-std::string small_table(const Metrics& compared) {
-  std::set<std::string> names, keys;
-  for (const auto& [key, value] : compared) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == key.npos) continue;
-    names.insert(key.substr(0, dot));
-    keys.insert(key.substr(dot + 1));
-  }
-  const bool readable = names.size() <= kMostRows && keys.size() <= kMostColumns;
-  return readable && !names.empty() ? html_details("Metrics", metric_table(compared), true) : "";
-}
-
-// Of laws, fabrics, problems: "prandtl.recovery_angle_deg".
-Metrics without_asides(const Metrics& compared) {
-  Metrics kept;
-  for (const auto& [key, value] : compared)
-    if (!is_numerics(key.substr(key.rfind('.') + 1))) kept.set(key, value);
-  return kept;
-}
-
 // What the experiment is asked for, else the first of what it found; the manifest has all.
-std::string metrics_html(const Manifest& manifest, bool has_table) {
+std::string metrics_html(const Manifest& manifest) {
   if (const std::string answers = answer_cards(manifest); !answers.empty()) return answers;
   Metrics first;
-  std::size_t cards = 0, compared = 0;
-  for (const auto& [key, value] : manifest.metrics) {
-    if (key.find('.') != key.npos)
-      ++compared;
-    else if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMostCards))
+  std::size_t cards = 0;
+  for (const auto& [key, value] : manifest.metrics)
+    if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMostCards))
       first.set(key, value);
-  }
-  std::string html = metric_cards(first);
-  if (compared > 0 && !has_table) html += small_table(without_asides(manifest.metrics));
-  return html;
+  return metric_cards(first);
 }
 
 std::vector<Fields> shown_warnings(const std::vector<std::string>& all) {
@@ -68,66 +161,6 @@ std::vector<Fields> shown_warnings(const std::vector<std::string>& all) {
 
 // Complete is what a run is expected to be.
 std::string warning(const Manifest& manifest) { return manifest.complete ? "" : " " + state_badge(manifest); }
-
-std::string table_html(const std::string& caption, TextTable table, std::size_t columns) {
-  const std::string common = take_common(table);
-  if (table.head.size() > columns || table.rows.size() > kMostRows) return "";
-  return html_details(caption + (common.empty() ? "" : ". In all rows " + common), html_of(table), true);
-}
-
-// Tables of a readable size, and links to all of them.
-struct Tables {
-  std::string html, links;
-};
-
-Tables tables_of(const Exhibit& exhibit, PageForm form) {
-  Tables tables;
-  for (const fs::path& file : files_ending(exhibit.folder, ".csv")) {
-    const TextTable table = read_words(file);
-    const std::string size = counted(table.rows.size(), "row");
-    tables.links +=
-        " · " + file_link(exhibit.name + "/" + file_name(file), file_name(file), form) + " (" + size + ")";
-    if (file_name(file) != "metrics.csv") tables.html += table_html(file_name(file), table, kMostColumns);
-  }
-  return tables;
-}
-
-// A row for each run of which there is only the manifest, or that is a part of another.
-std::string runs_table(const std::vector<std::pair<std::string, const Manifest*>>& runs, PageForm form) {
-  if (runs.empty()) return "";
-  const auto cell = [](const MetricValue& value) { return value.is_known() ? escaped(shown(value)) : ""; };
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& [link, run] : runs) {
-    const bool folder = link.ends_with("/manifest.json");
-    const fs::path path = folder ? fs::path(link).parent_path() : fs::path(link);
-    rows.push_back({file_link(link, path.stem().string(), form) + warning(*run) + "<code>" +
-                        escaped(run->command) + "</code>",
-                    cell(run->law), cell(run->element), cell(run->precision), cell(run->triangles),
-                    cell(run->steps), escaped(seconds_text(run->total_seconds())), cell(run->device)});
-  }
-  return html_table_of_html(
-      {"run", "law", "element", "precision", "triangles", "steps", "computed in", "device"}, rows, {4, 5, 6});
-}
-
-Tables lists_of(const Exhibit& exhibit, PageForm form) {
-  Tables tables;
-  std::vector<std::pair<std::string, const Manifest*>> runs;
-  Metrics metrics;
-  for (const Exhibit::List& list : exhibit.lists) {
-    const std::string link = exhibit.name + "/" + file_name(list.file);
-    tables.links += " · " + file_link(link, file_name(list.file), form);
-    if (list.manifest) {
-      runs.emplace_back(link, &*list.manifest);
-      for (const auto& [key, value] : list.manifest->metrics)
-        metrics.set(list.file.stem().string() + "." + key, value);
-    } else if (list.table) {
-      tables.html += table_html(file_name(list.file), *list.table, kMostColumns);
-    }
-  }
-  tables.html = (runs.size() <= kMostRows ? runs_table(runs, form) : "") +
-                small_table(without_asides(metrics)) + tables.html;
-  return tables;
-}
 
 // Manifests of the runs that it is the summary of.
 std::string parts_links(const Exhibit& exhibit, PageForm form) {
@@ -142,13 +175,16 @@ std::string parts_links(const Exhibit& exhibit, PageForm form) {
 }
 
 // Links to files, apart by dots.
-std::string links_of(const Exhibit& exhibit, const std::string& to_tables, PageForm form) {
-  std::string links =
-      exhibit.manifest ? " · " + file_link(exhibit.name + "/manifest.json", "manifest.json", form) : "";
-  links += to_tables;
+std::string links_of(const Exhibit& exhibit, PageForm form) {
+  std::string links;
+  const auto add = [&](const std::string& name) {
+    links += (links.empty() ? "" : " · ") + file_link(exhibit.name + "/" + name, name, form);
+  };
+  for (const char* ending : {".json", ".csv"})
+    for (const fs::path& file : files_ending(exhibit.folder, ending)) add(file.filename().string());
   for (const char* page : {"report.html", "README.md"})
-    if (is_there(exhibit.folder / page)) links += " · " + file_link(exhibit.name + "/" + page, page, form);
-  return links.substr(std::min(links.size(), std::string(" · ").size()));
+    if (is_there(exhibit.folder / page)) add(page);
+  return links + parts_links(exhibit, form);
 }
 
 }  // namespace
@@ -162,24 +198,19 @@ std::string anchor_of(const Exhibit& exhibit) {
 }
 
 std::string exhibit_html(const Exhibit& exhibit, PageForm form) {
-  const Tables tables = tables_of(exhibit, form), lists = lists_of(exhibit, form);
   const std::optional<Manifest>& manifest = exhibit.manifest;
-  const std::string metrics =
-      manifest ? metrics_html(*manifest, !tables.html.empty()) + missing_errors(*manifest) : "";
+  const std::string metrics = manifest ? metrics_html(*manifest) + missing_errors(*manifest) : "";
   const std::vector<Fields> warnings = manifest ? shown_warnings(manifest->warnings) : std::vector<Fields>();
-  return filled(
-      "exhibit.html",
-      {{"anchor", anchor_of(exhibit)},
-       {"name", exhibit.name},
-       {"badge", manifest ? warning(*manifest) : ""},
-       {"warnings", warnings},
-       {"about", manifest ? about_html(*manifest) : ""},
-       {"pictures", pictures_html(exhibit, form)},
-       {"metrics", metrics},
-       {"tables", tables.html + lists.html},
-       {"has_command", manifest.has_value()},
-       {"command", manifest ? manifest->command : ""},
-       {"links", links_of(exhibit, tables.links + lists.links + parts_links(exhibit, form), form)}});
+  return filled("exhibit.html", {{"anchor", anchor_of(exhibit)},
+                                 {"name", exhibit.name},
+                                 {"badge", manifest ? warning(*manifest) : ""},
+                                 {"warnings", warnings},
+                                 {"about", manifest ? about_html(*manifest) : ""},
+                                 {"pictures", pictures_html(exhibit, form)},
+                                 {"metrics", metrics},
+                                 {"has_command", manifest.has_value()},
+                                 {"command", manifest ? manifest->command : ""},
+                                 {"links", links_of(exhibit, form)}});
 }
 
 }  // namespace hysteron::experiments

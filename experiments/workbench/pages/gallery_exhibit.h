@@ -9,9 +9,8 @@ namespace hysteron::experiments {
 // "stability/bdf2" -> "stability-bdf2": name of its place on the page.
 std::string anchor_of(const Exhibit& exhibit);
 
-// Heading, contact sheet, metrics, pictures and plots, series, tables, the command, links to the files.
-// Links are relative to the gallery.  Throws Error::request, naming the file, if a picture, a table or a
-// manifest is broken.
+// Heading, contact sheet, metrics, pictures and plots, the command, links to the files.  Links are relative
+// to the gallery.  Throws Error::request, naming the file, if a picture is broken.
 std::string exhibit_html(const Exhibit& exhibit, PageForm form);
 
 }  // namespace hysteron::experiments

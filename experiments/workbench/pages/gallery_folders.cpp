@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/pictures.h"
-#include "experiments/workbench/pages/text_table.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
@@ -50,29 +48,12 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
   return found;
 }
 
-bool is_table(const Json& json) {
-  return json.is_array() && !json.empty() &&
-         std::all_of(json.begin(), json.end(), [](const Json& row) { return row.is_object(); });
-}
-
-Exhibit::List read_list(const fs::path& file) {
-  const Json json = read_json(file);
-  if (is_manifest(json)) return {file, checked_manifest(json, file), {}};
-  return {file, {}, is_table(json) ? std::optional(table_of(json)) : std::nullopt};
-}
-
 // `beside` receives the subfolders of a folder that is no run.
 void collect(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside);
 
 Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
-  Exhibit exhibit{name, folder, {}, {}, {}};
-  for (const fs::path& file : files_ending(folder, ".json")) {
-    if (file.filename() == "manifest.json") {
-      exhibit.manifest = read_manifest(file);
-    } else {
-      exhibit.lists.push_back(read_list(file));
-    }
-  }
+  Exhibit exhibit{name, folder, {}, {}};
+  if (has_manifest(folder)) exhibit.manifest = read_manifest(folder / "manifest.json");
   for (const fs::path& sub : subfolders(folder)) {
     collect(sub, name + "/" + sub.filename().string(), exhibit.manifest ? exhibit.parts : beside);
   }
@@ -81,7 +62,7 @@ Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<
 
 bool holds_anything(const Exhibit& exhibit) {
   const auto any = [&](const char* ending) { return !files_ending(exhibit.folder, ending).empty(); };
-  return exhibit.manifest || !exhibit.lists.empty() || any(".png") || any(".svg") || any(".csv") ||
+  return exhibit.manifest || any(".json") || any(".png") || any(".svg") || any(".csv") ||
          !files_ending(exhibit.folder / "frames", ".png").empty();
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest.h"
-#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 
@@ -15,13 +14,6 @@ struct Exhibit {
   std::string name;  // its path in the gallery, "stability/bdf2"
   std::filesystem::path folder;
   std::optional<Manifest> manifest;
-  // Another JSON file: a run without its folder, a list of objects, or neither.
-  struct List {
-    std::filesystem::path file;
-    std::optional<Manifest> manifest;
-    std::optional<TextTable> table;
-  };
-  std::vector<List> lists;
   std::vector<Exhibit> parts;  // runs in its subfolders, of which it is the summary
 
   // The manifest's, without one the first word of the name: "speed".
@@ -37,7 +29,7 @@ struct ExhibitGroup {
 // Subfolders of a gallery's folder by experiment: first what is to be looked at, then what is measured.  The
 // subfolders of one without a manifest stand beside it, those of a run are its parts; empty folders and those
 // of sequences (frames/, frames-LOOK/, film/, mesh/) are passed over.  Throws Error::request, naming the
-// file, if a manifest or another JSON file is broken or if there is nothing to show.
+// file, if a manifest is broken or if there is nothing to show.
 std::vector<ExhibitGroup> exhibits_in(const std::filesystem::path& gallery);
 
 }  // namespace hysteron::experiments

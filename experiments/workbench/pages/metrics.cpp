@@ -1,7 +1,6 @@
 #include "experiments/workbench/pages/metrics.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "experiments/workbench/pages/gallery_about.h"
@@ -10,6 +9,20 @@
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
+
+std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics) {
+  std::vector<std::pair<std::string, Metrics>> columns;
+  for (const auto& [key, value] : metrics) {
+    const std::size_t dot = key.rfind('.');
+    if (dot == key.npos) continue;
+    const std::string name = key.substr(0, dot);
+    auto column =
+        std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.first == name; });
+    if (column == columns.end()) column = columns.insert(columns.end(), {name, {}});
+    column->second.set(key.substr(dot + 1), value);
+  }
+  return columns;
+}
 
 HeadlineWords metric_words(const Metrics& metrics, const std::string& key) {
   if (is_headline(metrics, key)) return headline_words(metrics, key);
@@ -47,15 +60,11 @@ Card card_of(const Metrics& metrics, const Headline& headline) {
 std::vector<Card> column_cards(const Manifest& manifest) {
   constexpr std::size_t kMost = 8;  // more are a table
   const std::string& compared = manifest.scene.compared;
+  const auto columns = columns_in(manifest.metrics);
   for (const Headline& headline : headlines_of(compared.empty() ? manifest.experiment : compared).all) {
-    const std::string ending = std::string(".") + headline.metric;
     std::vector<Card> cards;
-    for (const auto& [key, value] : manifest.metrics) {
-      if (!key.ends_with(ending) || !value.is_number()) continue;
-      const std::string name = key.substr(0, key.size() - ending.size());
-      Metrics own;
-      for (const auto& [other, number] : manifest.metrics)
-        if (other.starts_with(name + ".")) own.set(other.substr(name.size() + 1), number);
+    for (const auto& [name, own] : columns) {
+      if (!own[headline.metric].is_number()) continue;
       cards.push_back(card_of(own, headline));
       cards.back().name = name + ": " + headline.words;
     }
@@ -95,23 +104,12 @@ Metrics numerics(const Metrics& metrics) {
 }
 
 std::string metric_table(const Metrics& metrics) {
-  std::vector<std::string> names, keys;
-  const auto once = [](std::vector<std::string>& known, const std::string& word) {
-    if (!std::count(known.begin(), known.end(), word)) known.push_back(word);
-  };
-  std::map<std::string, Metrics> of;  // by name
-  for (const auto& [key, value] : metrics) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == key.npos) continue;
-    once(names, key.substr(0, dot));
-    of[key.substr(0, dot)].set(key.substr(dot + 1), value);
-  }
-  if (names.empty()) return "";
-  for (const auto& [key, value] : metrics) {
-    const std::size_t dot = key.rfind('.');
-    if (dot == key.npos) continue;
-    if (headline_of(of[key.substr(0, dot)], key.substr(dot + 1)).empty()) once(keys, key.substr(dot + 1));
-  }
+  const auto columns = columns_in(metrics);
+  if (columns.empty()) return "";
+  std::vector<std::string> keys;
+  for (const auto& [name, own] : columns)
+    for (const auto& [key, value] : own)
+      if (headline_of(own, key).empty() && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
   std::vector<std::string> head = {""};
   std::vector<std::size_t> numeric;
   for (const std::string& key : keys) {
@@ -119,10 +117,10 @@ std::string metric_table(const Metrics& metrics) {
     head.push_back(split_unit(key).text());
   }
   std::vector<std::vector<std::string>> rows;
-  for (const std::string& name : names) {
+  for (const auto& [name, own] : columns) {
     rows.push_back({name});
     for (const std::string& key : keys) {
-      const HeadlineWords words = of[name].contains(key) ? metric_words(of[name], key) : HeadlineWords{};
+      const HeadlineWords words = own.contains(key) ? metric_words(own, key) : HeadlineWords{};
       rows.back().push_back(joined({words.value, words.errors}, " "));
     }
   }

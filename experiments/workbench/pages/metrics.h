@@ -2,11 +2,16 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/workbench/app/manifest.h"
 #include "experiments/workbench/pages/error_words.h"
 
 namespace hysteron::experiments {
+
+// Laws, fabrics or others whose metrics are called NAME.KEY, in their order, each with its own.
+std::vector<std::pair<std::string, Metrics>> columns_in(const Metrics& metrics);
 
 // Value, unit and, for a headline, errors of any metric.
 HeadlineWords metric_words(const Metrics& metrics, const std::string& key);

@@ -49,35 +49,20 @@ std::string html_figure(const std::string& image, const std::string& caption) {
   return filled("figure.html", {{"image", image}, {"caption", caption}});
 }
 
-std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
-                             const std::string& caption) {
-  return html_figure(embedded_image(bytes, type, caption), caption);
-}
-
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric) {
-  std::vector<std::vector<std::string>> cells = rows;
-  for (auto& row : cells) std::transform(row.begin(), row.end(), row.begin(), escaped);
-  return html_table_of_html(head, cells, numeric);
-}
-
-std::string html_table_of_html(const std::vector<std::string>& head,
-                               const std::vector<std::vector<std::string>>& rows,
-                               const std::vector<std::size_t>& numeric) {
   const auto cells_of = [&](const std::vector<std::string>& texts) {
     std::vector<Fields> cells;
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const bool right = std::count(numeric.begin(), numeric.end(), i) > 0;
-      cells.push_back({{"kind", right == (i > 0) ? "" : right ? "n" : "t"}, {"html", texts[i]}});
+      cells.push_back({{"kind", right == (i > 0) ? "" : right ? "n" : "t"}, {"html", escaped(texts[i])}});
     }
     return cells;
   };
-  std::vector<std::string> names = head;
-  std::transform(names.begin(), names.end(), names.begin(), escaped);
   std::vector<Fields> lines;
   for (const auto& row : rows) lines.push_back({{"cells", cells_of(row)}});
-  return filled("table.html", {{"head", cells_of(names)}, {"rows", lines}});
+  return filled("table.html", {{"head", cells_of(head)}, {"rows", lines}});
 }
 
 std::string url_of(const std::string& path) {

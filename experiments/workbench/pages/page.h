@@ -30,20 +30,12 @@ std::string linked_image(const std::string& path, const render::ImageSize& size,
 
 // An image, which is HTML, with a caption, which is text.
 std::string html_figure(const std::string& image, const std::string& caption);
-// An embedded image with the same words as its caption.
-std::string embedded_picture(std::span<const std::uint8_t> bytes, const std::string& type,
-                             const std::string& caption);
 
 // Cells are text; columns in `numeric` are set right-aligned with tabular figures.  Most are, but the first
 // is not: only cells that differ from that carry a class, which makes a page of tables an eighth smaller.
 std::string html_table(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows,
                        const std::vector<std::size_t>& numeric);
-
-// The same of cells that are HTML; the head is text.
-std::string html_table_of_html(const std::vector<std::string>& head,
-                               const std::vector<std::vector<std::string>>& rows,
-                               const std::vector<std::size_t>& numeric);
 
 // A relative path as the target of a link: what is no letter, digit, /, -, _, . or ~ as %XX.
 std::string url_of(const std::string& path);

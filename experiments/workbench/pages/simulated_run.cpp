@@ -6,6 +6,7 @@
 
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
+#include "sim/base/atomic_file.h"
 #include "sim/scene/key_table.h"
 
 namespace hysteron::experiments {
@@ -100,6 +101,16 @@ std::string facts_of(const std::vector<std::string>& names, const std::vector<co
     if (!words.empty()) text += (text.empty() ? "" : " ") + std::string(fact.name) + ": " + words + ".";
   }
   return text;
+}
+
+void write_captions(const std::filesystem::path& path, const std::string& heading,
+                    const std::string& introduction, const std::vector<FigureCaption>& figures) {
+  AtomicFile file(path.string());
+  file.stream() << "# " << heading << "\n\n" << introduction << "\n";
+  for (const FigureCaption& figure : figures)
+    file.stream() << "\n![" << figure.title << "](" << figure.file << ")\n\n**" << figure.title << ".** "
+                  << figure.text << "\n";
+  file.commit();
 }
 
 void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures) {

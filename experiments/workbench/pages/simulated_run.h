@@ -1,11 +1,11 @@
 // What a manifest says of a run, in words for captions.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "experiments/workbench/app/manifest.h"
-#include "experiments/workbench/pages/figure_captions.h"
 
 namespace hysteron::experiments {
 
@@ -26,6 +26,18 @@ std::string grouped(long count);
 // "Cloth: ... Fabric: ... Law: ... Solver: ... Device: ..." of runs with these names: each fact once, and
 // where some differ, theirs with their names.
 std::string facts_of(const std::vector<std::string>& names, const std::vector<const Manifest*>& manifests);
+
+// A figure with its caption, for readers and for the gallery, which shows captions below its pictures.
+struct FigureCaption {
+  std::string file;   // in the same folder, "sheet.png"
+  std::string title;  // of one line
+  std::string text;   // what it shows, in sentences; one paragraph without line ends
+};
+
+// A heading, an introduction, and each figure above its caption.  Throws Error::machine if the file cannot be
+// written.
+void write_captions(const std::filesystem::path& path, const std::string& heading,
+                    const std::string& introduction, const std::vector<FigureCaption>& figures);
 
 // README.md of a finished run's folder: those of the figures that are there with their captions and, below
 // the first, the run's facts and its command from manifest.json.  Throws Error::machine if one cannot be read

@@ -1,9 +1,7 @@
 #include "experiments/workbench/pages/text_table.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
-#include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "experiments/workbench/pages/page.h"
 #include "sim/base/number_in.h"
@@ -41,29 +39,6 @@ std::string column_name(std::string name) {
 }
 
 }  // namespace
-
-TextTable table_of(const Json& objects) {
-  TextTable table;
-  for (const Json& object : objects) {
-    std::ptrdiff_t place = 0;  // behind the key before it in this object
-    for (const auto& [key, value] : object.items()) {
-      const auto known = std::find(table.head.begin(), table.head.end(), key);
-      if (known != table.head.end()) {
-        place = known - table.head.begin() + 1;
-      } else if (!value.is_structured()) {
-        table.head.insert(table.head.begin() + place++, key);
-      }
-    }
-  }
-  for (const Json& object : objects) {
-    table.rows.emplace_back();
-    for (const std::string& key : table.head) {
-      const MetricValue value = object.contains(key) ? value_of(object[key]) : MetricValue();
-      table.rows.back().push_back(value.is_known() ? shown(value) : "");
-    }
-  }
-  return table;
-}
 
 std::string take_common(TextTable& table) {
   std::string common;

@@ -3,14 +3,9 @@
 
 #include <string>
 
-#include "experiments/workbench/app/manifest.h"
 #include "sim/base/csv.h"
 
 namespace hysteron::experiments {
-
-// A row for each object, a column for each key that is no list or object; one that only later objects have
-// stands behind the key that it follows there.
-TextTable table_of(const Json& objects);
 
 // Takes columns out that say the same in every row, "device: cpu, precision: double"; empty ones are left
 // out.  A table of one row stays whole.

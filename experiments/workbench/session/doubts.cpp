@@ -89,7 +89,8 @@ std::string drawing_words(const Scene& scene, const Cloth& cloth) {
   const double step = farthest * std::numeric_limits<float>::epsilon();
   if (!(step > kSeen * scene.fabric.thickness)) return "";
   return fmt::format(
-      "pictures and glTF files round positions to {:.2g} m so far from the origin: move the scene nearer to "
+      "pictures and point caches round positions to {:.2g} m so far from the origin: move the scene nearer "
+      "to "
       "it; other numbers and files are not concerned",
       step);
 }

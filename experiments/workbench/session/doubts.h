@@ -17,8 +17,8 @@ std::vector<std::string> doubts_at_start(const Scene& scene, const Cloth& cloth,
 std::vector<std::string> doubts_at_end(const Scene& scene, const Cloth& cloth,
                                        const std::vector<Eigen::Vector3d>& x, double stretched);
 
-// Of what holds floats in the world's coordinates, pictures and glTF: where these round the start so far from
-// the origin that it shows; "" where they do not.
+// Of what holds floats in the world's coordinates, pictures and point caches: where these round the start so
+// far from the origin that it shows; "" where they do not.
 std::string drawing_words(const Scene& scene, const Cloth& cloth);
 
 // Where the integrator took more than a quarter of all energy that was dissipated; "" where it did not.  The

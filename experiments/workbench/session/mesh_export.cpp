@@ -8,13 +8,14 @@
 #include "render/inset.h"
 #include "sim/base/atomic_file.h"
 #include "sim/bending/vertex_curvature.h"
+#include "sim/mesh/point_cache.h"
 #include "sim/mesh/vtk.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kInstants = "mesh/cloth.pvd";
-constexpr const char* kAnimation = "mesh/cloth.glb";
+constexpr const char *kCacheMesh = "mesh/cloth.obj", *kCache = "mesh/cloth.pc2";
 
 std::string mesh_name(std::size_t number, const std::string& format) {
   return fmt::format("{:04}.{}", number, format == "vtk" ? "vtp" : format == "mitsuba" ? "ply" : format);
@@ -67,7 +68,7 @@ void write_fields(const std::string& file, const ClothMesh& mesh, Simulation& si
 
 std::vector<std::string> MeshExport::files(const std::string& format) {
   if (format == "none") return {};
-  if (format == "gltf") return {kAnimation};
+  if (format == "pc2") return {kCacheMesh, kCache};
   if (format == "vtk") return {mesh_file(0, format), kInstants};
   if (format == "mitsuba") return {mesh_file(0, format), scene_file(0), "mesh/" + body_file(0)};
   return {mesh_file(0, format)};
@@ -89,13 +90,17 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
                        const std::vector<Eigen::Vector3d>& x) {
   if (format == "none") return;
   const auto stage = run.stage("io");
-  if (format == "gltf") return animation_.add(simulation.time(), x);
-  const std::string file = run.path(mesh_file(times_.size(), format)).string();
+  const std::size_t number = times_.size();
   times_.push_back(simulation.time());
+  if (format == "pc2") {
+    if (number == 0) write_obj(run.path(kCacheMesh).string(), cloth.mesh, x);
+    return write_to_point_cache(run.path(kCache).string(), number, x);
+  }
+  const std::string file = run.path(mesh_file(number, format)).string();
   if (format == "obj") return write_obj(file, cloth.mesh, x);
-  if (view_ && times_.size() == 1)
+  if (view_ && number == 0)
     side_ = render::long_side(flat_triangles(cloth.mesh.face), flat_points(cloth.mesh.rest), 3);
-  if (view_) write_scene(run, times_.size() - 1, simulation.time());
+  if (view_) write_scene(run, number, simulation.time());
   if (format == "ply" || format == "mitsuba") {
     const std::vector<float> k = vertex_curvature(cloth.mesh, simulation.curvature(), simulation.dimension());
     return write_ply(file, cloth.mesh, x, {k.begin(), k.end()});
@@ -104,21 +109,6 @@ void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, 
   std::vector<std::pair<double, std::string>> instants;
   for (std::size_t k = 0; k < times_.size(); ++k) instants.emplace_back(times_[k], mesh_name(k, format));
   write_pvd(run.path(kInstants).string(), instants);
-}
-
-void MeshExport::finish(Run& run, const Cloth& cloth) const {
-  const std::vector<ClothFrame>& frames = animation_.frames();
-  if (frames.empty()) return;
-  const auto stage = run.stage("io");
-  write_glb(run.path(kAnimation).string(), cloth.mesh, frames);
-  if (frames.size() < animation_.instants())
-    run.warn(fmt::format("mesh/cloth.glb has {} of {} instants: viewers bear {} morph targets", frames.size(),
-                         animation_.instants(), most_morph_targets(cloth.mesh.rest.size())));
-}
-
-void MeshExport::visit(Archive& archive) {
-  archive(times_);
-  animation_.visit(archive);
 }
 
 }  // namespace hysteron::experiments

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/workbench/app/decided_keys.h"
-#include "experiments/workbench/app/memory.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/app/time_left.h"
 #include "experiments/workbench/compare/errors.h"
@@ -72,11 +71,6 @@ const Setup& checked(const Setup& setup) {
   return setup;
 }
 
-const Cloth& fitting(const Setup& setup, const Cloth& cloth) {
-  check_memory(setup, cloth.mesh.faces());
-  return cloth;
-}
-
 }  // namespace
 
 void explain(const Cloth& cloth, const Simulation& simulation) {
@@ -107,13 +101,13 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     : line_(line),
       setup_(checked(setup)),
       cloth_(cloth ? std::move(*cloth) : make_cloth(setup.scene)),
-      simulation_(make_simulation(setup.scene, fitting(setup, cloth_))),
+      simulation_(make_simulation(setup.scene, cloth_)),
       rest_angle_(rest_angles(cloth_.mesh)),
       probes_(setup.options.probe, cloth_.mesh, simulation_->dimension()),
       recoveries_(setup.scene) {
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
-    std::cout << probes_.text() << text_of(memory_need(setup, cloth_.mesh.faces())) << std::endl;
+    std::cout << probes_.text() << std::flush;
     return;
   }
   if (!setup.options.dump_scene.empty()) {
@@ -347,7 +341,7 @@ bool Session::simulate(const Question& question) {
     pictures_ = std::make_unique<Pictures>(setup_, cloth_, *simulation_, bounds, question.floor);
     run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
   }
-  const bool draws = pictures_ || setup_.options.export_format == "gltf";
+  const bool draws = pictures_ || setup_.options.export_format == "pc2";
   if (const std::string doubt = drawing_words(setup_.scene, cloth_); draws && !doubt.empty())
     run_->warn(doubt);
   std::vector<std::string> columns = {"time [s]", "fastest [m/s]"};
@@ -358,15 +352,8 @@ bool Session::simulate(const Question& question) {
   run_->manifest().series = question.columns;
   probes_.begin(*run_);
 
-  bool settled = false;
-  try {
-    settled = go_through(question, series);
-    if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
-  } catch (const Error&) {
-    meshes_.finish(*run_, cloth_);  // up to the last instant
-    throw;
-  }
-  meshes_.finish(*run_, cloth_);
+  bool settled = go_through(question, series);
+  if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
   series.finish();
   probes_.finish();
   return settled;

@@ -123,14 +123,4 @@ double LawWalk::friction_moment() const { return state_->friction_moment(); }
 double LawWalk::permanent_set() const { return state_->permanent_set(); }
 void LawWalk::visit(Archive& archive) { state_->visit(archive); }
 
-int history_size(const LawChoice& choice, int dimension) {
-  int size = 0;
-  const auto take = [&]<class Law>(const Law&) { size = Law::kHistory; };
-  if (dimension == 1)
-    visit_groups<double, 1, ClothMemory>(LawGroups{}, choice, take);
-  else
-    visit_groups<double, 3, ClothMemory>(LawGroups{}, choice, take);
-  return size;
-}
-
 }  // namespace hysteron

@@ -67,9 +67,4 @@ class LawWalk {
   std::unique_ptr<State> state_;
 };
 
-// How much a law remembers in a cloth.
-
-// Numbers of history of one element; `dimension` 1 (hinge) or 3 (shape).
-int history_size(const LawChoice& choice, int dimension);
-
 }  // namespace hysteron

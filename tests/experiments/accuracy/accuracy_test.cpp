@@ -42,15 +42,6 @@ TEST(AccuracyFront, NamesTheCheapestWithinAnError) {
   EXPECT_FALSE(cheapest(solution, 0.001)) << "only another law is as good";
 }
 
-TEST(AccuracyFront, IsUnknownWhereTimesAre) {
-  Solution solution = made_up_solution();
-  EXPECT_TRUE(is_timed(solution));
-  for (Solved& solved : solution.solved) solved.found.seconds = NAN;
-  EXPECT_FALSE(is_timed(solution));
-  EXPECT_TRUE(pareto_front(solution).empty());
-  EXPECT_FALSE(observed_orders(solution).empty()) << "errors are known";
-}
-
 TEST(AccuracyFront, LeavesOutWhatFailed) {
   Solution solution = made_up_solution();
   solution.solved[0].found.failed = "no equilibrium";
@@ -68,8 +59,6 @@ TEST(ObservedOrders, AreThoseOfTheErrors) {
 Found solved_base(const Problem& problem) { return problem.solve(problem.settings.front()); }
 
 const Effort kQuick{true, DeviceChoice::cpu};
-
-TEST(Sag, OfTheBaseLiesOnTheElastica) { EXPECT_LT(solved_base(sag_problem(kQuick)).error, 2e-3); }
 
 // Second order: a quarter of the triangles has four times the error.
 TEST(Sag, ConvergesWithTheMesh) {
@@ -95,14 +84,6 @@ TEST(Sag, OfHingesOnACutGridDropsTooFar) {
   EXPECT_NEAR(found.value / found.reference, 1.22, 0.03) << setting.mesh;
 }
 
-TEST(Droop, OfTheBaseIsThatOfTheElastica) {
-  const Found found = solved_base(droop_problem(kQuick));
-  EXPECT_GT(found.reference, 0.005);
-  EXPECT_LT(found.error, 1e-3);
-}
-
-TEST(Bend, OfTheBaseFollowsItsLaw) { EXPECT_LT(solved_base(bend_problem(kQuick)).error, 0.01); }
-
 // Observed orders of the integrators on a smooth motion.
 double order_in_time(const std::string& integrator, double step) {
   const Problem problem = swing_problem(kQuick);
@@ -112,21 +93,6 @@ double order_in_time(const std::string& integrator, double step) {
   const double coarse = problem.solve(setting).error;
   setting.step = step / 2;
   return std::log2(coarse / problem.solve(setting).error);
-}
-
-// As settings that share a GPU need them.
-TEST(Swing, HasTheSameReferencesTogetherAndOneByOne) {
-  const Problem one = swing_problem(kQuick), together = swing_problem(kQuick);
-  std::vector<Setting> meshes(2, one.settings.front());
-  meshes[1].mesh = "equilateral";
-  together.prepare(meshes);
-  for (const Setting& setting : meshes) {
-    const Found a = one.solve(setting), b = together.solve(setting);
-    EXPECT_EQ(a.reference, b.reference) << setting.mesh;
-    EXPECT_EQ(a.error, b.error) << setting.mesh;
-    EXPECT_EQ(a.uncertainty, b.uncertainty) << setting.mesh;
-    EXPECT_GT(a.uncertainty, 0) << setting.mesh;
-  }
 }
 
 TEST(Swing, Bdf2IsOfSecondOrder) { EXPECT_GT(order_in_time("bdf2", 1.0 / 480), 1.9); }
@@ -144,17 +110,6 @@ TEST(AccuracyCommand, WritesTablesOrdersAndTheCheapest) {
             1 + static_cast<long>(bend_problem(kQuick).settings.size()));
   EXPECT_NE(text_of(out / "cheapest.csv").find("bend,"), std::string::npos);
   EXPECT_NE(text_of(out / "orders.csv").find("problem,in,group"), std::string::npos);
-}
-
-TEST(AccuracyCommand, RefusesAnUnknownProblem) {
-  CommandLine line{"accuracy", "hysteron accuracy", {{"problem", "sagg"}}, {}};
-  try {
-    experiment_named("accuracy").run(line);
-    FAIL() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("bend, sag"), std::string::npos) << error.what();
-  }
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
@@ -29,31 +27,27 @@ SizeTable table_of(const SizeChoice& choice) {
   return times_by_size(hanging(), choice, [](const Metrics&) {});
 }
 
-TEST(TimesBySize, HaveARowForEachSizeIntegratorAndLaw) {
-  const SizeChoice choice{{72, 18},
-                          {Integrator::explicit_euler, Integrator::semi_implicit, Integrator::implicit},
-                          {"prandtl", "linear"},
-                          1};
+TEST(TimesBySize, HaveARowForEachSizeAndIntegrator) {
+  const SizeChoice choice{
+      {72, 18}, {Integrator::explicit_euler, Integrator::semi_implicit, Integrator::implicit}, 1};
   int heard = 0;
   const SizeTable table = times_by_size(hanging(), choice, [&](const Metrics&) { ++heard; });
-  ASSERT_EQ(table.rows.size(), 12u);
-  EXPECT_EQ(heard, 12);
+  ASSERT_EQ(table.rows.size(), 6u);
+  EXPECT_EQ(heard, 6);
   EXPECT_GT(table.copy_bandwidth, 0);
   std::size_t k = 0;
   for (const int triangles : {18, 72})
-    for (const Integrator integrator : choice.integrators)
-      for (const std::string& law : choice.laws) {
-        const Metrics& row = table.rows[k++];
-        EXPECT_EQ(row.number("triangles"), triangles);
-        EXPECT_EQ(row["integrator"].text(), name_of(integrator));
-        EXPECT_EQ(row["law"].text(), law);
-        EXPECT_EQ(row["skipped"].text(), "");
-        EXPECT_EQ(row["state_hash"].text().size(), 16u);
-      }
+    for (const Integrator integrator : choice.integrators) {
+      const Metrics& row = table.rows[k++];
+      EXPECT_EQ(row.number("triangles"), triangles);
+      EXPECT_EQ(row["integrator"].text(), name_of(integrator));
+      EXPECT_EQ(row["skipped"].text(), "");
+      EXPECT_EQ(row["state_hash"].text().size(), 16u);
+    }
 }
 
 TEST(TimesBySize, SetTheBytesOfAStepBesideACopy) {
-  const SizeTable table = table_of({{32}, {Integrator::explicit_euler, Integrator::tr_bdf2}, {"prandtl"}, 1});
+  const SizeTable table = table_of({{32}, {Integrator::explicit_euler, Integrator::tr_bdf2}, 1});
   for (const Metrics& row : table.rows) {
     const double bytes = row.number("bytes_per_step"), floor = row.number("floor_ms_per_step");
     EXPECT_GT(bytes, 0);
@@ -65,8 +59,7 @@ TEST(TimesBySize, SetTheBytesOfAStepBesideACopy) {
 // Explicit steps are divided until they are stable: then a row is of one part, and moves as much as any
 // other.
 TEST(TimesBySize, AreOfOneStableStep) {
-  const SizeTable table =
-      table_of({{32, 128}, {Integrator::explicit_euler, Integrator::implicit}, {"prandtl"}, 1});
+  const SizeTable table = table_of({{32, 128}, {Integrator::explicit_euler, Integrator::implicit}, 1});
   const auto at = [&](int row, const char* key) { return table.rows[row].number(key); };
   EXPECT_LT(at(0, "step_s"), hanging().step);
   EXPECT_LT(at(2, "step_s"), at(0, "step_s")) << "finer cloth asks for shorter steps";
@@ -82,7 +75,7 @@ TEST(TimesBySize, AreOfOneStableStep) {
 }
 
 TEST(TimesBySize, AreLeftOutWhereTheBudgetCannotHoldThem) {
-  SizeChoice choice{{18, 72}, {Integrator::implicit}, {"prandtl"}, 1};
+  SizeChoice choice{{18, 72}, {Integrator::implicit}, 1};
   choice.budget = 1e-9;
   const SizeTable table = table_of(choice);
   ASSERT_EQ(table.rows.size(), 2u);
@@ -91,22 +84,6 @@ TEST(TimesBySize, AreLeftOutWhereTheBudgetCannotHoldThem) {
     EXPECT_NE(row["skipped"].text().find("budget"), std::string::npos);
     EXPECT_FALSE(row["ms_per_step"].is_number());
   }
-}
-
-TEST(TimesBySize, CompareWithLinearOfTheSameSizeAndIntegrator) {
-  std::vector<Metrics> rows;
-  const auto add = [&](int triangles, const char* integrator, const char* law, double ms) {
-    rows.push_back({{"triangles", triangles}, {"integrator", integrator}, {"law", law}, {"ms_per_step", ms}});
-  };
-  add(10, "implicit", "prandtl", 3);
-  add(10, "implicit", "linear", 2);
-  add(10, "explicit", "linear", 5);
-  add(20, "implicit", "prandtl", 7);
-  compare_with_linear(rows);
-  EXPECT_EQ(rows[0].number("ratio_to_linear"), 1.5);
-  EXPECT_EQ(rows[1].number("ratio_to_linear"), 1);
-  EXPECT_EQ(rows[2].number("ratio_to_linear"), 1);
-  EXPECT_TRUE(std::isnan(rows[3].number("ratio_to_linear"))) << "linear was not measured there";
 }
 
 }  // namespace

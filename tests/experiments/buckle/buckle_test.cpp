@@ -172,15 +172,5 @@ TEST(Buckle, WritesTheThresholdBesideTheReference) {
   EXPECT_LT(std::abs(metrics["error_percent"].get<double>()), 100 * kTarget);
 }
 
-TEST(Buckle, RefusesAnUnknownKind) {
-  for (const char* kind : {"sideways", ""}) try {
-      metrics_of({{"buckle.kind", kind}});
-      FAIL() << "not refused";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code(), 2);
-      EXPECT_NE(std::string(error.what()).find("edge"), std::string::npos) << error.what();
-    }
-}
-
 }  // namespace
 }  // namespace hysteron::experiments

@@ -81,22 +81,6 @@ TEST(Compare, SetsLawsSideBySideAndKeepsWhatIsFinished) {
   EXPECT_NE(fs::last_write_time(fs::path(out) / "linear/manifest.json"), first);
 }
 
-TEST(Compare, InABatchHasTheTableOfColumnsByThemselves) {
-  const Folder folder;
-  const std::string line = "compare swing --laws linear,prandtl,dahl --no-images" + std::string(kSmall) +
-                           " --out " + folder.path().string();
-  ASSERT_EQ(program(line + "/alone").exit_code, 0);
-  ASSERT_EQ(program(line + "/together --batch 2").exit_code, 0);
-  const std::string table = text_of(folder.path() / "alone/table.csv");
-  EXPECT_NE(table.find("prandtl"), std::string::npos);
-  EXPECT_EQ(text_of(folder.path() / "together/table.csv"), table);
-  const Outcome drawn = program("compare swing --laws linear,prandtl --batch 2 --out " +
-                                (folder.path() / "drawn").string() + kSmall);
-  EXPECT_EQ(drawn.exit_code, 2);
-  EXPECT_NE(drawn.err.find("batch = 2 is of runs without pictures"), std::string::npos) << drawn.err;
-  EXPECT_FALSE(fs::exists(folder.path() / "drawn"));
-}
-
 TEST(Compare, WritesColumnsOfFabricFilesIntoItsOwnFolder) {
   const Folder folder;
   const fs::path root = folder.path(), out = root / "run" / "out";
@@ -286,14 +270,6 @@ TEST(Compare, RefusesInstantsAfterTheEndOfTheRunBeforeItBegins) {
   EXPECT_NE(refusal_of(" --compare.times=-0.1").find("must be >= 0"), std::string::npos);
 }
 
-// Which metrics there are is known once the columns have run, and they are kept.
-TEST(Compare, NamesTheMetricsThatThereAreWhereOneIsUnknown) {
-  const std::string words = refusal_of(" --no-images --compare.metrics turns,turn");
-  EXPECT_EQ(words.find("hysteron compare: compare.metrics = turn must be among turns, decay_shape, "), 0u)
-      << words;
-  EXPECT_NE(words.find("max_stretch_percent"), std::string::npos) << words;
-}
-
 TEST(Compare, NamesTheColumnThatIsWrong) {
   const Folder folder;
   const std::string out = " --out " + (folder.path() / "out").string() + kSmall;
@@ -317,35 +293,6 @@ from = 0.04
   EXPECT_NE(text_of(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
       << outcome.out << outcome.err << text_of(out / "table.csv");
   EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
-}
-
-// On its own page, since those of the columns are read by few.  A clamp's mesh has no copies.
-TEST(Compare, WarnsOfWhatItsColumnsWarnOf) {
-  const Folder folder;
-  const fs::path scene = folder.path() / "copies.toml", out = folder.path() / "out";
-  std::ofstream(scene) << "cloth.copies = 2\n";
-  const Outcome outcome = program("compare swing --scene " + scene.string() +
-                                  " --laws linear,prandtl --no-images --out " + out.string() + kSmall);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::string words = "linear, prandtl: cloth.copies = 2 (" + scene.string() + ":1) is not used: ";
-  EXPECT_EQ(outcome.err.find("warning: " + words), 0u) << outcome.err;
-  const auto warnings = nlohmann::json::parse(text_of(out / "manifest.json"))["warnings"];
-  ASSERT_FALSE(warnings.empty());
-  EXPECT_TRUE(warnings[0].get<std::string>().starts_with(words)) << warnings;
-  EXPECT_NE(text_of(out / "report.html").find("Warning: " + words), std::string::npos);
-}
-
-// The height of a crease's plate is found by a run of its own, before the run has a folder.
-TEST(Compare, SaysWhyAColumnDidNotBegin) {
-  const Folder folder;
-  const fs::path out = folder.path() / "out";
-  const Outcome outcome = program(
-      "compare crease --laws linear --triangles 60 --crease.force 1e7 --device cpu "
-      "--no-images --quiet --out " +
-      out.string());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(text_of(out / "table.csv").find("the plate reaches the plane"), std::string::npos);
-  EXPECT_FALSE(fs::exists(out / "linear"));
 }
 
 TEST(Compare, StatesTheStiffnessThatItMatched) {

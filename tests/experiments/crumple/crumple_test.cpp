@@ -104,24 +104,6 @@ TEST(Crumple, PicturesClothThatFallsToTheEnd) {
   EXPECT_EQ(outcome.err.find("cut off"), std::string::npos) << outcome.err;
 }
 
-TEST(Crumple, PicturesLawsThatAreComparedInOneFrame) {
-  const Folder folder;
-  std::ofstream(folder.path() / "falling.toml") << kFalling;
-  const auto out = folder.path() / "run";
-  for (const std::string command : {"crumple --scene ", "compare crumple --scene "}) {
-    const Outcome outcome =
-        program(command + (folder.path() / "falling.toml").string() +
-                " --law linear,prandtl --size 160x120 --fps 5 --threads 1 --quiet --out " + out.string());
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    const auto camera_of = [&](const char* law) {
-      return nlohmann::json::parse(text_of(out / law / "manifest.json"))["options"]["camera"];
-    };
-    EXPECT_EQ(camera_of("linear")["box"].size(), 6u) << command;
-    EXPECT_LT(camera_of("linear")["box"][2].get<double>(), -0.8 * 0.9) << "the low end's height";
-    EXPECT_EQ(camera_of("linear"), camera_of("prandtl")) << command;
-  }
-}
-
 // The camera of one law looks elsewhere; of what its run says the error counts, not the warning before it.
 TEST(Crumple, WarnsOfALawThatIsMissingOnItsSheet) {
   const Folder folder;

@@ -87,39 +87,6 @@ TEST_F(FabCommand, FollowsStopsThatAFileStates) {
   EXPECT_NEAR(metrics("b").at("area_cycle1_J_per_m"), (l + w) / 2, 0.05 * l);
 }
 
-const std::vector<Flag> kOnSmallSheet = {{"on", "sheet"},
-                                         {"triangles", "160"},
-                                         {"fab.steps", "6"},
-                                         {"fab.compressions", "0.005"},
-                                         {"no-images", "true"}};
-
-TEST_F(FabCommand, PutsTheSheetAndItsErrorsBesideTheStrip) {
-  ASSERT_EQ(fab(kOnSmallSheet), 0);
-  const auto m = metrics();
-  EXPECT_NEAR(m.at("sheet_area_cycle1_J_per_m"), m.at("area_cycle1_J_per_m"),
-              m.at("sheet_area_cycle1_J_per_m_mesh_error"));
-  EXPECT_LT(m.at("sheet_area_cycle1_J_per_m_step_error"), m.at("sheet_area_cycle1_J_per_m_mesh_error"));
-  EXPECT_NE(text_of(folder_.path() / "out" / "fab.csv").find(",sheet_force_N\n"), std::string::npos);
-}
-
-TEST_F(FabCommand, ComparesNoLoopsOfASheetWithoutFriction) {
-  std::vector<Flag> flags = kOnSmallSheet;
-  flags.push_back({"fabric", "tango-red-jet-set"});
-  ASSERT_EQ(fab(flags), 0);
-  EXPECT_FALSE(metrics().contains("sheet_area_cycle1_J_per_m_difference_percent"));
-  EXPECT_TRUE(metrics().contains("sheet_peak_force_cycle1_N_per_m_difference_percent"));
-}
-
-TEST_F(FabCommand, RefusesSheetsThatDoNotExistBeforeItWritesAnything) {
-  const auto said = [&](std::vector<Flag> flags) { return test::refusal([&] { fab(flags); }); };
-  EXPECT_NE(said({{"on", "cloth"}}).find("strip | sheet"), std::string::npos);
-  EXPECT_NE(said({{"mesh", "random"}}).find("--on sheet"), std::string::npos);
-  EXPECT_NE(said({{"on", "sheet"}, {"fab.test", "S1"}}).find("stretches"), std::string::npos);
-  EXPECT_NE(said({{"on", "sheet"}, {"mesh", "brick"}}).find("brick"), std::string::npos);
-  EXPECT_NE(said({{"on", "sheet"}, {"triangles", "100"}}).find("160"), std::string::npos);
-  EXPECT_FALSE(fs::exists(folder_.path() / "out"));
-}
-
 TEST_F(FabCommand, RefusesWhatNoTesterDoes) {
   EXPECT_NE(test::refusal([&] { fab({{"fab.test", "X1"}}); }).find("U.."), std::string::npos);
   EXPECT_NE(test::refusal([&] { fab({{"fab.direction", "Q"}}); }).find("L | W | B"), std::string::npos);

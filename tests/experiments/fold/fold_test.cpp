@@ -192,19 +192,6 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
   EXPECT_TRUE(std::is_sorted(wears.columns[1].values.begin(), wears.columns[1].values.end()));
 }
 
-TEST(Fold, InABatchHasTheTableOfLawsByThemselves) {
-  const Folder folder;
-  const std::string line =
-      "fold --quick --law linear,nonsense,prandtl --triangles 60 --fold.cycles 1 --threads 1 --device cpu "
-      "--no-images --quiet --out " +
-      folder.path().string();
-  ASSERT_EQ(program(line + "/alone").exit_code, 0);
-  ASSERT_EQ(program(line + "/together --batch 4").exit_code, 0);
-  const std::string table = text_of(folder.path() / "alone/table.csv");
-  EXPECT_NE(table.find("law = nonsense must be"), std::string::npos);
-  EXPECT_EQ(text_of(folder.path() / "together/table.csv"), table);
-}
-
 TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
   const Folder folder;
   const Outcome outcome = program(

@@ -217,15 +217,5 @@ TEST_F(KesStripCommand, PutsTheStripBesideTheLaw) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "strip.csv"));
 }
 
-TEST(KesStrip, FlagsOfStripsAreRefusedForALawAlone) {
-  try {
-    experiment_named("kes").run({"kes", "hysteron kes", {{"mesh", "random"}}, {}});
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("--on strip"), std::string::npos) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace hysteron::experiments

@@ -12,23 +12,6 @@ namespace fs = std::filesystem;
 
 const char* const kEmpty = "# Keys\n\n<!-- keys:begin -->\n<!-- keys:end -->\n\nAfter them.\n";
 
-TEST(KeyTables, HaveALineForEveryKeyOfAScene) {
-  const std::string tables = key_tables();
-  for (const KeyDescription& key : scene_keys())
-    EXPECT_NE(tables.find("\n| `" + key.path + "` | "), std::string::npos) << key.path;
-  for (const char* table : {"[[pin]]", "[[obstacle]]", "`keys`", "[[command]]", "[[phase]]"})
-    EXPECT_NE(tables.find(table), std::string::npos) << table;
-}
-
-TEST(KeyTables, SayUnitRangeChoicesDefaultAndPurpose) {
-  const std::string tables = key_tables();
-  for (const char* line : {"| `fabric.b2` | number | N m | >= 0 | 1.11e-05 | bending rigidity B",
-                           "| `element` | choice | | `shape`, `hinge` | shape | bending element |",
-                           "| `self-contact` | flag | | | false | ", "| `radius` | number | m | > 0 | 0.1 | ",
-                           "| `kind` | choice | | `ground`, `sphere`, ", "| `scale` | number | | > 0 | 1 | "})
-    EXPECT_NE(tables.find(line), std::string::npos) << line;
-}
-
 TEST(KeyTables, OfMarkdownHaveAsManyCellsInEveryLine) {
   std::istringstream lines(key_tables());
   int rows = 0;

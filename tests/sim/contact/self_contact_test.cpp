@@ -229,24 +229,5 @@ TEST(SelfContact, NeedsAnIntegratorThatSolvesForContact) {
   EXPECT_THROW(Trial(scene).simulation(), Error);
 }
 
-TEST(Intersections, AreFoundBetweenSheetsThatCross) {
-  Trial trial = two_sheets(1e-3, 60);
-  auto x = trial.cloth.start;
-  EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, x).empty());
-  for (int i : upper_vertices(trial)) x[i].z() -= 0.1 * (x[i].x() - 0.7 * kSide);
-  const auto found = intersecting_triangles(trial.cloth.mesh.face, x);
-  EXPECT_GT(found.size(), 5u);
-  for (const auto& [a, b] : found) EXPECT_LT(a, b);
-}
-
-// Two triangles that share a corner only: apart, and with a side through the other one.
-TEST(Intersections, AreFoundBeyondACommonCorner) {
-  const std::vector<Eigen::Vector3i> face = {{0, 1, 2}, {0, 3, 4}};
-  std::vector<Vector3d> x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1}, {0.5, 0.2, 1}};
-  EXPECT_TRUE(intersecting_triangles(face, x).empty());
-  x[4] = {0.3, 0.2, -1};
-  EXPECT_EQ(intersecting_triangles(face, x).size(), 1u);
-}
-
 }  // namespace
 }  // namespace hysteron

@@ -20,44 +20,27 @@ bool gpu_is_missing(std::string& reason) { return gpu_count(reason) == 0; }
 TEST(Together, OnACpuEveryJobIsTakenOnce) {
   for (const int count : {0, 1, 7}) {
     std::vector<int> taken(count);
-    run_together(false, count, 3, [&](int i) { ++taken[i]; });
+    run_together(false, count, [&](int i) { ++taken[i]; });
     EXPECT_EQ(taken, std::vector<int>(count, 1));
   }
 }
 
 TEST(Together, OnACpuAJobSharesNoLaunches) {
   EXPECT_EQ(jobs_together(), 1);
-  run_together(false, 4, 2, [](int) { EXPECT_EQ(jobs_together(), 1); });
+  run_together(false, 4, [](int) { EXPECT_EQ(jobs_together(), 1); });
 }
 
 TEST(Together, OnAGpuAJobKnowsHowManyShareItsLaunches) {
   std::string reason;
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
-  run_together(true, 5, 2, [](int i) { EXPECT_EQ(jobs_together(), i % 2 == 0 ? 3 : 2); });
+  run_together(true, 5, [](int) { EXPECT_EQ(jobs_together(), 5); });
   EXPECT_EQ(jobs_together(), 1);
-}
-
-TEST(Together, OnAGpuAnEndedJobMakesRoomForTheNext) {
-  std::string reason;
-  if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
-  constexpr int kJobs = 11, kMost = 3;
-  std::vector<int> taken(kJobs);
-  int running = 0, most = 0;
-  run_together_by(kMost, kJobs, 1, [&](int i) {
-    most = std::max(most, ++running);
-    const auto member = test::gpu_primitives();
-    EXPECT_EQ(member->repeated(5, 1 + i, 1), std::vector<int>(5, 1 + i)) << i;
-    ++taken[i];
-    --running;
-  });
-  EXPECT_EQ(taken, std::vector<int>(kJobs, 1));
-  EXPECT_EQ(most, kMost);
 }
 
 TEST(Together, AskForAGpuWhereThereIsNone) {
   std::string reason;
   if (!gpu_is_missing(reason)) GTEST_SKIP() << "there is a GPU";
-  EXPECT_THROW(run_together(true, 2, 1, [](int) {}), Error);
+  EXPECT_THROW(run_together(true, 2, [](int) {}), Error);
 }
 
 // Members whose loops differ in length and in how often they are repeated.
@@ -66,25 +49,24 @@ TEST(Together, LoopsOfABatchGiveWhatTheyGiveAlone) {
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 9, kTimes = 3;
   const auto alone = test::gpu_primitives();
-  for (const int threads : {1, 2})
-    run_together(true, kMembers, threads, [&](int i) {
-      const auto member = test::gpu_primitives();
-      const int n = i < 2 ? 1 + i : 1 << (2 * i), goal = 1 + 5 * i;
-      std::vector<int> count(n + 1);
-      for (int k = 0; k <= n; ++k) count[k] = (k * (i + 1)) % 7;
-      const std::vector<double> values(count.begin(), count.end());
-      test::Rows rows{{0}, count};
-      rows.start.push_back(n);
-      EXPECT_EQ(member->repeated(n, goal, kTimes), std::vector<int>(n, kTimes * goal)) << i;
-      EXPECT_EQ(member->scan(count).start.back(), std::accumulate(count.begin(), count.end(), 0)) << i;
-      EXPECT_EQ(member->group(count, 7).item.size(), count.size()) << i;
-      EXPECT_EQ(member->totals(values).finished, 1) << i;
-      EXPECT_EQ(member->totals(values).sum, std::accumulate(values.begin(), values.end(), 0.0)) << i;
-      EXPECT_EQ(member->row_sums(rows, values).size(), 1u) << i;
-      EXPECT_EQ(member->written_to_host(0.5 + i), 0.5 + i);
-      EXPECT_EQ(member->through_a_buffer(values), values) << i;
-      EXPECT_EQ(member->smallest(values, -1.0 - i), -1.0 - i);
-    });
+  run_together(true, kMembers, [&](int i) {
+    const auto member = test::gpu_primitives();
+    const int n = i < 2 ? 1 + i : 1 << (2 * i), goal = 1 + 5 * i;
+    std::vector<int> count(n + 1);
+    for (int k = 0; k <= n; ++k) count[k] = (k * (i + 1)) % 7;
+    const std::vector<double> values(count.begin(), count.end());
+    test::Rows rows{{0}, count};
+    rows.start.push_back(n);
+    EXPECT_EQ(member->repeated(n, goal, kTimes), std::vector<int>(n, kTimes * goal)) << i;
+    EXPECT_EQ(member->scan(count).start.back(), std::accumulate(count.begin(), count.end(), 0)) << i;
+    EXPECT_EQ(member->group(count, 7).item.size(), count.size()) << i;
+    EXPECT_EQ(member->totals(values).finished, 1) << i;
+    EXPECT_EQ(member->totals(values).sum, std::accumulate(values.begin(), values.end(), 0.0)) << i;
+    EXPECT_EQ(member->row_sums(rows, values).size(), 1u) << i;
+    EXPECT_EQ(member->written_to_host(0.5 + i), 0.5 + i);
+    EXPECT_EQ(member->through_a_buffer(values), values) << i;
+    EXPECT_EQ(member->smallest(values, -1.0 - i), -1.0 - i);
+  });
   EXPECT_EQ(alone->bytes(), test::gpu_primitives()->bytes());
 }
 
@@ -123,8 +105,7 @@ TEST_P(BatchOnGpu, EveryClothHasTheBitsThatItHasAlone) {
   if (gpu_is_missing(reason)) GTEST_SKIP() << "no GPU: " << reason;
   constexpr int kMembers = 5, kSteps = 20;
   std::vector<std::uint64_t> together(kMembers), alone;
-  run_together(true, kMembers, 2,
-               [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
+  run_together(true, kMembers, [&](int i) { together[i] = hash_after(member_scene(GetParam(), i), kSteps); });
   for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(member_scene(GetParam(), i), kSteps));
   EXPECT_EQ(together, alone);
   EXPECT_NE(alone[0], alone[1]);
@@ -146,7 +127,7 @@ TEST(BatchOfContact, EveryClothHasTheBitsThatItHasAlone) {
     return scene;
   };
   std::vector<std::uint64_t> together(kMembers), alone;
-  run_together(true, kMembers, 1, [&](int i) { together[i] = hash_after(scene_of(i), kSteps); });
+  run_together(true, kMembers, [&](int i) { together[i] = hash_after(scene_of(i), kSteps); });
   for (int i = 0; i < kMembers; ++i) alone.push_back(hash_after(scene_of(i), kSteps));
   EXPECT_EQ(together, alone);
 }
@@ -164,7 +145,7 @@ TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
     }
     together[i] = hash_after(member_scene(method, i), kSteps);
   };
-  EXPECT_THROW(run_together(true, kMembers, 1, job), Error);
+  EXPECT_THROW(run_together(true, kMembers, job), Error);
   for (int i = 0; i < kMembers; ++i)
     if (i != kFails) EXPECT_EQ(together[i], hash_after(member_scene(method, i), kSteps)) << i;
 }

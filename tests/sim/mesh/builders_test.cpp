@@ -124,18 +124,6 @@ TEST(RandomRectangle, HasTheSameBitsOnEveryMachine) {
   EXPECT_EQ(test::fingerprint(make_rectangle(1, 0.75, 1000, MeshFamily::random, 7)), 1676399628281410506u);
 }
 
-TEST(MeshFamilyName, IsReadBackFromItsText) {
-  for (const MeshFamily family : kFamilies) EXPECT_EQ(mesh_family(to_string(family)), family);
-}
-
-TEST(MeshFamilyName, UnknownOneListsTheKnown) {
-  const Error error = test::error_of([] { mesh_family("hexagonal"); });
-  EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_STREQ(error.what(),
-               "mesh family \"hexagonal\" is unknown; allowed: aligned, aligned-45, flipped, unionjack, "
-               "equilateral, random");
-}
-
 TEST(RectangleRequest, ImpossibleOnesAreRefusedByName) {
   const auto refusal = [](double length, double width, int triangles) {
     return test::refusal([&] { make_rectangle(length, width, triangles, MeshFamily::aligned, 0); });

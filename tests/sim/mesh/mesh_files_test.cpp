@@ -125,38 +125,6 @@ T take(const std::string& bytes, std::size_t& at) {
   return value;
 }
 
-TEST(PlyFile, HoldsPositionsCurvatureAndTriangles) {
-  const Folder folder;
-  const ClothMesh mesh = make_grid(1, 0.5, 3, 2, MeshFamily::aligned, 0);
-  std::vector<double> curvature;
-  for (int v = 0; v < mesh.vertices(); ++v) curvature.push_back(0.1 * v);
-  write_ply(folder.file("a.ply"), mesh, mesh.rest, curvature);
-  const std::string bytes = test::content_of(folder.file("a.ply"));
-  const std::string header =
-      "ply\nformat binary_little_endian 1.0\nelement vertex 12\nproperty double x\nproperty double y\n"
-      "property double z\nproperty double curvature\nelement face 12\nproperty list uchar int "
-      "vertex_indices\n"
-      "end_header\n";
-  ASSERT_EQ(bytes.substr(0, header.size()), header);
-  ASSERT_EQ(bytes.size(), header.size() + 12 * 4 * 8 + 12 * (1 + 3 * 4));
-  std::size_t at = header.size();
-  for (int v = 0; v < 12; ++v) {
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(take<double>(bytes, at), mesh.rest[v][i]);
-    EXPECT_EQ(take<double>(bytes, at), curvature[v]);
-  }
-  for (int f = 0; f < 12; ++f) {
-    EXPECT_EQ(take<std::uint8_t>(bytes, at), 3);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(take<std::int32_t>(bytes, at), mesh.face[f][i]);
-  }
-}
-
-TEST(PlyFile, WithoutValuesHasNoCurvature) {
-  const Folder folder;
-  const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);
-  write_ply(folder.file("a.ply"), mesh, mesh.rest, {});
-  EXPECT_EQ(test::content_of(folder.file("a.ply")).find("curvature"), std::string::npos);
-}
-
 TEST(MeshWriters, FailingOnesNameTheFileAndLeaveNothing) {
   const Folder folder;
   const ClothMesh mesh = make_grid(1, 1, 1, 1, MeshFamily::aligned, 0);

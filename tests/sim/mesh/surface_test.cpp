@@ -84,17 +84,6 @@ TEST(PlySurface, BinaryOfTheOtherByteOrder) {
   EXPECT_EQ(surface.face, std::vector<Eigen::Vector3i>{Eigen::Vector3i(0, 1, 2)});
 }
 
-TEST(PlySurface, QuadIsCutAlongItsShorterDiagonalAsInObj) {
-  const Folder folder;
-  const Surface ply =
-      read_ply(folder.write("kite.ply", ascii(4, 1, "-1 0 0\n0 -3 0\n1 0 0\n0 3 0\n4 0 1 2 3\n")));
-  const Surface obj =
-      read_surface(folder.write("kite.OBJ", "v -1 0 0\nv 0 -3 0\nv 1 0 0\nv 0 3 0\nf 1 2 3 4\n"));
-  EXPECT_EQ(ply.face, (std::vector<Eigen::Vector3i>{{0, 1, 2}, {0, 2, 3}}));
-  EXPECT_EQ(obj.face, ply.face);
-  EXPECT_EQ(obj.vertex, ply.vertex);
-}
-
 TEST(PlySurface, VerticesOfNoFaceAreLeftOutWithTheirCurvature) {
   const Folder folder;
   const Surface surface =

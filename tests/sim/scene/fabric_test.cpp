@@ -115,23 +115,6 @@ INSTANTIATE_TEST_SUITE_P(Assets, DrapedFabric, testing::ValuesIn(fabrics_that_pu
 INSTANTIATE_TEST_SUITE_P(Assets, FabricMeasuredInThreeDirections,
                          testing::ValuesIn(fabrics_that_publish("ke-0-small")), test_name);
 
-// Beside these, the five with friction that saturates at 50/m, the four with a tenth of the tension, and two
-// that add time and set to cotton broad.
-TEST(Fabrics, AreFiveOfKesTenMeasuredInThreeDirectionsAndOneMedian) {
-  std::vector<std::string> expected;
-  for (const char* name :
-       {"cotton-broad", "denim-c-friction", "polyester-faille", "polyester-tropical", "wool-tropical"}) {
-    expected.insert(expected.end(), {name, std::string(name) + "-k50"});
-    if (name != std::string("denim-c-friction")) expected.push_back(std::string(name) + "-soft");
-  }
-  EXPECT_EQ(fabrics_that_publish("2HB"), expected);
-  EXPECT_EQ(fabrics_that_publish("drape-coefficient").size(), 3 * 4u);
-  EXPECT_EQ(fabrics_that_publish("2HG"),
-            (std::vector<std::string>{"denim-c-friction", "denim-c-friction-k50"}));
-  EXPECT_EQ(fabrics_that_publish("ke-0-small").size(), 10u);
-  EXPECT_EQ(list_fabrics().size(), 16u + 5 + 4 + 2);
-}
-
 // All but its bending is that of cotton broad, and both bend alike until one of them sets.
 TEST(Fabrics, ThatRelaxAndSetAreCottonBroadOtherwise) {
   const auto numbers = [](const Fabric& f) {

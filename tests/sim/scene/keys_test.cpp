@@ -89,13 +89,6 @@ TEST(ResolvedScene, TellsWhereEachFabricNumberComesFrom) {
   EXPECT_EQ(fabric.at("published").at("B").at("unit"), "gf cm^2/cm");
 }
 
-TEST(Keys, SayTheirUnitTypeAndPurpose) {
-  for (const KeyDescription& key : scene_keys()) {
-    EXPECT_FALSE(key.doc.empty()) << key.path;
-    EXPECT_FALSE(key.type.empty()) << key.path;
-  }
-}
-
 TEST(Vectors, MayBeWrittenWithSpacesOrCommas) {
   for (const char* text : {"0 0 -9.81", "0,0,-9.81", "[0, 0, -9.81]"}) {
     Scene scene;
@@ -108,8 +101,6 @@ TEST(NearestName, IsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest_name("fabric.b22", {"fabric.b1", "fabric.b2", "step"}), "fabric.b2");
   EXPECT_EQ(nearest_name("gravty", {"gravity", "density"}), "gravity");
 }
-
-TEST(NearestName, IsEmptyWhereNothingIsNear) { EXPECT_EQ(nearest_name("velocity", {"step", "law"}), ""); }
 
 }  // namespace
 }  // namespace hysteron

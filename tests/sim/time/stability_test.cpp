@@ -153,16 +153,5 @@ TEST(Divergence, IsReportedAsAFailedRunWithTheStep) {
   }
 }
 
-TEST(IntegratorNames, UnknownOneIsRefusedWithThoseThatThereAre) {
-  EXPECT_EQ(value_named<Integrator>("bdf2"), Integrator::bdf2);
-  try {
-    value_named<Integrator>("leapfrog");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code(), 2);
-    EXPECT_NE(std::string(error.what()).find("semi-implicit, implicit, bdf2"), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace hysteron

@@ -11,8 +11,7 @@ int nothing(const CommandLine&) { return 0; }
 
 const std::vector<Experiment> kKnown = {
     {.name = "drape", .question = "simulates", .run = nothing, .simulates = true},
-    {.name = "report", .question = "takes names", .run = nothing, .names = "DIR"},
-    {.name = "crease", .question = "announced"}};
+    {.name = "report", .question = "takes names", .run = nothing, .names = "DIR"}};
 
 std::optional<CommandLine> parsed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/hysteron");
@@ -82,10 +81,6 @@ TEST(CommandLine, TakesNamesWhereTheExperimentDoes) {
   EXPECT_EQ(parsed({"report", "a", "drape"})->names, (std::vector<std::string>{"a", "drape"}));
   EXPECT_EQ(parsed({"report", "--", "--a", ""})->names, (std::vector<std::string>{"--a", ""}));
   EXPECT_EQ(refusal({"drape", "a"}), "drape: unexpected argument \"a\"");
-}
-
-TEST(CommandLine, LeavesTheFlagsOfAnnouncedSubcommandsAlone) {
-  EXPECT_EQ(parsed({"crease", "--angle", "3"})->experiment, "crease");
 }
 
 TEST(CommandLine, RefusesUnknownWordsAndNamesTheNearest) {

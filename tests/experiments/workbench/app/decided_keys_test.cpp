@@ -39,9 +39,6 @@ TEST(DecidedKeys, AreRefusedByName) {
   EXPECT_EQ(program("swing --cloth.copies 3 --explain").err,
             "hysteron swing: --cloth.copies 3: swing does not use cloth.copies: the specimen is one flat "
             "rectangle, meshed to fit its clamp\n");
-  EXPECT_EQ(program("bench --hard --fabric.k0 40").err,
-            "hysteron bench: --fabric.k0 40: bench does not use fabric.k0: --hard takes steps of other "
-            "scenes\n");
 }
 
 // With the value that the experiment has by itself, too.

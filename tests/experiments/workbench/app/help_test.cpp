@@ -28,19 +28,6 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-TEST(Help, HasTheExperimentsOwnOptionsInFullAndALineForEachOtherGroup) {
-  const std::string text = help({"drape", "--help"});
-  EXPECT_TRUE(text.starts_with("hysteron drape: Cusick's drape test")) << text;
-  EXPECT_TRUE(has(text, "\nUsage: hysteron drape [options]\n"));
-  for (const KeyDescription& key : experiment_named("drape").own_keys())
-    EXPECT_TRUE(has(text, "\n  " + option_name(key) + " ")) << key.path;
-  for (const char* group : {"scene", "fabric", "solver", "pictures", "running"})
-    EXPECT_TRUE(has(text, std::string("\n  ") + group + " ")) << group;
-  EXPECT_TRUE(has(text, "hysteron drape --help GROUP"));
-  EXPECT_FALSE(has(text, "--fabric.b1"));
-  EXPECT_LT(lines_of(text).size(), 40u);
-}
-
 TEST(Help, OfAGroupHasItsOptionsAlone) {
   for (const auto& words :
        {std::vector<std::string>{"drape", "--help", "fabric"}, {"drape", "--help=fabric"}}) {
@@ -63,7 +50,6 @@ TEST(Help, OfAGroupHasItsOptionsAlone) {
 
 TEST(Help, OfAllHasEveryOptionOnce) {
   for (const Experiment& experiment : experiments()) {
-    if (!experiment.run) continue;
     std::map<std::string, int> times;
     for (const std::string& line : lines_of(help({experiment.name, "--help-all"})))
       if (line.starts_with("  --")) ++times[line.substr(2, line.find(' ', 2) - 2)];
@@ -81,25 +67,6 @@ TEST(Help, IsNoWiderThanTheTerminal) {
         for (const std::string& line : lines_of(help({experiment.name, asked}, width)))
           EXPECT_LE(line.size(), static_cast<std::size_t>(width)) << experiment.name << ": " << line;
   for (const std::string& line : lines_of(help({"--help"}, 80))) EXPECT_LE(line.size(), 80u) << line;
-}
-
-TEST(Help, OfTheProgramNamesItsSubcommands) {
-  const std::string text = help({"--help"});
-  for (const Experiment& experiment : experiments())
-    EXPECT_EQ(has(text, std::string("\n  ") + experiment.name + " "), !experiment.hidden) << experiment.name;
-  EXPECT_EQ(help({"-h"}), text);
-  EXPECT_EQ(help({"--help", "drape"}), help({"drape", "--help"}));
-}
-
-TEST(Help, IsAskedForByItsOwnWordsAlone) {
-  EXPECT_EQ(help({"drape", "--quick"}), "(not asked)");
-  EXPECT_EQ(help({"report", "--", "--help"}), "(not asked)");
-  EXPECT_EQ(help({"drap", "--help"}), "(not asked)") << "an unknown subcommand is refused";
-}
-
-TEST(Help, LeavesOutWhatTheExperimentDecides) {
-  EXPECT_FALSE(has(help({"fold", "--help-all"}), "--cloth.shape"));
-  EXPECT_TRUE(has(help({"swing", "--help-all"}), "--cloth.shape"));
 }
 
 }  // namespace

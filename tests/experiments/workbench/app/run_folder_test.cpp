@@ -72,14 +72,6 @@ TEST(RunFolder, LosesWhatAKilledRunHasLeftAndNothingElse) {
   for (const std::string& name : others) EXPECT_EQ(text_of(out / name), "mine") << name;
 }
 
-TEST(RunFolder, LosesThePageThatWasWrittenOfAKilledRun) {
-  const Folder folder;
-  killed([&] { new ExperimentRun(drape_line(), setup_in(folder.path())); });
-  write(folder.path() / "report.html");
-  ExperimentRun run(drape_line(), setup_in(folder.path()));
-  EXPECT_EQ(run.path("report.html"), folder.path() / "report.html");
-}
-
 TEST(RunFolder, LeavesNoEmptyFoldersOfAnEarlierRun) {
   const Folder folder;
   {
@@ -126,14 +118,6 @@ TEST(RunFolder, IsReservedBeforeFilesAreWritten) {
   }
 }
 
-TEST(RunFolder, IsReservedForTheRunsOwnFiles) {
-  const Folder folder;
-  ExperimentRun run(drape_line(), setup_in(folder.path()));
-  write(run.path("frames/0000.png"));
-  write(run.path("frames/0001.png"));
-  EXPECT_EQ(refusal([&] { run.reserve({"frames/0000.png"}); }), "(accepted)");
-}
-
 TEST(RunFolder, KeepsAManifestThatIsNoRuns) {
   for (const char* text : {R"({"name": "a web page"})", "[]", "no JSON"}) {
     const Folder folder;
@@ -142,14 +126,6 @@ TEST(RunFolder, KeepsAManifestThatIsNoRuns) {
     EXPECT_NE(refused_run(folder.path()).find("manifest.json is not of a run"), std::string::npos);
     EXPECT_EQ(text_of(manifest), text);
   }
-}
-
-TEST(RunFolder, KeepsAPipeThatIsCalledAsItsManifest) {
-  const Folder folder;
-  const fs::path manifest = folder.path() / "manifest.json";
-  ASSERT_EQ(mkfifo(manifest.c_str(), 0600), 0);
-  EXPECT_NE(refused_run(folder.path()).find("manifest.json is not of a run"), std::string::npos);
-  EXPECT_TRUE(fs::is_fifo(manifest));
 }
 
 TEST(RunFolder, IsNotLeftThroughALink) {

@@ -18,26 +18,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-TEST(Manifest, HoldsEveryEntryThatScriptsRead) {
-  const Folder folder;
-  ExperimentRun run(drape_line(), setup_in(folder.path()));
-  run.finish();
-  const Json manifest = manifest_of(folder.path());
-  for (const char* key : {"hysteron", "command", "scene", "device", "renderer", "positions", "precision",
-                          "element", "law", "triangles", "hinges", "steps", "seconds_simulated",
-                          "wall_seconds", "bytes_device", "energy", "state_hash", "metrics", "complete"}) {
-    EXPECT_TRUE(manifest.contains(key)) << key;
-  }
-  for (const char* key : {"version", "commit", "dirty"})
-    EXPECT_TRUE(manifest["hysteron"].contains(key)) << key;
-  for (const char* stage :
-       {"total", "membrane", "bending", "solve", "contact", "history", "render", "encode", "io"}) {
-    EXPECT_TRUE(manifest["wall_seconds"].contains(stage)) << stage;
-  }
-  EXPECT_EQ(manifest["command"], "hysteron drape --quick");
-  EXPECT_EQ(manifest["scene"], to_json(default_scene()));
-}
-
 TEST(Manifest, ReportsWhatTheRunFound) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));

@@ -38,23 +38,10 @@ TEST(ResultWords, NameTheNumberItsUnitAndItsErrors) {
   EXPECT_EQ(words.find("NOT"), std::string::npos);
 }
 
-TEST(ResultWords, ShowErrorsInTheUnitOfTheirNumber) {
-  const Manifest manifest = manifest_with("fold", {{"2HB_N", 9.377e-4},
-                                                   {"2HB_N_step_error", 7.1e-9},
-                                                   {"2HB_N_mesh_error", 6.4e-6},
-                                                   {"2HB_N_draw_error", 7e-7}});
-  expect_in(result_words(manifest),
-            "2HB                           0.938 mN ± 7e-06 step ± 0.006 mesh ± 7e-04 draw\n");
-}
-
 TEST(ResultWords, OfAFitShowItsStandardError) {
   const Manifest manifest =
       manifest_with("swing", {{"decay_per_turn_percent", 2.0412}, {"decay_per_turn_percent_stderr", 0.0523}});
   expect_in(result_words(manifest), "decay per turn                2.04 % ± 0.05\n");
-}
-
-TEST(ResultWords, OfARunWithoutErrorsShowTheNumberAlone) {
-  expect_in(result_words(drape_manifest({{"drape_coefficient_percent", 86.04}})), " 86.0 %\n");
 }
 
 TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
@@ -87,14 +74,6 @@ TEST(ResultWords, NameWhatASceneAsksFor) {
   expect_in(result_words(manifest),
             "  fold                          40 °\n"
             "  gap                           0.01250 m ± 2e-05 step, mesh and draw error unknown\n");
-}
-
-TEST(ResultWords, OfAComparisonNameWhatItsSceneAsksFor) {
-  Manifest manifest = manifest_with("compare", {{"linear.gap_m", 0.25}, {"prandtl.gap_m", 0.5}});
-  manifest.scene.compared = "run";
-  manifest.asked_metrics = {"gap_m"};
-  expect_in(result_words(manifest), "  linear                        gap 0.25 m\n");
-  expect_in(result_words(manifest), "  prandtl                       gap 0.5 m\n");
 }
 
 TEST(ResultWords, OfARunThatWasCutShortSaySo) {

@@ -89,33 +89,11 @@ class PageForms : public testing::Test {
   fs::path results_ = folder_.path() / "results", run_ = results_ / "linear+fabric.damping=0.004783";
 };
 
-TEST_F(PageForms, ByDefaultEveryPictureOfAGalleryIsAFileThatExists) {
-  const std::string html = gallery_page(results_);
-  expect_all_there(html, results_);
-  const std::vector<std::string> pictures = values_of(html, "src");
-  for (const char* url :
-       {"linear%2Bfabric.damping%3D0.004783/sheet.png", "linear%2Bfabric.damping%3D0.004783/plot_energy.svg",
-        "linear%2Bfabric.damping%3D0.004783/frames/0001.png",
-        "linear%2Bfabric.damping%3D0.004783/wong%20100%25%20%231/sheet.png", "pictures/Stoff%20%C3%BC.png"})
-    EXPECT_EQ(std::count(pictures.begin(), pictures.end(), url), 1) << url;
-}
-
 TEST_F(PageForms, ByDefaultEveryPictureOfARunIsAFileThatExists) {
   const std::string html = text_of(write_report(run_));
   expect_all_there(html, run_);
   EXPECT_EQ(values_of(html, "src"),
             (std::vector<std::string>{"sheet.png", "plot_energy.svg", "frames/0000.png", "frames/0001.png"}));
-}
-
-// A page of many pictures opens at once, and stays where it was scrolled to.
-TEST_F(PageForms, LinkedPicturesAreLazyAndKeepTheirPlace) {
-  const std::string html = report_page(run_);
-  for (const char* image :
-       {"<img loading=\"lazy\" width=\"1800\" height=\"300\" alt=\"contact sheet\" src=\"sheet.png\">",
-        "<img loading=\"lazy\" width=\"1200\" height=\"800\" alt=\"plot_energy\" src=\"plot_energy.svg\">",
-        "<img loading=\"lazy\" width=\"600\" height=\"100\" alt=\"frames/0000.png\" "
-        "src=\"frames/0000.png\">"})
-    EXPECT_NE(html.find(image), html.npos) << image;
 }
 
 TEST_F(PageForms, ASelfContainedPageRefersToNoFile) {

@@ -7,11 +7,6 @@
 namespace hysteron::experiments {
 namespace {
 
-TEST(Template, EscapesTextsAndLeavesHtml) {
-  EXPECT_EQ(filled("figure.html", {{"image", "<img>"}, {"caption", "a < b & \"c\""}}),
-            "<figure><img><figcaption>a &lt; b &amp; &quot;c&quot;</figcaption></figure>\n");
-}
-
 TEST(Template, RepeatsAListAndLeavesOutWhatIsEmpty) {
   EXPECT_EQ(html_table({"law", "2HB [N]"}, {{"wong", "0.5"}, {"<b>", ""}}, {1}),
             "<div class=\"scroll\"><table>\n<thead><tr><th>law<th>2HB [N]\n</thead>\n"

@@ -1,5 +1,3 @@
-#include <nlohmann/json.hpp>
-
 #include "experiments/workbench/pages/text_table.h"
 
 #include "sim/base/csv.h"
@@ -43,13 +41,6 @@ TEST(TextTable, NamesTheLineOfABrokenRow) {
       EXPECT_NE(std::string(error.what()).find(where), std::string::npos) << error.what();
     }
   }
-}
-
-TEST(TextTable, OfObjectsHasAColumnForEveryKeyWhereItStands) {
-  const TextTable table =
-      table_of(Json::parse(R"([{"law": "linear", "ms": 1.5}, {"law": "wong", "memory": 8, "rows": [1]}])"));
-  EXPECT_EQ(table.head, (std::vector<std::string>{"law", "memory", "ms"}));
-  EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"linear", "", "1.5"}, {"wong", "8", ""}}));
 }
 
 TEST(TextTable, SaysOnceWhatEveryRowSays) {

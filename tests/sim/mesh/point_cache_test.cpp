@@ -1,0 +1,54 @@
+#include "sim/mesh/point_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "sim/base/error.h"
+#include "tests/sim/base/folder.h"
+
+namespace hysteron {
+namespace {
+
+using Positions = std::vector<Eigen::Vector3d>;
+
+template <class T>
+T at(const std::string& bytes, std::size_t offset) {
+  T value;
+  std::memcpy(&value, bytes.data() + offset, sizeof(T));
+  return value;
+}
+
+// As Blender's `Mesh Cache` reads it: signature, version, points, first frame, step, samples, positions.
+TEST(PointCache, HoldsEachInstantAndMayGoOnFromAnEarlierOne) {
+  const test::Folder folder;
+  const std::string file = folder.file("cloth.pc2");
+  const auto positions = [](double at) { return Positions{{at, 0, 1}, {0, at, 2}}; };
+  for (int k = 0; k < 3; ++k) write_to_point_cache(file, k, positions(k));
+  write_to_point_cache(file, 1, positions(5));
+  EXPECT_EQ(at<std::int32_t>(test::content_of(file), 28), 2) << "what lay behind no longer counts";
+  write_to_point_cache(file, 2, positions(7));
+  const std::string bytes = test::content_of(file);
+  ASSERT_EQ(bytes.size(), 32 + 3 * 2 * 12u);
+  EXPECT_STREQ(bytes.c_str(), "POINTCACHE2");
+  EXPECT_EQ(at<std::int32_t>(bytes, 12), 1);
+  EXPECT_EQ(at<std::int32_t>(bytes, 16), 2);
+  EXPECT_EQ(at<float>(bytes, 20), 0);
+  EXPECT_EQ(at<float>(bytes, 24), 1);
+  EXPECT_EQ(at<std::int32_t>(bytes, 28), 3);
+  const float x[] = {0, 5, 7};
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t begin = 32 + k * 24;
+    EXPECT_EQ(at<float>(bytes, begin), x[k]);
+    EXPECT_EQ(at<float>(bytes, begin + 16), x[k]);
+    EXPECT_EQ(at<float>(bytes, begin + 20), 2);
+  }
+}
+
+TEST(PointCache, DoesNotGoOnInAFileThatIsGone) {
+  const test::Folder folder;
+  EXPECT_THROW(write_to_point_cache(folder.file("cloth.pc2"), 1, {{0, 0, 0}}), Error);
+}
+
+}  // namespace
+}  // namespace hysteron
