@@ -9,7 +9,7 @@
 namespace hysteron {
 namespace {
 
-constexpr int kHalvings = 60;
+constexpr int kBisections = 60;
 constexpr double kMostExtension = 2;
 // Of the largest tension, where the way back ends: cloth without any is in equilibrium wherever it lies.
 constexpr double kLeftOver = 1e-4;
@@ -21,7 +21,7 @@ StopsLaw beside(double spring, const Spectrum& stops) {
 // Of an increasing function between low and high.
 template <class Function>
 double root(const Function& of, double low, double high) {
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = (low + high) / 2;
     (of(middle) < 0 ? low : high) = middle;
   }
