@@ -8,7 +8,6 @@
 #include <new>
 #include <string>
 
-#include "render/palette.h"
 #include "render/srgb.h"
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
@@ -140,32 +139,18 @@ void choose_effort(png_structp png, PngEffort effort) {
   if (fast) png_set_compression_strategy(png, Z_RLE);  // as quick, and dithered colours repeat nowhere else
 }
 
-// What the header of a PNG file says of its pixels, and where they are.
-struct Pixels {
-  int width, height, color_type;
-  std::span<const Rgb8> palette;  // of PNG_COLOR_TYPE_PALETTE
-  const std::uint8_t* first;
-  size_t row_bytes;
-};
-
 // libpng leaves through longjmp; this function holds no object with a destructor.
-bool encode(png_structp png, png_infop header, const Pixels& pixels, PngEffort effort,
+bool encode(png_structp png, png_infop header, const Image& image, PngEffort effort,
             std::vector<std::uint8_t>& out) {
-  static_assert(sizeof(png_color) == sizeof(Rgb8));
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &out, append_bytes, no_flush);
-  png_set_IHDR(png, header, pixels.width, pixels.height, 8, pixels.color_type, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, header, image.width(), image.height(), 8,
+               image.channels() == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, header, PNG_sRGB_INTENT_PERCEPTUAL);
   choose_effort(png, effort);
-  if (!pixels.palette.empty()) {
-    png_set_PLTE(png, header, reinterpret_cast<const png_color*>(pixels.palette.data()),
-                 static_cast<int>(pixels.palette.size()));
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);  // differences of colour numbers say nothing
-    png_set_compression_level(png, 6);  // on long runs of one number, 9 takes 4 times as long for 5 % less
-  }
   png_write_info(png, header);
-  for (int y = 0; y < pixels.height; ++y) png_write_row(png, pixels.first + y * pixels.row_bytes);
+  for (int y = 0; y < image.height(); ++y) png_write_row(png, image.at(0, y));
   png_write_end(png, nullptr);
   return true;
 }
@@ -213,30 +198,18 @@ std::span<const std::uint8_t> bytes_in(const std::string& file) {
   return {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()};
 }
 
-std::vector<std::uint8_t> encoded(const Pixels& pixels, PngEffort effort) {
-  std::vector<std::uint8_t> out;
-  out.reserve(pixels.row_bytes * pixels.height / 4 + 1024);
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-  png_infop header = png ? png_create_info_struct(png) : nullptr;
-  const bool done = header && encode(png, header, pixels, effort, out);
-  png_destroy_write_struct(&png, &header);
-  if (!done) throw Error::machine("encoding a PNG: libpng failed, probably out of memory");
-  return out;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort) {
   if (image.empty()) throw Error::request("encoding a PNG: the picture is empty");
-  const int color_type = image.channels() == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
-  return encoded({image.width(), image.height(), color_type, {}, image.at(0, 0), image.row_bytes()}, effort);
-}
-
-std::vector<std::uint8_t> encode_png(const PaletteImage& image) {
-  if (image.index.empty()) throw Error::request("encoding a PNG: the picture is empty");
-  return encoded({image.width, image.height, PNG_COLOR_TYPE_PALETTE, image.colors, image.index.data(),
-                  static_cast<size_t>(image.width)},
-                 PngEffort::best);
+  std::vector<std::uint8_t> out;
+  out.reserve(image.pixels().size() / 4 + 1024);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop header = png ? png_create_info_struct(png) : nullptr;
+  const bool done = header && encode(png, header, image, effort, out);
+  png_destroy_write_struct(&png, &header);
+  if (!done) throw Error::machine("encoding a PNG: libpng failed, probably out of memory");
+  return out;
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {

@@ -2,17 +2,29 @@
 
 #include <fmt/core.h>
 
-#include "experiments/specimens/jaw.h"
+#include "render/look.h"
 
 namespace hysteron::experiments {
 namespace {
 
-constexpr double kJawLength = 2.5e-3;  // [m]
-constexpr JawSize kJaw{.overhang = 0.6e-3, .thickness = 0.7e-3};
+constexpr double kJawLength = 2.5e-3;                            // [m]
+constexpr double kJawOverhang = 0.6e-3, kJawThickness = 0.7e-3;  // beyond either edge; of both halves [m]
 
 constexpr float kFieldOfView = 28;                 // [degree]
 constexpr double kReach = 9.5e-3;                  // of clamp and jaw to either side [m]
 constexpr double kShown = 5.2e-3, kLift = 3.2e-3;  // half the height shown, its middle at the amplitude [m]
+
+// For the eye: cloth does not touch it, its pins hold it.  Grips a strip along x, `width` wide from y = 0 on,
+// from `from` to `to`; bodies are drawn smaller by the look's inset.
+Obstacle jaw(double from, double to, double width) {
+  const double inset = render::Look{}.obstacle_inset;
+  Obstacle box;
+  box.kind = ObstacleKind::box;
+  box.center = {(from + to) / 2, width / 2, 0};
+  box.size = Eigen::Vector3d((to - from) / 2, width / 2 + kJawOverhang, kJawThickness / 2).array() + inset;
+  box.rim = 0.3 * inset;
+  return box;
+}
 
 // From jaw to jaw; `turn` from -1 to 1 moves up and down with the strip.
 render::Box framed(double turn, float width, double half_height) {
@@ -28,8 +40,7 @@ StripPictures::StripPictures(const Options& options, const ClampedStrip& strip)
   setup_.options.size = "960x720";
   setup_.options.camera_direction = {0.4, -1.0, 0.3};
   const double width = strip.scene.cloth.width, d = strip.spacing;
-  setup_.scene.obstacle = {jaw(-kJawLength, d, width, kJaw),
-                           jaw(kGauge, kGauge + d + kJawLength, width, kJaw)};
+  setup_.scene.obstacle = {jaw(-kJawLength, d, width), jaw(kGauge, kGauge + d + kJawLength, width)};
   setup_.scene.obstacle[1].motion = strip.scene.pin[1].motion;
   const std::vector<std::size_t>& turn = strip.walk.start;
   rows_ = {turn[1] / 2, turn[1], (turn[1] + turn[2]) / 2, turn[2]};

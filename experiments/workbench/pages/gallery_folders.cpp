@@ -53,7 +53,7 @@ void collect(const fs::path& folder, const std::string& name, std::vector<Exhibi
 
 Exhibit exhibit_of(const fs::path& folder, const std::string& name, std::vector<Exhibit>& beside) {
   Exhibit exhibit{name, folder, {}, {}};
-  if (has_manifest(folder)) exhibit.manifest = read_manifest(folder / "manifest.json");
+  if (const fs::path file = folder / "manifest.json"; is_there(file)) exhibit.manifest = read_manifest(file);
   for (const fs::path& sub : subfolders(folder)) {
     collect(sub, name + "/" + sub.filename().string(), exhibit.manifest ? exhibit.parts : beside);
   }

@@ -5,7 +5,6 @@
 #include <thread>
 
 #include "render/contact_sheet.h"
-#include "render/palette.h"
 #include "sim/base/csv.h"
 #include "sim/base/parallel.h"
 #include "sim/base/whole_file.h"
@@ -14,7 +13,6 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kColors = 128;      // of a thumbnail; shading shows no steps yet
 constexpr int kFrameWidth = 480;  // [pixels]
 
 // `name="1200"` of a tag; 0 where it is missing or in another unit.
@@ -56,7 +54,7 @@ bool is_plot(const fs::path& file) { return file.filename().string().starts_with
 std::vector<std::uint8_t> thumbnail(const fs::path& file, int width) {
   const render::Image picture = render::read_png(file);
   const int w = std::min(width, picture.width()), h = std::max(1, picture.height() * w / picture.width());
-  return encode_png(render::in_few_colors(shrink(picture, w, h), kColors));
+  return encode_png(shrink(picture, w, h), render::PngEffort::best);
 }
 
 render::ImageSize drawing_size(const fs::path& file) {

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file);
 
 bool is_plot(const std::filesystem::path& file);
 
-// A PNG file of a picture, shrunk to at most `width` pixels and drawn in few colours.  Error::request, naming
+// A PNG file of a picture, shrunk to at most `width` pixels.  Error::request, naming
 // the file, if it is no picture.
 std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width);
 

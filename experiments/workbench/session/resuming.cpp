@@ -75,7 +75,7 @@ std::vector<std::string> Session::kept_files() const {
   Archive archive{state_};
   archive(files);
   for (const std::string& name : files)
-    if (is_numbered(name) || name == kKeptFrames) kept.push_back(name);
+    if (is_numbered(name) || name == kKeptFrames || name.starts_with("mesh/cloth.")) kept.push_back(name);
   return kept;
 }
 

@@ -56,8 +56,6 @@ TEST(ObservedOrders, AreThoseOfTheErrors) {
   for (const Order& order : orders) EXPECT_NEAR(order.order, 2, 1e-12);
 }
 
-Found solved_base(const Problem& problem) { return problem.solve(problem.settings.front()); }
-
 const Effort kQuick{true, DeviceChoice::cpu};
 
 // Second order: a quarter of the triangles has four times the error.

@@ -114,28 +114,6 @@ TEST(Compare, RefusesTheSameColumnTwice) {
   EXPECT_FALSE(fs::exists(out));
 }
 
-TEST(Compare, ExplainsEachColumnAndWritesNothing) {
-  const Folder folder;
-  const std::string out = folder.path() / "out";
-  const Outcome outcome = program("compare swing --laws linear,prandtl --explain --out " + out + kSmall);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out.find("linear:\n"), 0u) << outcome.out;
-  EXPECT_NE(outcome.out.find("\nprandtl:\n"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find(" triangles, ", outcome.out.find("\nprandtl:\n")), std::string::npos);
-  EXPECT_FALSE(fs::exists(out));
-}
-
-TEST(Compare, KeepsACaptionFileThatIsNotItsOwnBeforeItRunsAnything) {
-  const Folder folder;
-  std::ofstream(folder.path() / "README.md") << "mine";
-  const Outcome outcome =
-      program("compare swing --laws linear,prandtl --out " + folder.path().string() + kSmall);
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("README.md is not of an earlier run"), std::string::npos) << outcome.err;
-  EXPECT_EQ(text_of(folder.path() / "README.md"), "mine");
-  EXPECT_FALSE(fs::exists(folder.path() / "linear"));
-}
-
 TEST(ColumnName, OfAFileIsItsStemAndStaysInItsFolder) {
   EXPECT_EQ(column_name("prandtl"), "prandtl");
   EXPECT_EQ(column_name("linear+fabric.damping=2e-3"), "linear+fabric.damping=2e-3");
@@ -293,21 +271,6 @@ from = 0.04
   EXPECT_NE(text_of(out / "table.csv").find("an obstacle appears where the cloth is"), std::string::npos)
       << outcome.out << outcome.err << text_of(out / "table.csv");
   EXPECT_NE(outcome.err.find("warning: linear: "), std::string::npos) << "though it is quiet";
-}
-
-TEST(Compare, StatesTheStiffnessThatItMatched) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  ASSERT_EQ(program("compare swing --laws linear,prandtl --compare.match small-strain --out " + out + kSmall)
-                .exit_code,
-            0);
-  const auto page = nlohmann::json::parse(text_of(fs::path(out) / "manifest.json"))["scene"]["columns"];
-  const auto fabric =
-      nlohmann::json::parse(text_of(fs::path(out) / "linear/manifest.json"))["scene"]["fabric"];
-  const auto other =
-      nlohmann::json::parse(text_of(fs::path(out) / "prandtl/manifest.json"))["scene"]["fabric"];
-  EXPECT_GT(page[0]["stiffness_times"].get<double>(), 1.5);
-  EXPECT_NEAR(fabric["b2"].get<double>() / other["b1"].get<double>(), 1, 1e-4);
 }
 
 // Fabrics under the one law that the scene names, or the program's own.

@@ -145,16 +145,6 @@ TEST(CreaseSpecimen, HasFinerColumnsWhereMoreTrianglesAreAskedFor) {
   EXPECT_NEAR(shortest(2000) / shortest(500), 0.5, 0.05);
 }
 
-TEST(CreaseSpecimen, IsLeftByASlowPlateSlowly) {
-  CreaseChoice slow, quick;
-  quick.release = "quick";
-  const CreaseTimes one = creased(small_scene(), slow, 1.4e-3).times,
-                    other = creased(small_scene(), quick, 1.4e-3).times;
-  EXPECT_EQ(one.released, other.released);
-  EXPECT_NEAR(one.lifted - one.released, slow.lift, 1e-12);
-  EXPECT_LT(other.lifted - other.released, 0.2);
-}
-
 // The ends of all phases are ends of steps, and a step that begins after a rest of grow_after is twice as
 // long.
 TEST(GrowingSteps, MeetTheEndOfEveryPhase) {
@@ -243,22 +233,6 @@ TEST(CreaseInTime, RecoversOverMinutesWithARelaxingBranchOnly) {
   EXPECT_LT(angle(relaxing, "release_angle_deg"), angle(friction, "release_angle_deg") - 10);
   EXPECT_GT(angle(relaxing, "recovery_angle_15_s_deg"), angle(relaxing, "release_angle_deg"));
   EXPECT_GT(angle(relaxing, "recovery_angle_deg"), angle(relaxing, "recovery_angle_15_s_deg") + 5);
-}
-
-TEST(CreaseInTime, HasTheLoadsAndTimesOfTheStandards) {
-  EXPECT_EQ(by_standard("iso2313").force, 10);
-  EXPECT_NEAR(by_standard("aatcc66").force, 0.5 * 9.80665, 1e-12);
-  for (const char* standard : {"iso2313", "aatcc66"}) {
-    EXPECT_EQ(by_standard(standard).hold, 300);
-    EXPECT_EQ(by_standard(standard).recovery, 300);
-  }
-}
-
-TEST(CreaseInTime, IsRefusedForAReleaseInMotion) {
-  const Folder folder;
-  EXPECT_THROW(
-      experiment_named("crease").run(pressed_by_standard(folder.path(), {{"crease.release", "quick"}})),
-      Error);
 }
 
 // Pulled straight, it does not return to the angle that it was made with.

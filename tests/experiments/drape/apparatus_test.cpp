@@ -18,16 +18,6 @@ Scene with_apparatus(const DrapeChoice& choice) {
   return scene;
 }
 
-TEST(DrapeStandards, HaveTheirSizes) {
-  EXPECT_EQ(specimen_radius("iso9073"), 0.15);
-  EXPECT_EQ(drape_by_standard("iso9073").disc, 0.09);
-  EXPECT_EQ(drape_by_standard("iso9073").release, "lowered");
-  EXPECT_EQ(specimen_radius("jis"), 0.127);
-  EXPECT_EQ(drape_by_standard("jis").disc, 0.0635);
-  EXPECT_EQ(drape_by_standard("jis").release, "shaken");
-  EXPECT_EQ(drape_by_standard("jis").wait, 60);
-}
-
 // Three times up and down once the plate has gone, then at rest; the disc goes with the pedestal, so that the
 // specimen stays pressed as it was.
 TEST(ShakenDrape, GoesUpAndDownAndStops) {

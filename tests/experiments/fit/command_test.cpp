@@ -83,15 +83,6 @@ TEST_F(Fit, WritesAFabricThatIsReadBackWithItsStandardErrors) {
   EXPECT_FALSE(fabric.provenance.at("thickness").standard_error.has_value());
 }
 
-TEST_F(Fit, MarksWhatItAssumesInTheFabric) {
-  ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}}), 0);
-  const Fabric fabric = read_fabric((out() / "fabric.toml").string(), "--fabric").fabric;
-  EXPECT_EQ(fabric.provenance.at("b2").confidence, "given");
-  EXPECT_EQ(fabric.provenance.at("k0").confidence, "assumed");
-  EXPECT_EQ(metrics().at("undetermined"), (Json{"b1", "k0"}));
-  EXPECT_TRUE(metrics().at("k0_per_m_stderr").is_null());
-}
-
 TEST_F(Fit, SaysAloudWhoseDensityAndThicknessItFillsIn) {
   ASSERT_EQ(fit({{"kes.b", "1.157e-5"}, {"kes.2hb", "1.216e-3"}, {"fabric.density", "0.2"}}), 0);
   const std::string file = text_of(out() / "fabric.toml");
@@ -121,11 +112,6 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
       read_csv(out() / "fit.csv", {"curvature [1/m]", "model_prandtl [N]", "residual_linear [N]"}, {}, "t"));
 }
 
-TEST_F(Fit, OfAllLawsKeepsTheLawThatWroteTheData) {
-  ASSERT_EQ(fit({{"loop", loop("prandtl", {150, 90, 150, -150, -110, -150, 100})}, {"law", "all"}}), 0);
-  EXPECT_EQ(metrics().at("best_law"), "prandtl");
-}
-
 TEST_F(Fit, OfFrictionElementsListsThemWithTheIterationsItTook) {
   ASSERT_EQ(fit({{"loop", loop("prandtl", {250, -250, 250})}, {"stops", "2"}}), 0);
   const Table stops = read_csv(out() / "stops.csv", {"threshold [1/m]", "stiffness [N m]"}, {}, "test");
@@ -150,21 +136,6 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
   says({{"loop", file}, {"stops", "99"}}, "stops = 99");
   says({{"loop", file}, {"stops", "0"}}, "stops = 0 must be in [1, ");
   says({{"kes.b", "0"}, {"kes.2hb", "1e-3"}}, "must be > 0");
-}
-
-TEST(Fabric, WithANegativeStandardErrorIsRefused) {
-  const Folder folder;
-  Identification found;
-  found.b1 = {2e-5, 1e-7, true, "test"};
-  found.b2 = {1e-5, -1e-7, true, "test"};
-  found.k0 = {50, 1, true, "test"};
-  write_text(folder.path() / "f.toml", fabric_text(found, {"f", "a test", {}, {}}));
-  try {
-    read_fabric((folder.path() / "f.toml").string(), "--fabric");
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("stderr must be >= 0"), std::string::npos) << error.what();
-  }
 }
 
 // Friction of 1 mN beside a spring that it exceeds tenfold.

@@ -176,22 +176,6 @@ TEST(RenderedFiles, OfSeveralFoldersStandInColumnsEachInItsUnitAxesAndRate) {
   EXPECT_EQ(manifest["scene"]["render"]["up"], "z,y");
 }
 
-// Two columns of pictures of 320 x 240, one row for each of ours, of the same times.
-TEST(RenderedFiles, OfSeveralFoldersShareASheetAsLongAsAllLast) {
-  const Folder folder;
-  const std::string ours = sequence(folder.path() / "ours", 3, 10, metres),
-                    theirs = sequence(folder.path() / "theirs", 6, 20, metres);
-  rendered(folder.path() / "timed", {ours, theirs}, {{"fps", "10,20"}, {"size", "320x240"}});
-  rendered(folder.path() / "short", {ours, write(folder.path() / "one.obj", swaying(0, metres))},
-           {{"fps", "10"}, {"size", "320x240"}});
-  const render::Image timed = render::read_png(folder.path() / "timed/sheet.png"),
-                      brief = render::read_png(folder.path() / "short/sheet.png");
-  EXPECT_EQ(timed.width(), brief.width());
-  const int row = (timed.height() - brief.height()) / 2;
-  EXPECT_GT(row, timed.width() / 2 * 0.7);
-  EXPECT_LT(row, timed.width() / 2 * 0.85);
-}
-
 TEST(RenderedFiles, OfAHundredThousandTrianglesAreDrawn) {
   const Folder folder;
   const ClothMesh mesh = make_rectangle(1, 1, 100000, MeshFamily::unionjack, 1);

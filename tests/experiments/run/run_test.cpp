@@ -204,19 +204,6 @@ TEST_F(Scenes, HaveTheErrorsOfTheirOwnMetrics) {
   EXPECT_NEAR(metrics["corner_m_draw_error"], 0, kRounding);
 }
 
-TEST_F(Scenes, FromFilesAreSubdividedForTheErrorOfTheirMesh) {
-  std::ofstream(folder_.path() / "square.obj")
-      << "v 0 0 0\nv 0.2 0 0\nv 0.2 0.2 0\nv 0 0.2 0\nf 1 2 3\nf 1 3 4\n";
-  const Json metrics = metrics_of(
-      "step = 0.01\nseconds = 0.02\n[cloth]\nshape = \"file\"\nfile = \"square.obj\"\n" + kCornerHeight,
-      "--no-images --errors");
-  EXPECT_TRUE(metrics["corner_m_mesh_error"].is_number());
-  EXPECT_TRUE(metrics["corner_m_draw_error"].is_null());
-  const Json manifest = Json::parse(text_of(out() / "manifest.json"));
-  EXPECT_EQ(manifest["errors_missing"], Json({"draw: the cloth's triangles come from a file"}));
-  EXPECT_NE(text_of(out() / "errors.csv").find("mesh,cloth.subdivisions=1,"), std::string::npos);
-}
-
 TEST_F(Scenes, WithoutMetricsHaveNoErrors) {
   const Outcome outcome = run(kSquare, "--no-images --errors");
   EXPECT_EQ(outcome.exit_code, 2);

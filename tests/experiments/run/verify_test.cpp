@@ -223,25 +223,6 @@ TEST_F(Recorded, RunWithOtherBitsDiffersOnlyWhereTheyAreDue) {
   EXPECT_EQ(program(verify).exit_code, 0) << "older programs did not note them";
 }
 
-// As if it had been recorded by a program that has standard gravity, 9.80665 m/s^2, in place of 9.81.
-TEST_F(Recorded, RunWithAnotherConstantDiffersThoughNoBitsAreDue) {
-  const std::string drape = "drape --quick --triangles 120 --seconds 0.4 --no-images";  // comes to rest
-  const std::string swing = "swing --quick --triangles 100 --no-images";
-  for (const std::string& command : {drape, swing}) {
-    record(command + " --gravity '0 0 -9.80665'");
-    const Json other = json_in(run());
-    record(command);
-    edit([&](Json& json) {
-      json["metrics"] = other["metrics"];
-      json["state_hash"] = other["state_hash"];
-      json["hysteron"].erase("instructions");
-    });
-    const Outcome outcome = program("verify " + in("runs") + " --out " + in("check"));
-    EXPECT_EQ(outcome.exit_code, 4) << command;
-    EXPECT_NE(outcome.out.find("beyond: "), std::string::npos) << outcome.out;
-  }
-}
-
 // A mathematical library without fused multiplication stands for that of another processor.
 TEST_F(Recorded, RunOnAnotherProcessorIsTheSameWithinRoundOff) {
   for (const std::string& command : {kCrease, std::string("swing --quick --no-images")}) {

@@ -139,24 +139,6 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   EXPECT_NEAR(metrics["one-unknown.density=0.6.change_percent"].get<double>(), rows[2].change, kDigits);
 }
 
-// Ranges have two points above their names, the tester and the mesh one.
-TEST(Budget, PlotHasBothEndsOfARangeInOneColumn) {
-  const render::Plot plot = budget_plot({{"wool", "as its file says", "", 2, 50, 1, 0, 49},
-                                         {"wool", "shear", "30", 2, 48, 1, -2, 49},
-                                         {"wool", "shear", "110", 2, 53, 1, 3, 49},
-                                         {"wool", "mesh", "400", 2, 51, 1, 1, 49}});
-  EXPECT_EQ(plot.x.categories, (std::vector<std::string>{"shear", "mesh"}));
-  ASSERT_EQ(plot.series.size(), 5u);
-  EXPECT_EQ(plot.series[0].y, (std::vector<double>{50, 50}));
-  EXPECT_EQ(plot.series[1].y, (std::vector<double>{49, 49}));
-  EXPECT_EQ(plot.series[2].x.size(), 3 * 3u) << "a bar and a gap for each";
-  EXPECT_EQ(plot.series[2].y[0], 47);
-  EXPECT_EQ(plot.series[2].y[1], 49);
-  EXPECT_EQ(plot.series[3].y, (std::vector<double>{48}));
-  EXPECT_EQ(plot.series[4].x, (std::vector<double>{0, 1}));
-  EXPECT_EQ(plot.series[4].y, (std::vector<double>{53, 51}));
-}
-
 TEST(Budget, OfAnotherTableIsRefused) {
   const Folder folder;
   const auto csv = folder.path() / "budget.csv";

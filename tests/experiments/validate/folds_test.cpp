@@ -28,16 +28,6 @@ TEST(RealFolds, StifferClothHasNoMoreFolds) {
   EXPECT_LT(real_folds(92).most, real_folds(16).fewest);
 }
 
-TEST(RealFolds, BoxesHoldTheirCountsAndOneLabel) {
-  const std::vector<render::Series> boxes = real_drape_boxes("real");
-  ASSERT_EQ(boxes.size(), 10u);
-  EXPECT_EQ(boxes[0].label, "real");
-  EXPECT_EQ(boxes[1].label, "");
-  EXPECT_LT(boxes[3].y[0], 7);  // 7 to 10 folds
-  EXPECT_GT(boxes[3].y[2], 10);
-  EXPECT_NEAR((boxes[3].x[0] + boxes[3].x[1]) / 2, 48.3, 1e-9);
-}
-
 // Eight folds at 50 % are as real, two are not; of a fabric and law each the share of its own drapes.
 TEST(ComparedFolds, ShareIsThatOfEachFabricAndLaw) {
   const Folder folder;
@@ -51,14 +41,6 @@ TEST(ComparedFolds, ShareIsThatOfEachFabricAndLaw) {
   EXPECT_EQ(run.metrics()["wool-prandtl.folds_as_real_percent"].number(), 50);
   EXPECT_EQ(run.metrics()["wool-linear.folds_as_real_percent"].number(), 100);
   EXPECT_EQ(run.metrics()["silk-prandtl.folds_as_real_percent"].number(), 0);
-}
-
-TEST(ComparedFolds, PlotHasEachDrapeOverTheBoxes) {
-  const render::Plot plot = folds_plot({{"wool", "prandtl", 50, 8}, {"wool", "prandtl", 52, 7}});
-  ASSERT_EQ(plot.series.size(), 11u);
-  EXPECT_EQ(plot.series.back().label, "wool, prandtl");
-  EXPECT_EQ(plot.series.back().x, (std::vector<double>{50, 52}));
-  EXPECT_EQ(plot.series.back().y, (std::vector<double>{8, 7}));
 }
 
 // A drape that came to no end has no coefficient.

@@ -135,14 +135,6 @@ TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
   EXPECT_NEAR(errors.metrics["bending_length_m_mean_stderr"].number(), std::sqrt(1.0 / 3), 1e-15);
 }
 
-TEST(Errors, OfCountsThatAreAlikeAreNone) {
-  std::vector<Repeated> repeats;
-  for (int k = 1; k <= 8; ++k) repeats.push_back({{"draw-" + std::to_string(k), {}}, {{"node_count", 8.0}}});
-  const Errors errors = errors_of("drape", {{"node_count", 8.0}}, repeats);
-  EXPECT_EQ(errors.metrics["node_count_mean"].number(), 8);
-  EXPECT_EQ(errors.metrics["node_count_draw_error"].number(), 0);
-}
-
 TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
   Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
   stopped.stopped = "no convergence";
@@ -274,18 +266,6 @@ TEST(SwingWithErrors, PassesFlagsOnButThoseThatItChanges) {
   }
 }
 
-TEST(SwingWithErrors, InABatchHasThoseOfRepeatsByThemselves) {
-  const Folder folder;
-  const std::string line =
-      "swing --errors --law prandtl" + std::string(kSmall) + " --out " + folder.path().string();
-  ASSERT_EQ(program(line + "/alone").exit_code, 0);
-  ASSERT_EQ(program(line + "/together --errors.batch 3").exit_code, 0);
-  const Json alone = manifest_in(folder.path() / "alone"), together = manifest_in(folder.path() / "together");
-  EXPECT_GT(alone["metrics"]["bending_friction_J_step_error"], 0);
-  EXPECT_EQ(together["metrics"], alone["metrics"]);
-  EXPECT_EQ(together["options"], alone["options"]);
-}
-
 // The second mesh's folder cannot be made.
 TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   const Folder folder;
@@ -348,15 +328,6 @@ TEST(RequestForErrors, IsRefusedWhereThereIsNone) {
   EXPECT_EQ(law.exit_code, 2);
   EXPECT_NE(law.err.find("fold.law-alone"), std::string::npos) << law.err;
   EXPECT_FALSE(fs::exists(folder.path() / "out/manifest.json"));
-}
-
-TEST(RequestForErrors, IsOnlyExplained) {
-  const Folder folder;
-  const std::string out = (folder.path() / "out").string();
-  const Outcome outcome = program("swing --errors --explain --out " + out + kSmall);
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("triangles"), std::string::npos);
-  EXPECT_FALSE(fs::exists(out));
 }
 
 }  // namespace

@@ -104,13 +104,6 @@ std::size_t interrupt(const std::string& arguments, const fs::path& out, int sig
   return manifest_in(out).value("resumed_at_s", Json::array()).size();
 }
 
-TEST(Resuming, ACrumpleThatIsInterruptedEndsInTheSameBits) {
-  const Folder folder;
-  ASSERT_EQ(program(kCrumple + in(folder.path() / "whole")).exit_code, 0);
-  EXPECT_GT(interrupt(kCrumple + " --checkpoint 1000", folder.path() / "parts", SIGINT, 10, 120), 2u);
-  expect_same_results(folder.path() / "whole", folder.path() / "parts");
-}
-
 // Every experiment with what it collects on the way, each with a checkpoint at every instant.
 class ResumingEvery : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(
