@@ -4,7 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "render/gl/capture.h"
+#include "render/gl/program.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {
@@ -35,21 +35,9 @@ void require_count(const char* what, size_t count, size_t expected) {
                          std::to_string(expected) + " expected");
 }
 
-template <class Item>
-void upload(const GlFunctions& gl, const GlBuffer& buffer, std::span<const Item> items, GLenum usage) {
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(), usage);
-}
-
 void view_as_texture(const GlFunctions& gl, const GlTexture& texture, GLenum format, const GlBuffer& buffer) {
   gl.BindTexture(GL_TEXTURE_BUFFER, texture.name());
   gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.name());
-}
-
-void attribute(const GlFunctions& gl, Attribute index, const GlBuffer& buffer, GLint components) {
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.EnableVertexAttribArray(index);
-  gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "render/refine.h"
+#include "render/shapes.h"
 #include "render/srgb.h"
 #include "sim/base/error.h"
 

@@ -1,4 +1,4 @@
-#include "render/egl_context.h"
+#include "render/contexts.h"
 
 #define EGL_NO_PROTOTYPES
 #define EGL_NO_X11
@@ -8,8 +8,6 @@
 #include <EGL/eglext.h>
 
 #include <cstring>
-
-#include "render/shared_library.h"
 
 namespace hysteron::render {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <string>
 
-#include "render/depth_map.h"
 #include "render/exposure.h"
+#include "render/shadow_maps.h"
 
 namespace hysteron::render {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/depth_map.h"
+#include "render/shadow_maps.h"
 
 namespace hysteron::render {
 namespace {

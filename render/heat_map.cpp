@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "render/gnuplot.h"
-#include "render/panel_page.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {

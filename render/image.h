@@ -71,7 +71,7 @@ struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
 };
-// Of a PNG file, without unpacking its pixels; errors as of read_png, as far as its header has them.
+// Of a PNG file, of which only the header and the end are looked at.  Errors as read_png.
 ImageSize png_size(const std::filesystem::path& path);
 
 // RGB or RGBA as in the file (grey becomes RGB).  Error::request if the file is missing or not a picture.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "render/egl_context.h"
-#include "render/osmesa_context.h"
+#include "render/contexts.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {

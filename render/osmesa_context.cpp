@@ -1,8 +1,6 @@
-#include "render/osmesa_context.h"
+#include "render/contexts.h"
 
 #include <array>
-
-#include "render/shared_library.h"
 
 namespace hysteron::render {
 namespace {

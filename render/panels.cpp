@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/gnuplot.h"
-#include "render/panel_page.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {

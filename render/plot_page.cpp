@@ -1,7 +1,6 @@
 #include "render/plot_page.h"
 
 #include "render/gnuplot.h"
-#include "render/panel_page.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {

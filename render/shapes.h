@@ -35,4 +35,11 @@ TriangleMesh box_mesh(const Eigen::Vector3f& half_edges, float rim);
 // Rigid placement of a mesh whose z axis is to point along `axis`.
 Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axis);
 
+// Finer triangles for what is computed vertex by vertex.
+
+// The same surface with no side longer than `longest` [m]: longer ones are halved until none is left, on both
+// sides of a side alike, so that nothing gapes.  Normals of new vertices lie between those of a side's ends.
+// Error::request if `longest` is not positive.
+TriangleMesh refined(TriangleMesh mesh, float longest);
+
 }  // namespace hysteron::render

@@ -1,24 +1,8 @@
 #include "render/static_mesh.h"
 
-#include "render/gl/capture.h"
+#include "render/gl/program.h"
 
 namespace hysteron::render {
-namespace {
-
-void upload_vectors(const GlFunctions& gl, const GlBuffer& buffer,
-                    const std::vector<Eigen::Vector3f>& vectors) {
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vectors.size() * sizeof(Eigen::Vector3f)),
-                vectors.data(), GL_STATIC_DRAW);
-}
-
-void attribute(const GlFunctions& gl, GLuint index, const GlBuffer& buffer, GLint components) {
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.EnableVertexAttribArray(index);
-  gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
-}
-
-}  // namespace
 
 StaticMesh::StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh)
     : gl_(&gl),
@@ -30,8 +14,8 @@ StaticMesh::StaticMesh(const GlFunctions& gl, const TriangleMesh& mesh)
       normals_(gl),
       sky_(gl),
       indices_(gl) {
-  upload_vectors(gl, positions_, mesh.positions);
-  upload_vectors(gl, normals_, mesh.normals);
+  upload<Eigen::Vector3f>(gl, positions_, mesh.positions, GL_STATIC_DRAW);
+  upload<Eigen::Vector3f>(gl, normals_, mesh.normals, GL_STATIC_DRAW);
   gl.BindBuffer(GL_ARRAY_BUFFER, sky_.name());
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(4 * sizeof(float)) * vertices_, nullptr,
                 GL_DYNAMIC_COPY);

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "render/compare.h"
-#include "render/ssim.h"
+#include "render/plane.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {

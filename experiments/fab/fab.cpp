@@ -11,7 +11,7 @@
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
 #include "sim/identification/fab_fabric.h"
-#include "sim/reference/fab_checks.h"
+#include "sim/reference/fab_loops.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {

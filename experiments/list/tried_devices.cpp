@@ -1,6 +1,6 @@
 #include "experiments/list/tried_devices.h"
 
-#include "render/egl_context.h"
+#include "render/contexts.h"
 #include "render/offscreen.h"
 #include "sim/base/error.h"
 #include "sim/time/back_end.h"

@@ -2,6 +2,7 @@
 // current when they are made and destroyed.
 #pragma once
 
+#include <span>
 #include <utility>
 
 #include "render/gl/glfunctions.h"
@@ -56,5 +57,18 @@ struct GlProgramKind {
   static void destroy(const GlFunctions& gl, GLuint name) { gl.DeleteProgram(name); }
 };
 using GlProgram = Handle<GlProgramKind>;
+
+template <class Item>
+void upload(const GlFunctions& gl, const GlBuffer& buffer, std::span<const Item> items, GLenum usage) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()), items.data(), usage);
+}
+
+// Of the vertex array that is bound: floats, so many for each vertex.
+inline void attribute(const GlFunctions& gl, GLuint index, const GlBuffer& buffer, GLint components) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+  gl.EnableVertexAttribArray(index);
+  gl.VertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+}
 
 }  // namespace hysteron::render

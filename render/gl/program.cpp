@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 
 namespace hysteron::render {
+
 namespace {
 
 constexpr std::string_view kVersion = "#version 330 core\n";
@@ -94,6 +95,17 @@ void Program::set(const char* name, const Eigen::Matrix3f& value) const {
 
 void Program::set(const char* name, const Eigen::Matrix4f& value) const {
   gl_->UniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
+}
+
+void capture(const GlFunctions& gl, const GlVertexArray& arrays, GLsizei count, const GlBuffer& output) {
+  gl.BindVertexArray(arrays.name());
+  gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
+  gl.Enable(GL_RASTERIZER_DISCARD);
+  gl.BeginTransformFeedback(GL_POINTS);
+  gl.DrawArrays(GL_POINTS, 0, count);
+  gl.EndTransformFeedback();
+  gl.Disable(GL_RASTERIZER_DISCARD);
+  gl.BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
 }
 
 }  // namespace hysteron::render

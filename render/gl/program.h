@@ -43,4 +43,9 @@ class Program {
   mutable std::unordered_map<std::string, GLint> locations_;
 };
 
+// A vertex program's output kept in a buffer.
+
+// Runs the program in use for vertices 0 to count - 1 of `arrays` and writes what it captures to `output`.
+void capture(const GlFunctions& gl, const GlVertexArray& arrays, GLsizei count, const GlBuffer& output);
+
 }  // namespace hysteron::render

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -15,6 +16,14 @@ inline std::optional<double> number_in(std::string_view text) {
   const auto [rest, failure] = std::from_chars(text.data(), end, value);
   if (failure != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+// Texts of numbers.
+
+// The shortest that number_in() reads back as the same number: "0.1", "1e-300".
+inline std::string number_text(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
 }  // namespace hysteron

@@ -4,7 +4,7 @@
 
 #include "sim/bending/bending.h"
 #include "sim/linear/block_rows.h"
-#include "sim/linear/upper_blocks.h"
+#include "sim/linear/compressed_rows.h"
 
 namespace hysteron {
 

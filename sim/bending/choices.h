@@ -15,4 +15,10 @@ constexpr std::array<const char*, 2> names(BendingElement) { return {"shape", "h
 enum class ForceConvention { energy, chapter };
 constexpr std::array<const char*, 2> names(ForceConvention) { return {"energy", "chapter"}; }
 
+// What a scene can order at a time.
+
+// iron: the cloth forgets its bends; edit: the present shape becomes the shape at rest (grinspun-edit alone).
+enum class CommandKind { iron, edit };
+constexpr std::array<const char*, 2> names(CommandKind) { return {"iron", "edit"}; }
+
 }  // namespace hysteron

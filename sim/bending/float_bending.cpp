@@ -1,4 +1,4 @@
-#include "sim/bending/float_bending.h"
+#include "sim/bending/bending_elements.h"
 
 #include "sim/bending/stiffness_product.h"
 

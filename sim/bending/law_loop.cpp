@@ -1,6 +1,6 @@
 #include "sim/bending/law_loop.h"
 
-#include "sim/bending/laws/law_groups.h"
+#include "sim/bending/laws/every_law.h"
 
 namespace hysteron {
 namespace {

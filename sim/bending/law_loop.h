@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/bending/choices.h"
 #include "sim/bending/curvature_operator.h"
-#include "sim/bending/laws/command_kind.h"
 #include "sim/bending/laws/law.h"
 #include "sim/bending/laws/law_parameters.h"
 #include "sim/device/archive_buffer.h"
@@ -87,7 +87,7 @@ template <class Real, class Device>
 std::unique_ptr<LawLoop<Real, Device>> make_law_loop(Device& device, const LawChoice& choice, int dimension,
                                                      int elements);
 
-// A group of laws (law_groups.h), compiled apart; null for a law of another group.
+// A group of laws (every_law.h), compiled apart; null for a law of another group.
 template <class Group, class Real, class Device, int D>
 std::unique_ptr<LawLoop<Real, Device>> make_group_loop(Device&, const LawChoice&, int elements);
 

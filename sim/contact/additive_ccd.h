@@ -4,9 +4,82 @@
 // collision detection: each advance is no longer than the distance that is left over the fastest approach.
 #pragma once
 
-#include "sim/contact/closest_points.h"
+#include "sim/device/host_device.h"
 
 namespace hysteron {
+
+// Closest points of a point and a triangle, and of two segments, as weights of their four vertices.
+//
+// Source: Ericson 2005, Real-Time Collision Detection, 5.1.5 and 5.1.9 (the regions by their sign tests).
+
+// offset = sum of weight[k] x[k] leads from the second figure's closest point to the first one's; its length
+// is the distance, whose gradient by vertex k is weight[k] offset/|offset|.
+template <class Real>
+struct ClosestPoints {
+  Vec<Real, 4> weight;
+  Vec3<Real> offset;
+};
+
+// Barycentric coordinates of the point of a triangle nearest to p.
+template <class Real>
+HYST_HD Vec3<Real> nearest_in_triangle(const Vec3<Real>& p, const Vec3<Real>& a, const Vec3<Real>& b,
+                                       const Vec3<Real>& c) {
+  const Vec3<Real> ab = b - a, ac = c - a, ap = p - a;
+  const Real d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const Vec3<Real> bp = p - b;
+  const Real d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const Real vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
+  const Vec3<Real> cp = p - c;
+  const Real d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const Real vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
+  const Real va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) {
+    const Real w = (d4 - d3) / (d4 - d3 + (d5 - d6));
+    return {0, 1 - w, w};
+  }
+  const Real sum = va + vb + vc;
+  return {1 - vb / sum - vc / sum, vb / sum, vc / sum};
+}
+
+template <class Real>
+HYST_HD ClosestPoints<Real> point_triangle(const Vec3<Real> (&x)[4]) {
+  const Vec3<Real> b = nearest_in_triangle<Real>(x[0], x[1], x[2], x[3]);
+  ClosestPoints<Real> closest;
+  closest.weight << 1, -b[0], -b[1], -b[2];
+  closest.offset = b[0] * (x[0] - x[1]) + b[1] * (x[0] - x[2]) + b[2] * (x[0] - x[3]);
+  return closest;
+}
+
+template <class Real>
+HYST_HD Real within_unit(Real value) {
+  return value < 0 ? Real(0) : (value > 1 ? Real(1) : value);
+}
+
+// Segments x0-x1 and x2-x3, neither of them a point.
+template <class Real>
+HYST_HD ClosestPoints<Real> edge_edge(const Vec3<Real> (&x)[4]) {
+  const Vec3<Real> u = x[1] - x[0], v = x[3] - x[2], r = x[0] - x[2];
+  const Real a = u.squaredNorm(), e = v.squaredNorm(), f = v.dot(r), c = u.dot(r), b = u.dot(v);
+  const Real denominator = a * e - b * b;
+  Real s = denominator > 0 ? within_unit((b * f - c * e) / denominator) : Real(0);
+  Real t = (b * s + f) / e;
+  if (t < 0) {
+    t = 0;
+    s = within_unit(-c / a);
+  } else if (t > 1) {
+    t = 1;
+    s = within_unit((b - c) / a);
+  }
+  ClosestPoints<Real> closest;
+  closest.weight << 1 - s, s, t - 1, -t;
+  closest.offset = r + s * u - t * v;
+  return closest;
+}
 
 // Upper bound of the relative displacement of any two points of the two figures.
 template <class Real>

@@ -51,4 +51,23 @@ ObstacleShell<double> obstacle_shell(const Scene& scene);
 // Distance at which a shell bears a pressure [Pa]; at least 0.
 double distance_under(const ObstacleShell<double>& shell, double pressure);
 
+// What contact of vertices and of triangles with obstacles have in common.
+template <class Real>
+struct ContactModel {
+  ObstacleShell<Real> shell;
+  Real slip;        // elastic slip of friction [m]
+  Real tangential;  // most of its stiffness [N/m^3]
+
+  // Stiffness of friction's stop [N/m].
+  HYST_HD Real stop_stiffness(Real limit, Real area) const {
+    const Real most = tangential * area;
+    return limit < most * slip ? limit / slip : most;
+  }
+};
+
+struct ContactLoss {
+  double friction = 0;       // dissipated [J]
+  double obstacle_work = 0;  // done on the cloth by moving obstacles [J]
+};
+
 }  // namespace hysteron

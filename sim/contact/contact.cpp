@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "sim/contact/sharp_obstacles.h"
-#include "sim/contact/touch.h"
+#include "sim/contact/obstacle_set.h"
+#include "sim/contact/sweep.h"
 
 namespace hysteron {
 
@@ -30,15 +30,10 @@ Contact<Real, Device>::Contact(Device& device, const ClothMesh& mesh, const Scen
       model_(contact_model<Real>(scene)),
       vertices_(mesh.vertices()),
       area_(device, std::vector<Real>(mesh.vertex_area.begin(), mesh.vertex_area.end())),
-      slip_(device, vertices_),
-      touching_(device, vertices_),
+      stops_(device, vertices_, scene.integrator == Integrator::quasi_static ? vertices_ : 0),
       spared_(device, vertices_),
-      stored_(device, vertices_),
-      loss_(device, vertices_),
-      work_(device, vertices_),
       energy_(device, 0),
       inside_(device, 1),
-      force_(device, scene.integrator == Integrator::quasi_static ? vertices_ : 0),
       share_(device),
       scratch_(device) {
   if (is_sharper_than_mesh(scene, mesh)) faces_.emplace(device, mesh, scene, model_);
@@ -57,13 +52,7 @@ void Contact<Real, Device>::visit(Archive& archive) {
   archive(moved_from_);
   archive(moved_to_);
   if (archive.loads()) move(moved_from_, moved_to_);
-  hysteron::visit(archive, device_, slip_);
-  hysteron::visit(archive, device_, touching_);
-  hysteron::visit(archive, device_, spared_);
-  hysteron::visit(archive, device_, stored_);
-  hysteron::visit(archive, device_, loss_);
-  hysteron::visit(archive, device_, work_);
-  hysteron::visit(archive, device_, force_);
+  stops_.visit(archive, device_, spared_);
   if (faces_) faces_->visit(archive);
 }
 
@@ -71,87 +60,59 @@ template <class Real, class Device>
 void Contact<Real, Device>::add(const Vec3<Real>* x, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
                                 const BlockRowsView<Real>* matrix) {
   Mat3<Real>* diagonal = matrix ? matrix->diagonal : nullptr;
-  const ContactModel<Real> model = model_;
-  const ObstacleSet<Real> set = set_;
-  const Real* area = area_.data();
-  const Vec3<Real>* slipped = slip_.data();
-  const int* touching = touching_.data();
+  const VertexContact<Real> contact = view();
+  const StopView<Real> stops = stops_.view();
   for_each(
       device_, "contact", vertices_, HYST_KERNEL(int i) {
-        const Touch<Real> t = touch(set, model, x[i], area[i]);
+        const Touch<Real> t = contact.touch_of(i, x);
         if (t.index < 0) return;
-        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
+        const Slip<Real> s = contact.slip_of(i, t, x[i] - before[i], stops);
         const Real kt = s.stiffness * s.share;
         rhs[i] += step * (t.normal_force - kt * s.trial);
         if (!diagonal) return;
         diagonal[i] += step * step *
                        (t.normal_stiffness + kt * (Mat3<Real>::Identity() - t.normal * t.normal.transpose()));
       });
-  if (faces_) faces_->add(set, x, before, step, rhs, matrix);
+  if (faces_) faces_->add(set_, x, before, step, rhs, matrix);
 }
 
 template <class Real, class Device>
 int Contact<Real, Device>::commit(const Vec3<Real>* x, const Vec3<Real>* before, const char* held) {
-  const ContactModel<Real> model = model_;
-  const ObstacleSet<Real> set = set_;
-  const Real* area = area_.data();
-  Vec3<Real>* slipped = slip_.data();
-  int* touching = touching_.data();
-  double *stored = stored_.data(), *loss = loss_.data(), *work = work_.data(), *inside = inside_.data();
+  const VertexContact<Real> contact = view();
+  const StopView<Real> stops = stops_.view();
+  double* inside = inside_.data();
   const char* spared = spared_.data();
-  Vec3<Real>* force = force_.size() > 0 ? force_.data() : nullptr;
   for_each_sum<1>(
       device_, "contact history", vertices_,
       HYST_KERNEL(int i, Sums<1>& sums) {
-        const Touch<Real> t = touch(set, model, x[i], area[i]);
-        if (force) {
-          const Vec3<Real> moved = motion_of(set, touching[i] - 1, x[i]), half = Real(0.5) * force[i];
-          work[i] += static_cast<double>(half.dot(moved));
-          force[i].setZero();
-        }
-        if (touching[i] != 0 && touching[i] != t.index + 1) {  // let go: what the stop had stored is lost
-          loss[i] += stored[i];
-          stored[i] = 0;
-          slipped[i].setZero();
-        }
-        touching[i] = t.index + 1;
+        const Touch<Real> t = contact.touch_of(i, x);
+        if (stops.force) stops.work_before(i, i, motion_of(contact.set, stops.touching[i] - 1, x[i]));
+        stops.touch(i, t.index);
         if (t.index < 0) return;
         if (t.inside && !(held[i] && spared[i])) sums.term[0] += 1;
-        const Slip<Real> s = slip<Real>(t, model, area[i], x[i] - before[i], slipped[i], touching[i]);
-        // The stop's stiffness follows the pressure: what the work done on it does not leave stored is lost.
-        const Vec3<Real> stretched = s.share * s.trial;
-        const double kept = static_cast<double>(s.stiffness * stretched.squaredNorm() / 2);
-        loss[i] += stored[i] - kept + static_cast<double>(s.stiffness * stretched.dot(s.trial - slipped[i]));
-        const Vec3<Real> pressed = t.normal_force - s.stiffness * stretched;
-        work[i] += (force ? 0.5 : 1.0) * static_cast<double>(pressed.dot(t.obstacle_motion));
-        if (force) force[i] = pressed;
-        stored[i] = kept;
-        slipped[i] = stretched;
+        const Slip<Real> s = contact.slip_of(i, t, x[i] - before[i], stops);
+        stops.work_after(i, i, t.normal_force - s.stiffness * stops.accept(i, s), t.obstacle_motion);
       },
       HYST_KERNEL(const Sums<1>& total) { *inside = total.term[0]; });
-  return static_cast<int>(inside_.download()[0]) + (faces_ ? faces_->commit(set, x, before, held) : 0);
+  return static_cast<int>(inside_.download()[0]) + (faces_ ? faces_->commit(set_, x, before, held) : 0);
 }
 
 template <class Real, class Device>
 double Contact<Real, Device>::stored_energy(const Vec3<Real>* x) {
-  const ContactModel<Real> model = model_;
-  const ObstacleSet<Real> set = set_;
-  const Real* area = area_.data();
-  const double* stored = stored_.data();
+  const VertexContact<Real> contact = view();
+  const double* stored = stops_.stored.data();
   double* energy = energy_.data();
   for_each(
       device_, "contact energy", vertices_,
-      HYST_KERNEL(int i) { energy[i] = touch(set, model, x[i], area[i]).energy + stored[i]; });
-  if (faces_) faces_->store_energies(set, x, energy + vertices_);
+      HYST_KERNEL(int i) { energy[i] = contact.touch_of(i, x).energy + stored[i]; });
+  if (faces_) faces_->store_energies(set_, x, energy + vertices_);
   const std::vector<double> values = energy_.download();
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 template <class Real, class Device>
 ContactLoss Contact<Real, Device>::losses() const {
-  const std::vector<double> loss = loss_.download(), work = work_.download();
-  ContactLoss lost{std::accumulate(loss.begin(), loss.end(), 0.0),
-                   std::accumulate(work.begin(), work.end(), 0.0)};
+  ContactLoss lost = stops_.losses();
   if (faces_) {
     const ContactLoss between = faces_->losses();
     lost.friction += between.friction;
@@ -162,9 +123,124 @@ ContactLoss Contact<Real, Device>::losses() const {
 
 template <class Real, class Device>
 std::size_t Contact<Real, Device>::bytes() const {
-  return area_.bytes() + slip_.bytes() + touching_.bytes() + spared_.bytes() + stored_.bytes() +
-         loss_.bytes() + work_.bytes() + energy_.bytes() + lagged_.bytes() + inside_.bytes() +
-         force_.bytes() + share_.bytes() + scratch_.bytes() + (faces_ ? faces_->bytes() : 0);
+  return bytes_of(area_, stops_, spared_, energy_, lagged_, inside_, share_, scratch_) +
+         (faces_ ? faces_->bytes() : 0);
+}
+
+// Contact in an implicit step.  Friction follows the normal force and therefore has no potential; with the
+// force of the last iterate it has one, a stop's: k_t |e|^2/2 up to the limit, then limit |e|.
+
+namespace {
+
+// Stretch of the tangential stop at `moved` = x - before.
+template <class Real>
+HYST_HD Vec3<Real> lagged_slip(const LaggedFriction<Real>& lagged, const Vec3<Real>& moved) {
+  const Vec3<Real> e = moved + lagged.start;
+  return e - lagged.normal * lagged.normal.dot(e);
+}
+
+}  // namespace
+
+template <class Real, class Device>
+void Contact<Real, Device>::lag(const Vec3<Real>* x) {
+  if (lagged_.size() == 0) lagged_ = Buffer<LaggedFriction<Real>, Device>(device_, vertices_);
+  const VertexContact<Real> contact = view();
+  const StopView<Real> stops = stops_.view();
+  LaggedFriction<Real>* lagged = lagged_.data();
+  for_each(
+      device_, "contact friction, lagged", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = contact.touch_of(i, x);
+        lagged[i] = {t.normal, -t.obstacle_motion, t.friction * t.strongest};
+        if (stops.touching[i] == t.index + 1) lagged[i].start += stops.slip[i];
+      });
+  if (faces_) faces_->lag(set_, x);
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::evaluate(const Vec3<Real>* x, const Vec3<Real>* before, Vec3<Real>* gradient) {
+  const VertexContact<Real> contact = view();
+  const LaggedFriction<Real>* lagged = lagged_.data();
+  double* energy = energy_.data();
+  for_each(
+      device_, "contact, tried", vertices_, HYST_KERNEL(int i) {
+        const Touch<Real> t = contact.touch_of(i, x);
+        energy[i] = t.energy;
+        gradient[i] -= t.normal_force;
+        if (!(lagged[i].limit > 0)) return;
+        const Real k = contact.model.stop_stiffness(lagged[i].limit, contact.area[i]);
+        Vec3<Real> back;
+        energy[i] += lagged[i].energy_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, back);
+        gradient[i] += back;
+      });
+  if (faces_) faces_->evaluate(set_, x, before, Real(-1), gradient, energy + vertices_);
+}
+
+template <class Real, class Device>
+void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>* before,
+                                          BlockRowsView<Real> matrix, Real sliding_share) {
+  const VertexContact<Real> contact = view();
+  const LaggedFriction<Real>* lagged = lagged_.data();
+  Mat3<Real>* diagonal = matrix.diagonal;
+  for_each(
+      device_, "contact stiffness", vertices_, HYST_KERNEL(int i) {
+        diagonal[i] += contact.touch_of(i, x).normal_stiffness;
+        if (!(lagged[i].limit > 0)) return;
+        const Real k = contact.model.stop_stiffness(lagged[i].limit, contact.area[i]);
+        diagonal[i] +=
+            lagged[i].stiffness_at(lagged_slip<Real>(lagged[i], x[i] - before[i]), k, sliding_share);
+      });
+  if (faces_) faces_->add_stiffness(set_, x, before, Real(1), matrix, sliding_share);
+}
+
+// Obstacles that vertices, or they themselves, would pass through in one step.
+
+// The guess of a step: each vertex by itself, so that one does not hold up the others.
+template <class Real, class Device>
+void Contact<Real, Device>::keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
+  if (!set_.has_thin()) return;
+  const ObstacleSet<Real> set = set_;
+  const Real rest = static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
+  for_each(
+      device_, "contact: guess", vertices_, HYST_KERNEL(int i) {
+        if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest);
+      });
+  if (faces_) faces_->keep_out(set, start, end, held, rest);
+}
+
+template <class Real, class Device>
+bool Contact<Real, Device>::reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held) {
+  if (!set_.has_thin()) return true;
+  const ObstacleSet<Real> set = set_;
+  Real* share = share_.reserve(vertices_);
+  for_each(
+      device_, "contact: reached", vertices_, HYST_KERNEL(int i) {
+        share[i] = held[i] || hysteron::reaches(set, start[i], end[i]) ? Real(1) : Real(0);
+      });
+  if (!(smallest(device_, scratch_, share, vertices_, Real(1)) > 0)) return false;
+  return !faces_ || faces_->reaches(set, start, end, held);
+}
+
+// Where all go the same share of their way, as along a direction of Newton's method.
+template <class Real, class Device>
+double Contact<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction,
+                                            const char* held, double max_step) {
+  if (!set_.has_thin()) return max_step;
+  const ObstacleSet<Real> set = set_;
+  const Real asked = static_cast<Real>(max_step);
+  Real* share = share_.reserve(vertices_);
+  for_each(
+      device_, "contact: collisions", vertices_, HYST_KERNEL(int i) {
+        share[i] = 1;
+        if (held[i]) return;
+        const Vec3<Real> way = asked * direction[i];
+        for (int o = 0; o < set.count; ++o) {
+          if (!set.item[o].is_thin()) continue;
+          const Real free = free_share(set.item[o], x[i], way);
+          share[i] = free < share[i] ? free : share[i];
+        }
+      });
+  const double free = max_step * static_cast<double>(smallest(device_, scratch_, share, vertices_, Real(1)));
+  return faces_ ? faces_->feasible_step(set, x, direction, held, free) : free;
 }
 
 template class Contact<double, ThisDevice>;

@@ -13,23 +13,12 @@
 
 #include <optional>
 
-#include "sim/contact/contact_model.h"
 #include "sim/contact/face_contact.h"
-#include "sim/contact/obstacle_set.h"
 #include "sim/device/algorithms.h"
-#include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
-
-// Friction of one vertex as an implicit step sees it: what depends on the normal force, held fixed.
-template <class Real>
-struct LaggedFriction {
-  Vec3<Real> normal;
-  Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
-  Real limit;        // mu f_n [N]; 0: no contact
-};
 
 template <class Real, class Device>
 class Contact {
@@ -41,7 +30,7 @@ class Contact {
   // Adds step * force to rhs and step^2 * stiffness to the matrix, unless that is null.
   void add(const Vec3<Real>* position, const Vec3<Real>* before, Real step, Vec3<Real>* rhs,
            const BlockRowsView<Real>* matrix);
-  // Implicit steps (contact_implicit.cpp).  lag() fixes normals and limits of friction at `position`; with
+  // Implicit steps.  lag() fixes normals and limits of friction at `position`; with
   // them friction has a potential, to which evaluate() adds the shells': its gradient to `gradient`,
   // its energies() per vertex and triangle.  add_stiffness() is its positive semidefinite part
   // (sliding_share: sliding_stop.h).
@@ -54,7 +43,7 @@ class Contact {
   bool has_faces() const { return faces_.has_value(); }
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
-  // has another side, nor it through them (contact_sweep.cpp, face_sweep.cpp).  keep_out() ends each path of
+  // has another side, nor it through them (sweep.h, face_sweep.cpp).  keep_out() ends each path of
   // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
   // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
   void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
@@ -76,6 +65,8 @@ class Contact {
   std::size_t bytes() const;
 
  private:
+  VertexContact<Real> view() const { return {model_, set_, area_.data()}; }
+
   Device& device_;
   std::vector<Obstacle> obstacle_;
   double fabric_friction_;
@@ -84,13 +75,10 @@ class Contact {
   ObstacleSet<Real> set_;
   double moved_from_ = 0, moved_to_ = 0;  // for which it is [s]
   Buffer<Real, Device> area_;
-  Buffer<Vec3<Real>, Device> slip_;  // E [m]
-  Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
+  FrictionStops<Real, Device> stops_;
   Buffer<char, Device> spared_;
-  Buffer<double, Device> stored_;  // in it [J]
-  Buffer<double, Device> loss_, work_, energy_, inside_;
-  Buffer<Vec3<Real>, Device> force_;             // at the positions accepted last; of quasi-static scenes [N]
-  Buffer<LaggedFriction<Real>, Device> lagged_;  // of implicit steps; empty before the first
+  Buffer<double, Device> energy_, inside_;
+  Buffer<LaggedFriction<Real>, Device> lagged_;     // of implicit steps; empty before the first
   std::optional<FaceContact<Real, Device>> faces_;  // where an obstacle is sharper than the mesh
   GrowingBuffer<Real, Device> share_;               // of their ways that vertices may go; empty where all may
   Scratch<Device> scratch_;

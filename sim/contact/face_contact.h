@@ -8,24 +8,21 @@
 // sphere of radius R the middle of an equilateral triangle with edges h lies h^2/(6 R) lower.
 #pragma once
 
-#include "sim/contact/contact_model.h"
-#include "sim/contact/obstacle_set.h"
+#include "sim/contact/face_touch.h"
+#include "sim/contact/touch.h"
 #include "sim/device/algorithms.h"
-#include "sim/device/archive_buffer.h"
 #include "sim/linear/block_rows.h"
 #include "sim/linear/gathered_forces.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {
 
-// Friction at a triangle's nearest point: what depends on the normal force, held fixed.
+// Friction at a triangle's nearest point.
 template <class Real>
-struct FaceFriction {
-  Vec3<Real> normal, weight;
-  Vec3<Real> start;  // slip from before, less the obstacle's motion over the step [m]
-  Real limit;        // mu f_n [N]
-  int index;         // of the obstacle in the scene; -1: none
-  bool inside;       // the point is in a solid
+struct FaceFriction : LaggedFriction<Real> {
+  Vec3<Real> weight;
+  int index;    // of the obstacle in the scene; -1: none
+  bool inside;  // the point is in a solid
 };
 
 template <class Real>
@@ -33,6 +30,62 @@ struct FaceStiffness {
   Mat3<Real> block;  // at the point [N/m]
   Vec3<Real> weight;
   bool acts;
+};
+
+// Triangles against all obstacles that are sharper than the mesh; travels with a kernel launch by value.
+template <class Real>
+struct FaceView {
+  ContactModel<Real> model;
+  ObstacleSet<Real> set;
+  Real sharp;  // below this radius of curvature an obstacle is [m]
+  const Eigen::Vector3i* corner;
+  const Real* area;
+
+  HYST_HD bool feels(int obstacle) const { return set.item[obstacle].sharpest < sharp; }
+  HYST_HD void place(int f, const Vec3<Real>* x, Vec3<Real> (&at)[3]) const {
+    for (int k = 0; k < 3; ++k) at[k] = x[corner[f][k]];
+  }
+  HYST_HD Real stop_stiffness(int f, Real limit) const { return model.stop_stiffness(limit, area[f]); }
+
+  // Forces of the shells on the corners [N]; returns their energy, added to `energy` [J].
+  HYST_HD double press(int f, const Vec3<Real> (&at)[3], double energy, Vec3<Real>* force) const {
+    for (int k = 0; k < 3; ++k) force[k].setZero();
+    for (int o = 0; o < set.count; ++o) {
+      if (!feels(o)) continue;
+      const FaceTouch<Real> t = face_touch(set.item[o], model, at, area[f]);
+      if (!t.bears()) continue;
+      energy += t.energy;
+      for (int k = 0; k < 3; ++k) force[k] += t.on_corner(k);
+    }
+    return energy;
+  }
+  // Against the obstacle that presses most.
+  HYST_HD FaceFriction<Real> friction(int f, const Vec3<Real> (&at)[3], const StopView<Real>& stops) const {
+    FaceFriction<Real> friction{{Vec3<Real>::Zero(), Vec3<Real>::Zero(), 0}, Vec3<Real>::Zero(), -1, false};
+    Real strongest = 0;
+    for (int o = 0; o < set.count; ++o) {
+      if (!feels(o)) continue;
+      const FaceTouch<Real> t = face_touch(set.item[o], model, at, area[f]);
+      friction.inside |= t.inside;
+      if (!(t.force > strongest)) continue;
+      strongest = t.force;
+      friction.normal = t.direction.normalized();
+      friction.weight = t.weight;
+      friction.limit = t.limit;
+      friction.index = set.item[o].index;
+      const Vec3<Real> point = t.weight[0] * at[0] + t.weight[1] * at[1] + t.weight[2] * at[2];
+      friction.start = -motion_over_step(set.item[o], point);
+    }
+    if (friction.index >= 0 && stops.touching[f] == friction.index + 1) friction.start += stops.slip[f];
+    return friction;
+  }
+  // Stretch of a triangle's stop.
+  HYST_HD Vec3<Real> slip(int f, const FaceFriction<Real>& friction, const Vec3<Real>* x,
+                          const Vec3<Real>* before) const {
+    Vec3<Real> e = friction.start;
+    for (int k = 0; k < 3; ++k) e += friction.weight[k] * (x[corner[f][k]] - before[corner[f][k]]);
+    return e - friction.normal * friction.normal.dot(e);
+  }
 };
 
 template <class Real, class Device>
@@ -59,8 +112,8 @@ class FaceContact {
   double feasible_step(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* direction,
                        const char* held, double max_step);
 
-  void visit(Archive& archive);
-  ContactLoss losses() const;
+  void visit(Archive& archive) { stops_.visit(archive, device_); }
+  ContactLoss losses() const { return stops_.losses(); }
   int faces() const { return faces_; }
   std::size_t bytes() const;
 
@@ -71,6 +124,9 @@ class FaceContact {
 
  private:
   bool is_sharp(const Obstacle3<Real>& obstacle) const { return obstacle.sharpest < sharp_; }
+  FaceView<Real> view(const ObstacleSet<Real>& set) const {
+    return {model_, set, sharp_, corner_.data(), area_.data()};
+  }
 
   Device& device_;
   ContactModel<Real> model_;
@@ -79,10 +135,8 @@ class FaceContact {
   Buffer<Eigen::Vector3i, Device> corner_;
   Buffer<int, Device> vertex_start_, vertex_item_;  // 3*face + corner
   Buffer<Real, Device> area_;
-  Buffer<Vec3<Real>, Device> slip_;  // E [m]
-  Buffer<int, Device> touching_;     // obstacle index + 1, 0 = free
-  Buffer<double, Device> stored_, loss_, work_, inside_;
-  Buffer<Vec3<Real>, Device> pressed_;  // on corners at the positions accepted last; of quasi-static scenes
+  FrictionStops<Real, Device> stops_;  // a force for each corner
+  Buffer<double, Device> inside_;
   Buffer<FaceFriction<Real>, Device> lagged_;
   Buffer<FaceStiffness<Real>, Device> stiffness_;
   Buffer<Vec3<Real>, Device> force_;  // three for each face

@@ -2,7 +2,6 @@
 // goes farther than the corner that goes farthest, so that the triangle's distance can be followed as a
 // vertex's is (sweep.h).
 #include "sim/contact/face_contact.h"
-#include "sim/contact/face_point.h"
 #include "sim/contact/sweep.h"
 
 namespace hysteron {
@@ -113,45 +112,40 @@ Real FaceContact<Real, Device>::end_before(const Obstacle3<Real>& in, const Vec3
 }
 
 template <class Real, class Device>
-bool FaceContact<Real, Device>::reaches(const ObstacleSet<Real>& in, const Vec3<Real>* start,
+bool FaceContact<Real, Device>::reaches(const ObstacleSet<Real>& set, const Vec3<Real>* start,
                                         const Vec3<Real>* end, const char* held) {
-  const ObstacleSet<Real> set = in;
-  const Real sharp = sharp_;
-  const Eigen::Vector3i* corner = corner_.data();
+  const FaceView<Real> faces = view(set);
   Real* share = share_.reserve(faces_);
   for_each(
       device_, "face contact: reached", faces_, HYST_KERNEL(int f) {
         share[f] = 1;
-        if (any_held(corner[f], held)) return;
-        for (int o = 0; o < set.count; ++o) {
-          if (!(set.item[o].sharpest < sharp)) continue;
-          const FacePath<Real> path = path_beside(set.item[o], corner[f], start, end);
-          if (free_share(path, set.item[o]) < 1) share[f] = 0;
+        if (any_held(faces.corner[f], held)) return;
+        for (int o = 0; o < faces.set.count; ++o) {
+          if (!faces.feels(o)) continue;
+          const FacePath<Real> path = path_beside(faces.set.item[o], faces.corner[f], start, end);
+          if (free_share(path, faces.set.item[o]) < 1) share[f] = 0;
         }
       });
   return smallest(device_, scratch_, share, faces_, Real(1)) > 0;
 }
 
 template <class Real, class Device>
-double FaceContact<Real, Device>::feasible_step(const ObstacleSet<Real>& in, const Vec3<Real>* x,
+double FaceContact<Real, Device>::feasible_step(const ObstacleSet<Real>& set, const Vec3<Real>* x,
                                                 const Vec3<Real>* direction, const char* held,
                                                 double max_step) {
-  const ObstacleSet<Real> set = in;
-  const Real sharp = sharp_, asked = static_cast<Real>(max_step);
-  const Eigen::Vector3i* corner = corner_.data();
+  const FaceView<Real> faces = view(set);
+  const Real asked = static_cast<Real>(max_step);
   Real* share = share_.reserve(faces_);
   for_each(
       device_, "face contact: collisions", faces_, HYST_KERNEL(int f) {
         share[f] = 1;
-        if (any_held(corner[f], held)) return;
+        if (any_held(faces.corner[f], held)) return;
         FacePath<Real> path;
-        for (int k = 0; k < 3; ++k) {
-          path.from[k] = x[corner[f][k]];
-          path.way[k] = asked * direction[corner[f][k]];
-        }
-        for (int o = 0; o < set.count; ++o) {
-          if (!(set.item[o].sharpest < sharp)) continue;
-          const Real free = free_share(path, set.item[o]);
+        faces.place(f, x, path.from);
+        for (int k = 0; k < 3; ++k) path.way[k] = asked * direction[faces.corner[f][k]];
+        for (int o = 0; o < faces.set.count; ++o) {
+          if (!faces.feels(o)) continue;
+          const Real free = free_share(path, faces.set.item[o]);
           share[f] = free < share[f] ? free : share[f];
         }
       });

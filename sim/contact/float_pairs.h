@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/contact/self_contact.h"
-#include "sim/linear/float_stiffness.h"
+#include "sim/linear/gathered_forces.h"
 
 namespace hysteron {
 
@@ -23,6 +23,26 @@ class FloatPairs : public FloatStiffness<Device> {
   const SelfContact<double, Device>& contact_;
   GrowingBuffer<PairStiffness<float>, Device> stiffness_;
   GrowingBuffer<Vec3<float>, Device> force_;  // four for each pair
+};
+
+// The stiffness of self-contact pair by pair, on the CPU: between the closest points of each.
+template <class Real>
+class PairElements : public ElementStiffness {
+ public:
+  // `contact` must outlive it.
+  explicit PairElements(const SelfContact<Real, Cpu>& contact) : contact_(contact) {}
+
+  int elements() const override { return static_cast<int>(contact_.pressing().size()); }
+  std::span<const int> vertices(int pair) const override { return contact_.pressing()[pair].v; }
+  void linearised(int pair, Rates& rates, Eigen::Matrix3d& stiffness) const override {
+    const PairStiffness<Real>& s = contact_.pressing()[pair];
+    for (int k = 0; k < 4; ++k)
+      rates.middleCols<3>(3 * k) = static_cast<double>(s.weight[k]) * Eigen::Matrix3d::Identity();
+    stiffness = s.block.template cast<double>();
+  }
+
+ private:
+  const SelfContact<Real, Cpu>& contact_;
 };
 
 }  // namespace hysteron

@@ -6,6 +6,7 @@
 
 #include "sim/contact/compression.h"
 #include "sim/contact/signed_distance.h"
+#include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
 
 namespace hysteron {
@@ -78,5 +79,11 @@ std::string immersion_text(const Immersion& immersion, const std::vector<Obstacl
                            const Eigen::Vector3d& at);
 // "vertex 57 at (0.1, 0.2, 0) m"
 std::string vertex_text(int vertex, const Eigen::Vector3d& x);
+
+// Which obstacles are sharper than the cloth's mesh, so that they enter its triangles between vertices.
+
+// Below this radius of curvature an obstacle is sharper than the mesh [m].
+double sharp_radius(const Scene& scene, const ClothMesh& mesh);
+bool is_sharper_than_mesh(const Scene& scene, const ClothMesh& mesh);
 
 }  // namespace hysteron

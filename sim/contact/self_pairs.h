@@ -26,7 +26,7 @@ struct SelfPair {
 // The pairs that can matter while vertices go from x by a step along `direction`, and anywhere within `reach`
 // of a point of that path: all that come nearer to each other than their shells.  Rows: vertices, then edges
 // by rank in their tree.  Pairs that share a vertex are none, nor are those whose vertices are all held; of
-// those alone whose vertices are held by different hands there is a list of its own (hand_sweep.h).
+// those alone whose vertices are held by different hands there is a list of its own (HandSweep).
 //
 // A pair's shell is the cloth's thickness, or half its distance at rest if that is less: what is near on
 // the flat cloth is no contact.  On flat layers one upon the other the areas of vertices right above
@@ -72,6 +72,26 @@ class SelfPairs {
   GrowingBuffer<SelfPair<Real>, Device> pair_, old_pair_;
   Scratch<Device> scratch_;
   Buffer<Vec3<double>, Device> sum_;
+};
+
+// Whether hands lead the layers that they hold through each other: vertices that are all held are in no pair
+// of self-contact.
+template <class Real, class Device>
+class HandSweep {
+ public:
+  HandSweep(Device& device, const ClothMesh& mesh, double thickness)
+      : device_(device), pairs_(device, mesh, thickness), share_(device) {}
+
+  // Whether layers that different hands hold stay as far apart as pressure could press them while held
+  // vertices go from x along `way` [m], which is 0 of free ones; `hand` is the number of the one at each
+  // vertex.
+  bool is_free(const Vec3<Real>* x, const Vec3<Real>* way, const char* held, const int* hand);
+  std::size_t bytes() const { return pairs_.bytes() + share_.bytes(); }
+
+ private:
+  Device& device_;
+  SelfPairs<Real, Device> pairs_;
+  GrowingBuffer<Real, Device> share_;  // of its way that each pair may go
 };
 
 }  // namespace hysteron

@@ -1,7 +1,8 @@
 // One vertex against all obstacles: the force of its shell, and the stop of friction in its tangent plane.
 #pragma once
 
-#include "sim/contact/contact.h"
+#include "sim/contact/friction_stops.h"
+#include "sim/contact/obstacle_set.h"
 
 namespace hysteron {
 
@@ -58,21 +59,23 @@ HYST_HD HYST_NOINLINE Touch<Real> touch(const ObstacleSet<Real>& set, const Cont
   return t;
 }
 
-// Trial slip, the share of it that friction can hold, and the stiffness of the stop [N/m].
+// Vertices against all obstacles; travels with a kernel launch by value.
 template <class Real>
-struct Slip {
-  Vec3<Real> trial;
-  Real share, stiffness;
-};
+struct VertexContact {
+  ContactModel<Real> model;
+  ObstacleSet<Real> set;
+  const Real* area;
 
-template <class Real>
-HYST_HD Slip<Real> slip(const Touch<Real>& t, const ContactModel<Real>& model, Real area,
-                        const Vec3<Real>& moved, const Vec3<Real>& before, int touching) {
-  Vec3<Real> e = moved - t.obstacle_motion;
-  if (touching == t.index + 1) e += before;
-  e -= t.normal * t.normal.dot(e);
-  const Real limit = t.friction * t.strongest, k = model.stop_stiffness(limit, area), length = e.norm();
-  return {e, k * length > limit ? limit / (k * length) : Real(1), k};
-}
+  HYST_HD Touch<Real> touch_of(int i, const Vec3<Real>* x) const { return touch(set, model, x[i], area[i]); }
+  // Of a vertex that has moved by `moved` over the step.
+  HYST_HD Slip<Real> slip_of(int i, const Touch<Real>& t, const Vec3<Real>& moved,
+                             const StopView<Real>& stops) const {
+    Vec3<Real> e = moved - t.obstacle_motion;
+    if (stops.touching[i] == t.index + 1) e += stops.slip[i];
+    e -= t.normal * t.normal.dot(e);
+    const Real limit = t.friction * t.strongest;
+    return slip_within<Real>(e, limit, model.stop_stiffness(limit, area[i]));
+  }
+};
 
 }  // namespace hysteron

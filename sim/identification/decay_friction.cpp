@@ -6,7 +6,6 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/identification/covariance.h"
 #include "sim/identification/fab_cycles.h"
 #include "sim/identification/least_squares.h"
 #include "sim/reference/fab_test.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/identification/covariance.h"
+#include "sim/identification/least_squares.h"
 
 namespace hysteron {
 namespace {

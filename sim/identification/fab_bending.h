@@ -1,21 +1,50 @@
 // Friction elements of bending from the loops of a FAB tester: the test is simulated with trial elements, and
 // the forces compared.
 //
-// Friction is sought in one of the forms of friction_form.h: stops on a fixed grid, so that a coarse record
+// Friction is sought in one of the forms below: stops on a fixed grid, so that a coarse record
 // decides about stiffnesses alone, or a shape of two numbers.  What is sought has a prior, without which
 // elements that a cycle hardly slips would go to nothing or grow without bound (Tarantola 2005, section 3.2):
 // a friction moment by the work of the loop over the change of the bend; b2 by HB/b2 of textiles.
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "sim/identification/friction_form.h"
+#include "sim/bending/laws/friction_shape.h"
 #include "sim/identification/identification.h"
 #include "sim/reference/fab_test.h"
 
 namespace hysteron {
+
+// Forms that friction may have when it is sought in measured loops: from few parameters to stops.
+
+// Parameters are of order one and 0 where nothing is known but the friction moment by the loops' work [N], on
+// which they are centred with the standard deviations `spreads` (ridge of Hoerl & Kennard 1970).
+struct FrictionForm {
+  std::string name;
+  std::vector<double> spreads;
+  std::function<Spectrum(const Eigen::VectorXd& parameters, double friction_moment)> stops;
+};
+
+// Stops at thresholds that are given [1/m]: logarithms of their moments, shared alike.
+FrictionForm free_stops(const std::vector<double>& thresholds);
+
+// Of two numbers (friction_shape.h): logarithms of HB, of median and spread over kUsualMedian and
+// kUsualSpread.
+inline constexpr double kUsualMedian = 10, kUsualSpread = 1.5;  // 1/m, 1: between measured spectra
+FrictionForm shaped_friction();
+FrictionShape shape_of(const Eigen::VectorXd& parameters);
+
+// Friction that saturates at k0 [1/m] as even stops: the logarithm of HB.
+FrictionForm even_friction(double k0);
+
+// Standard errors of the logarithms of the stops' stiffnesses and, last, of their friction moment, from the
+// covariance of the parameters.
+Eigen::VectorXd stop_errors(const FrictionForm& form, const Eigen::VectorXd& parameters,
+                            const Eigen::MatrixXd& covariance);
 
 struct FabBendingQuestion {
   std::vector<int> cycles = {2};                                        // that are fitted, the first being 1

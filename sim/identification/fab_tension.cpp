@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/identification/covariance.h"
 #include "sim/identification/fab_cycles.h"
 #include "sim/identification/least_squares.h"
 #include "sim/scene/key_table.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "sim/identification/identification.h"
+#include "sim/identification/model.h"
 
 namespace hysteron {
 
@@ -51,5 +52,57 @@ MomentTable moment_table(const SmoothProfile& line, double weight);
 // the table's.  Throws Error::request if the profile does not bend down, or shows a stiffness that no fabric
 // has.
 Identification identify_profile(const Profile& profile, double density, const Assumptions& assumptions);
+
+// Inside of the smooth centre line: shared by its fit and by what is read from it.
+
+inline constexpr int kSegments = 200;  // of the centre line, equally long
+
+// Curvature times length at t = s/L.
+double bend(const SmoothProfile& line, double t);
+
+// kSegments + 1 points from the clamp to the free end [m].
+std::vector<Eigen::Vector2d> centre_line(const SmoothProfile& line);
+
+// Share of the length up to each point, along the polygon of the points.
+std::vector<double> chord_shares(const Profile& profile);
+
+// Distances of the points from a line of kSegments, left of it positive [m]; then how far the first and the
+// last point are from the line's ends, along it.  `about`: segment near which each point lies.
+Eigen::VectorXd distances(const std::vector<Eigen::Vector2d>& line, const Profile& profile,
+                          const std::vector<int>& about);
+
+// Nearest smooth line with as many terms as `start` has.
+SmoothProfile smooth_with(const Profile& profile, const Eigen::VectorXd& start);
+
+// A strip that sags from a clamp under its own weight, as a function of its virgin curve.
+
+// Where a strip's free end is.
+struct StripEnd {
+  Eigen::Vector2d place;  // [m]
+  double angle = 0;       // of the strip there [rad]
+};
+
+// Centre line from the clamp to the free end: segments + 1 points at equal distances [m].  `weight` per area
+// [N/m^2].  Loading only: every curvature grew from zero (midpoint rule from the free end, where K = 0).
+std::vector<Eigen::Vector2d> hanging_strip(const VirginCurve& curve, double weight, double length,
+                                           const StripEnd& end, int segments);
+
+// Nuisance: place of the free end and logarithm of the length, over the length of the smooth line; its angle.
+class StripModel : public CurveModel {
+ public:
+  StripModel(const Profile& profile, const SmoothProfile& line, double weight, const CurvePoint& start);
+
+  // Distances of the points from the strip over a tenth of its length.
+  Eigen::VectorXd residuals(const CurvePoint& point) const override;
+  CurvePoint start() const override { return start_; }
+  // Root mean square distance of the points [m].
+  double scatter(const CurvePoint& point) const;
+
+ private:
+  Profile profile_;
+  std::vector<int> about_;  // segment near which each point lies
+  double weight_, length_;
+  CurvePoint start_;
+};
 
 }  // namespace hysteron

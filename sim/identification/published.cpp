@@ -4,7 +4,7 @@
 
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
-#include "sim/identification/covariance.h"
+#include "sim/identification/least_squares.h"
 #include "sim/identification/series.h"
 #include "sim/scene/fabric_reader.h"
 #include "sim/scene/key_table.h"

@@ -1,8 +1,8 @@
 // b1, b2 and k0 of any measurement, what it leaves open, and what is assumed then.
 #pragma once
 
-#include "sim/identification/covariance.h"
 #include "sim/identification/identification.h"
+#include "sim/identification/least_squares.h"
 #include "sim/identification/model.h"
 #include "sim/scene/key_table.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/identification/covariance.h"
 #include "sim/identification/curve.h"
 #include "sim/identification/least_squares.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sim/linear/block_rows.h"
+#include "sim/linear/compressed_rows.h"
 #include "sim/linear/rest_hierarchy.h"
-#include "sim/linear/upper_blocks.h"
 
 namespace hysteron {
 

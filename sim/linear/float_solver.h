@@ -9,7 +9,7 @@
 
 #include <memory>
 
-#include "sim/linear/float_stiffness.h"
+#include "sim/linear/gathered_forces.h"
 #include "sim/linear/linear_solver.h"
 
 namespace hysteron {

@@ -1,6 +1,9 @@
 // Forces of elements on their vertices, gathered in a fixed order.
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
+
 #include "sim/device/device.h"
 
 namespace hysteron {
@@ -15,6 +18,42 @@ struct GatheredForces {
     for (int j = start[vertex]; j < start[vertex + 1]; ++j) f += force[item[j]];
     return f;
   }
+};
+
+// A stiffness that products apply element by element, in single precision.
+template <class Device>
+class FloatStiffness {
+ public:
+  virtual ~FloatStiffness() = default;
+  // Rounds the stiffness as it was linearised last.
+  virtual void round() = 0;
+  // What that makes of a displacement, as the StiffnessProduct of double precision that it stands for.
+  virtual GatheredForces<float> apply(const Vec3<float>* p) = 0;
+  virtual std::size_t force_bytes() const = 0;  // of what apply() returns
+  virtual std::size_t bytes() const = 0;
+};
+
+// to[i] = from[i] for i in [0, count).
+template <class Device>
+void round_all(Device& device, const char* name, std::size_t count, const double* from, float* to) {
+  for_each(
+      device, {name, count * (sizeof(double) + sizeof(float))}, static_cast<int>(count),
+      HYST_KERNEL(int i) { to[i] = static_cast<float>(from[i]); });
+}
+
+// A stiffness that products apply element by element, in the parts from which it is assembled.
+
+// Sum over the elements of B^T T B with B: how up to three strains change with the positions of the
+// element's vertices, T: how its forces change with the strains.
+class ElementStiffness {
+ public:
+  using Rates = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // B, three columns for each vertex [strain/m]
+
+  virtual ~ElementStiffness() = default;
+  virtual int elements() const = 0;
+  virtual std::span<const int> vertices(int element) const = 0;
+  // B and T where the stiffness was linearised last; rows of strains that an element does not have are zero.
+  virtual void linearised(int element, Rates& rates, Eigen::Matrix3d& stiffness) const = 0;
 };
 
 }  // namespace hysteron

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
 #include "sim/base/error.h"
 #include "sim/mesh/random_points.h"
+#include "sim/mesh/topology.h"
 
 namespace hysteron {
+
 namespace {
 
 constexpr std::pair<MeshFamily, const char*> kFamilies[] = {
@@ -193,6 +196,99 @@ ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily 
   const CellShape shape{row_height(family), in_rows(family) ? 1 : 0};
   const auto [nx, ny] = cell_counts(length, width, triangles, shape);
   return make_grid(length, width, nx, ny, family, seed);
+}
+
+// Tubes: a rectangle rolled up and sewn along its length, as a sleeve or a trouser leg is.
+
+namespace {
+
+// Edges that lie on neither end are open: the two sides of the seam did not meet.
+bool is_closed(const ClothMesh& mesh, double length) {
+  const auto at_end = [&](int vertex) {
+    const double x = mesh.rest[vertex].x();
+    return std::min(std::abs(x), std::abs(x - length)) < 1e-9 * length;
+  };
+  for (std::size_t e = mesh.interior_edges; e < mesh.edge.size(); ++e)
+    if (!at_end(mesh.edge[e].p2) || !at_end(mesh.edge[e].p3)) return false;
+  return true;
+}
+
+}  // namespace
+
+ClothMesh make_tube(double length, double radius, int triangles, MeshFamily family, unsigned seed) {
+  check_length("tube", "radius", radius);
+  const double around = 2 * std::numbers::pi * radius;
+  const ClothMesh flat = make_rectangle(length, around, triangles, family, seed);
+  ClothMesh tube;
+  std::vector<Eigen::Vector3d> rolled;
+  for (const Eigen::Vector3d& x : flat.rest) {
+    const double angle = x.y() / radius;
+    rolled.push_back({x.x(), -radius * std::sin(angle), -radius * std::cos(angle)});
+  }
+  constexpr double kSeam = 1e-6;  // of the radius: far below any edge, far above rounding
+  const std::vector<int> kept = nearby_representatives(rolled, kSeam * radius);
+  std::vector<int> number(rolled.size());
+  for (std::size_t i = 0; i < rolled.size(); ++i) {
+    number[i] = kept[i] < static_cast<int>(i) ? number[kept[i]] : static_cast<int>(tube.rest.size());
+    if (kept[i] == static_cast<int>(i)) tube.rest.push_back(rolled[i]);
+  }
+  for (const Eigen::Vector3i& t : flat.face) tube.face.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  build_topology(tube, "tube mesh");
+  if (!is_closed(tube, length))
+    throw Error::request("tube mesh: the two sides of the seam do not meet with mesh = " + to_string(family) +
+                         " and " + std::to_string(triangles) + " triangles; take mesh = unionjack");
+  return tube;
+}
+
+namespace {
+
+constexpr int kPieces = 4;  // of a triangle
+
+// By the vertices of the whole and the middles m_i opposite to them:
+//
+//         2
+//        /  \            .
+//      m1----m0
+//     /  \  /  \         .
+//    0----m2----1
+template <class Point>
+std::array<std::array<Point, 3>, kPieces> pieces(const std::array<Point, 3>& at,
+                                                 const std::array<Point, 3>& m) {
+  return {{{at[0], m[2], m[1]}, {m[2], at[1], m[0]}, {m[1], m[0], at[2]}, {m[0], m[1], m[2]}}};
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> with_middles(const ClothMesh& mesh, std::vector<Eigen::Vector3d> x) {
+  x.reserve(x.size() + mesh.edge.size());
+  for (const Edge& e : mesh.edge) x.push_back((x[e.p2] + x[e.p3]) / 2);
+  return x;
+}
+
+ClothMesh subdivided(const ClothMesh& mesh) {
+  if (mesh.faces() > kMostTriangles / kPieces)
+    throw Error::request("subdivided mesh: 4 times " + std::to_string(mesh.faces()) +
+                         " triangles must be at most " + std::to_string(kMostTriangles));
+  ClothMesh fine;
+  fine.warp_axis = mesh.warp_axis;
+  fine.sewn = mesh.sewn;
+  fine.rest = with_middles(mesh, mesh.rest);
+  fine.pattern = mesh.pattern;
+  if (!mesh.pattern.empty())
+    for (const Edge& e : mesh.edge) fine.pattern.push_back((mesh.pattern[e.p2] + mesh.pattern[e.p3]) / 2);
+  for (int f = 0; f < mesh.faces(); ++f) {
+    const auto& [a, b, c] = mesh.face_edge[f];
+    const int n = mesh.vertices();
+    const std::array corner{mesh.face[f][0], mesh.face[f][1], mesh.face[f][2]};
+    for (const auto& [i, j, k] : pieces<int>(corner, {n + a, n + b, n + c})) fine.face.emplace_back(i, j, k);
+    if (mesh.panel.empty()) continue;
+    const auto& at = mesh.panel[f];
+    for (const auto& piece :
+         pieces<Eigen::Vector2d>(at, {(at[1] + at[2]) / 2, (at[2] + at[0]) / 2, (at[0] + at[1]) / 2}))
+      fine.panel.push_back(piece);
+  }
+  build_topology(fine, "subdivided mesh");
+  return fine;
 }
 
 }  // namespace hysteron

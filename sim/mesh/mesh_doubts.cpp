@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/number_text.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/corner_sets.h"
 #include "sim/mesh/point_grid.h"
-#include "sim/mesh/weld.h"
+#include "sim/mesh/topology.h"
 
 namespace hysteron {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/mesh/ply_content.h"
+#include "sim/mesh/ply_header.h"
 
 #include <CGAL/IO/PLY/PLY_reader.h>
 

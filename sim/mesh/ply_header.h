@@ -1,7 +1,9 @@
 // What a PLY file announces, and whether it can hold it.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,5 +55,16 @@ struct PlyHeader {
 // Throws Error::request, beginning with `what` and naming the line, unless `text` starts with a header whose
 // types are PLY's own and is long enough for the elements it announces.
 PlyHeader read_ply_header(std::string_view text, const std::string& what);
+
+// The numbers of a PLY file, read by CGAL.
+struct PlyContent {
+  std::vector<Eigen::Vector3d> vertex;
+  std::vector<double> curvature;                // per vertex; empty: not in the file
+  std::vector<std::vector<std::int64_t>> face;  // vertices of each polygon, unchecked
+};
+
+// `text` is the file with that header, which has the elements and types that `read_ply` asks for.  Throws
+// Error::request, beginning with `what`, where the content does not fit the header.
+PlyContent read_ply_content(const std::string& text, const PlyHeader& header, const std::string& what);
 
 }  // namespace hysteron

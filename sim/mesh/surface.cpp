@@ -6,8 +6,7 @@
 #include "sim/base/whole_file.h"
 #include "sim/mesh/file_ending.h"
 #include "sim/mesh/obj_soup.h"
-#include "sim/mesh/ply_content.h"
-#include "sim/mesh/quad.h"
+#include "sim/mesh/ply_header.h"
 
 namespace hysteron {
 namespace {

@@ -5,8 +5,11 @@
 #include <tuple>
 
 #include "sim/base/error.h"
+#include "sim/mesh/cloth_mesh.h"
+#include "sim/mesh/point_grid.h"
 
 namespace hysteron {
+
 namespace {
 
 // Below this height over longest edge a triangle has no normal worth computing with: its hinge angles would
@@ -223,6 +226,34 @@ std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
   in_plane.normalize();
   if (textured) in_plane = warp_axis.x() * in_plane + warp_axis.y() * normal.cross(in_plane);
   return {in_plane, normal.cross(in_plane)};
+}
+
+std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& points, double distance) {
+  PointGrid kept(points, distance);
+  std::vector<int> representative;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    int lowest = i;
+    kept.around(points[i], [&](int j) {
+      if (j < lowest && (points[j] - points[i]).norm() < distance) lowest = j;
+    });
+    representative.push_back(lowest);
+    if (lowest == i) kept.add(i, points[i]);
+  }
+  return representative;
+}
+
+ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& offset) {
+  ClothMesh all;
+  all.warp_axis = mesh.warp_axis;
+  all.sewn = mesh.sewn;
+  for (int k = 0; k < copies; ++k) {
+    for (const Eigen::Vector3d& x : mesh.rest) all.rest.push_back(x + k * offset);
+    for (const Eigen::Vector3i& t : mesh.face) all.face.push_back(t.array() + k * mesh.vertices());
+    all.pattern.insert(all.pattern.end(), mesh.pattern.begin(), mesh.pattern.end());
+    all.panel.insert(all.panel.end(), mesh.panel.begin(), mesh.panel.end());
+  }
+  build_topology(all, "copies of the mesh");
+  return all;
 }
 
 }  // namespace hysteron

@@ -1,6 +1,7 @@
 // Building the topology of a mesh whose triangles and vertices come from the lines of a file.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,11 @@ struct MeshNames {
 
 // As build_topology(mesh, what), with the file's lines in its messages.
 void build_topology(ClothMesh& mesh, const MeshNames& names);
+
+// Joining vertices that lie on each other, as exporters leave them along seams.
+
+// For each point the lowest-numbered kept point closer than `distance` [m], or itself, which is then kept.
+// Kept points are at least `distance` apart.  Expected time linear in the points (spatial hash).
+std::vector<int> nearby_representatives(const std::vector<Eigen::Vector3d>& points, double distance);
 
 }  // namespace hysteron

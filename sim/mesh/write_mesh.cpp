@@ -5,7 +5,7 @@
 
 #include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
-#include "sim/base/number_text.h"
+#include "sim/base/number_in.h"
 #include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron {

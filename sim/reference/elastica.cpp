@@ -17,9 +17,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSeconds = 1;        // of a step, for laws with a clock
-constexpr double kConverged = 1e-12;  // unbalanced moment over w L^2 load
-constexpr int kMostIterations = 60, kMostHalvings = 30;
+constexpr double kSeconds = 1;       // of a step, for laws with a clock
+constexpr double kBalanced = 1e-12;  // unbalanced moment over w L^2 load
+constexpr int kMostNewtonSteps = 60, kMostHalvings = 30;
 
 // The law at `count` points with a history each.
 class Points {
@@ -148,12 +148,12 @@ class Solver {
  private:
   // Newton's method with steps shortened until the unbalanced moment falls.
   bool solve(double load) {
-    const double scale = kConverged * strip_.weight * strip_.length * strip_.length * std::max(1.0, load);
+    const double scale = kBalanced * strip_.weight * strip_.length * strip_.length * std::max(1.0, load);
     VectorXd k = curvature_, moment, tangent;
     Curve c = curve_of(h_, k, strip_.weight);
     points_.look(k, moment, tangent);
     VectorXd residual = moment - load * c.moment;
-    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (int iteration = 0; iteration < kMostNewtonSteps; ++iteration) {
       if (residual.lpNorm<Eigen::Infinity>() <= scale) {
         points_.accept(k);
         curvature_ = k;

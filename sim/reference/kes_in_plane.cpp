@@ -9,8 +9,8 @@
 namespace hysteron {
 namespace {
 
-constexpr int kHalvings = 60;
-constexpr double kMostStretch = 2;
+constexpr int kBisections = 60;
+constexpr double kMostExtension = 2;
 // Of the largest tension, where the way back ends: cloth without any is in equilibrium wherever it lies.
 constexpr double kLeftOver = 1e-4;
 
@@ -21,7 +21,7 @@ StopsLaw beside(double spring, const Spectrum& stops) {
 // Of an increasing function between low and high.
 template <class Function>
 double root(const Function& of, double low, double high) {
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kBisections; ++i) {
     const double middle = (low + high) / 2;
     (of(middle) < 0 ? low : high) = middle;
   }
@@ -104,7 +104,7 @@ ShearTest test_shear(const InPlaneLaw& law, const InPlaneProtocol& p) {
   for (const LawRow& row : test.walk.shear.rows) {
     const double g = row.curvature;
     const double stretch =
-        root([&](double l) { return tension.stress(strain_of(l, g)) * l - p.weight; }, 0.5, kMostStretch);
+        root([&](double l) { return tension.stress(strain_of(l, g)) * l - p.weight; }, 0.5, kMostExtension);
     test.walk.stretch.push_back(stretch);
     test.force.push_back(shear.stress(g));
     tension.accept(strain_of(stretch, g));
@@ -119,18 +119,18 @@ TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& p) {
   const auto force = [&](double extension) {
     return tension.stress(strain_of(1 + extension, 0)) * (1 + extension);
   };
-  if (force(kMostStretch - 1) < p.largest)
+  if (force(kMostExtension - 1) < p.largest)
     throw Error::request(
         fmt::format("load = {0:g} N/m stretches a fabric of {1:g} N/m to more than twice its length: it must "
                     "be < {2:g} N/m",
-                    p.largest, law.tension.spring, force(kMostStretch - 1)));
+                    p.largest, law.tension.spring, force(kMostExtension - 1)));
   TensionTest test;
   const auto go = [&](double extension) {
     test.extension.push_back(extension);
     test.force.push_back(force(extension));
     tension.accept(strain_of(1 + extension, 0));
   };
-  const double largest = root([&](double e) { return force(e) - p.largest; }, 0, kMostStretch - 1);
+  const double largest = root([&](double e) { return force(e) - p.largest; }, 0, kMostExtension - 1);
   for (int i = 0; i <= p.steps; ++i) go(largest * i / p.steps);
   test.turn = test.force.size() - 1;
   const double slack = root([&](double e) { return force(e) - kLeftOver * p.largest; }, -0.5, largest);

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "sim/base/enum_names.h"
-#include "sim/base/number_text.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/scene/keys.h"
+#include "sim/scene/scene.h"
 
 namespace hysteron {
 
@@ -44,5 +45,15 @@ void check_in_plane_stops(const Scene& scene);  // the same of fabric.membrane.*
 // run, since experiments say how long they last.  Throws Error::request.
 void check_duration(const Scene& scene);
 void check_steps(const Scene& scene);  // the part of it that asks what the integrator can do
+
+// Times of a scene by the names of its phases.
+
+// When the named phase begins [s]; -1 if there is none of that name.
+double phase_start(const std::vector<Phase>& phases, const std::string& name);
+// Sum of all of them [s].
+double phases_end(const std::vector<Phase>& phases);
+// A time written as "hang", "hang + 0.2" or "hang - 0.2" (spaces as one likes) [s].  Error::request, which
+// ends in `origin`, for a name that is no phase or a number that is none.
+double time_of(const std::vector<Phase>& phases, const std::string& text, const std::string& origin);
 
 }  // namespace hysteron

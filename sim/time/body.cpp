@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/scene/local_frame.h"
+#include "sim/scene/cloth.h"
 #include "sim/time/refusals.h"
 
 namespace hysteron {

@@ -13,7 +13,6 @@
 #include "sim/membrane/membrane.h"
 #include "sim/time/hands.h"
 #include "sim/time/ledger.h"
-#include "sim/time/vertex_ledger.h"
 
 namespace hysteron {
 
@@ -44,7 +43,7 @@ struct Body {
   Body(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth, const CurvatureOperator& op);
 
   std::unique_ptr<Device> device;
-  Eigen::Vector3d origin;  // of positions here and in the next two, in the world [m]: local_frame.h
+  Eigen::Vector3d origin;  // of positions here and in the next two, in the world [m]: cloth.h
   Scene scene;
   Cloth cloth;
   int vertices;

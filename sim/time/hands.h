@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "sim/contact/hand_sweep.h"
+#include "sim/contact/self_pairs.h"
 #include "sim/device/algorithms.h"
 #include "sim/device/archive_buffer.h"
 #include "sim/scene/cloth.h"

@@ -7,7 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/time/make_linear_solver.h"
 #include "sim/time/refusals.h"
-#include "sim/time/step_control.h"
+#include "sim/time/time_integrator.h"
 
 namespace hysteron {
 

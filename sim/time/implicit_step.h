@@ -14,8 +14,8 @@
 #include <memory>
 
 #include "sim/scene/scene.h"
+#include "sim/time/ledger.h"
 #include "sim/time/newton.h"
-#include "sim/time/vertex_ledger.h"
 
 namespace hysteron {
 

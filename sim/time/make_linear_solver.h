@@ -5,9 +5,7 @@
 #include <type_traits>
 
 #include "sim/bending/bending_elements.h"
-#include "sim/bending/float_bending.h"
 #include "sim/contact/float_pairs.h"
-#include "sim/contact/pair_elements.h"
 #include "sim/linear/cholesky_solver.h"
 #include "sim/linear/float_solver.h"
 #include "sim/linear/multigrid_solver.h"

@@ -76,7 +76,7 @@ class Simulation {
 
   // Where the state lies in the host's memory, for who looks at it between steps without a copy: three
   // numbers a vertex, of one of the two types; both null on a GPU, and for positions of cloth that starts far
-  // from the origin, which are kept relative to its start (local_frame.h).  A step may lay it elsewhere, but
+  // from the origin, which are kept relative to its start (cloth.h).  A step may lay it elsewhere, but
   // frees nothing.
   struct InPlace {
     const double* fp64 = nullptr;

@@ -8,7 +8,6 @@
 #include "sim/base/fnv1a.h"
 #include "sim/device/share_positions.h"
 #include "sim/scene/motion.h"
-#include "sim/time/explicit_euler.h"
 #include "sim/time/implicit_integrator.h"
 #include "sim/time/refusals.h"
 #include "sim/time/semi_implicit.h"

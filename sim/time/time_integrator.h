@@ -1,6 +1,8 @@
 // What moves a body from one state to the next.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -39,5 +41,19 @@ class TimeIntegrator {
 template <class Real, class Device>
 std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>& body,
                                                               const StepLimits& limits);
+
+// Lengths of the parts of adaptive steps.
+
+inline constexpr int kMostHalvings = 12;  // of a step
+
+// The next part after one of h, had h grown by `growth` met the tolerance: aim below it, and change slowly
+// (Hairer, Norsett & Wanner 1993, II.4).
+inline double next_part(double h, double growth) {
+  constexpr double kAim = 0.9, kFastestGrowth = 2, kFastestFall = 0.3;
+  return h * std::clamp(kAim * growth, kFastestFall, kFastestGrowth);
+}
+
+// The rest of a step in equal parts of at most `part`.
+inline double equal_part(double rest, double part) { return rest / std::ceil(rest / part * (1 - 1e-9)); }
 
 }  // namespace hysteron

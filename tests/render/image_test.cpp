@@ -1,6 +1,7 @@
 #include "render/image.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <fstream>
 
@@ -74,34 +75,32 @@ TEST(Png, ATruncatedPictureIsRefused) {
   EXPECT_EQ(error_of([&] { read_png(folder.file("half.png")); }).exit_code(), 2);
 }
 
-// Of a chunk's type and content, with which it ends (PNG specification, annex D).
-std::uint32_t check_sum(const std::uint8_t* bytes, int count) {
-  std::uint32_t sum = 0xFFFFFFFF;
-  for (int i = 0; i < count; ++i) {
-    sum ^= bytes[i];
-    for (int bit = 0; bit < 8; ++bit) sum = sum & 1 ? sum >> 1 ^ 0xEDB88320 : sum >> 1;
-  }
-  return ~sum;
+// Four bytes that would break the line of the message.
+TEST(Png, ADamagedNameOfAChunkIsNotRepeated) {
+  auto bytes = encode_png(gradient(6, 6, 3));
+  bytes[bytes.size() - 6] = '\n';  // IEND
+  const Error error = error_of([&] { decode_png(bytes, "a.png"); });
+  EXPECT_EQ(std::string(error.what()), "reading a.png: a broken PNG picture: the file ends too early");
 }
 
 // The header announces far more than stands behind it.
 TEST(Png, AHeaderThatCannotBeTrueIsRefusedBeforeAnythingIsAllocated) {
   const auto refusal = [](std::uint32_t width, std::uint32_t height) {
     auto bytes = encode_png(gradient(60, 60, 3));
-    const auto put = [&](int at, std::uint32_t number) {
-      for (int i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::uint8_t>(number >> (24 - 8 * i));
-    };
-    put(16, width);
-    put(20, height);
-    put(29, check_sum(&bytes[12], 17));
+    for (int i = 0; i < 4; ++i) {
+      bytes[16 + i] = static_cast<std::uint8_t>(width >> (24 - 8 * i));
+      bytes[20 + i] = static_cast<std::uint8_t>(height >> (24 - 8 * i));
+    }
+    const auto sum = static_cast<std::uint32_t>(crc32(0, &bytes[12], 17));  // of the header's chunk
+    for (int i = 0; i < 4; ++i) bytes[29 + i] = static_cast<std::uint8_t>(sum >> (24 - 8 * i));
     const Error error = error_of([&] { decode_png(bytes, "a.png"); });
     EXPECT_EQ(error.exit_code(), 2);
     return std::string(error.what());
   };
-  EXPECT_EQ(refusal(900000, 300),
-            "reading a.png: its header announces 900000x300 pixels, more than the 268435456 that are read");
-  EXPECT_EQ(refusal(900000, 200),
-            "reading a.png: its header announces 900000x200 pixels, more than its bytes can hold");
+  EXPECT_EQ(refusal(900000, 400),
+            "reading a.png: its header announces 900000x400 pixels, more than the 268435456 that are read");
+  EXPECT_EQ(refusal(900000, 290),
+            "reading a.png: its header announces 900000x290 pixels, more than its bytes can hold");
 }
 
 // A bit in the header's size, in the compressed rows.
@@ -115,6 +114,7 @@ TEST(Png, AWrongBitIsFound) {
         .write(reinterpret_cast<const char*>(wrong.data()), static_cast<std::streamsize>(wrong.size()));
     const Error error = error_of([&] { read_png(folder.file("wrong.png")); });
     EXPECT_EQ(error.exit_code(), 2) << at;
+    EXPECT_NE(std::string(error.what()).find("PNG picture"), std::string::npos) << error.what();
   }
 }
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "render/inset.h"
-#include "render/refine.h"
+#include "render/shapes.h"
 #include "render/srgb.h"
 #include "tests/render/test_scene.h"
 

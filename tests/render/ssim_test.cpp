@@ -1,4 +1,4 @@
-#include "render/ssim.h"
+#include "render/plane.h"
 
 #include <gtest/gtest.h>
 

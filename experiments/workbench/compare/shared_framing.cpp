@@ -1,7 +1,7 @@
 #include "experiments/workbench/compare/shared_framing.h"
 
 #include "render/camera.h"
-#include "sim/base/number_text.h"
+#include "sim/base/number_in.h"
 
 namespace hysteron::experiments {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "sim/membrane/locking.h"
-#include "sim/scene/local_frame.h"
+#include "sim/scene/cloth.h"
 
 namespace hysteron::experiments {
 namespace {

@@ -1,5 +1,5 @@
-// Every law, and the groups that their loops are compiled with: a law stands in one group of its own, and in
-// those besides whose parts it takes (law_groups.h).
+// Every law, and the groups that their loops are compiled with (sim/CMakeLists.txt).  A new law is an include
+// here and its name in EveryLaw and in its groups.
 #pragma once
 
 #include "sim/bending/laws/bilinear.h"
@@ -10,7 +10,7 @@
 #include "sim/bending/laws/gong.h"
 #include "sim/bending/laws/grinspun_edit.h"
 #include "sim/bending/laws/kim.h"
-#include "sim/bending/laws/law_groups.h"
+#include "sim/bending/laws/law_description.h"
 #include "sim/bending/laws/linear.h"
 #include "sim/bending/laws/narain.h"
 #include "sim/bending/laws/obrien.h"
@@ -26,11 +26,16 @@ using EveryLaw =
     LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, BilinearLaw, WongLaw, PrandtlLaw,
             GrinspunEditLaw, TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, DahlLaw, GongLaw, ChapmanLaw>;
 
+// A law's own group, where it takes three numbers of its fabric alone.
 struct MemorylessLaws : LawList<LinearLaw, BridsonLaw, FlexionSpringLaw, PabstLaw, GrinspunEditLaw> {};
 struct FrictionLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw, DahlLaw> {};
+struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
+// Laws whose friction can weaken.
 struct FatigueLaws : LawList<BilinearLaw, WongLaw, PrandtlLaw> {};
+// Laws that take what a fabric has beyond b1, b2 and k0, with few or with many stops.
 struct PartsLaws : LawList<PrandtlLaw, ChapmanLaw> {};
 struct ManyLaws : LawList<PrandtlLaw, ChapmanLaw> {};
-struct PlasticLaws : LawList<TerzopoulosLaw, ObrienLaw, KimLaw, NarainLaw, GongLaw> {};
+
+using LawGroups = LawList<MemorylessLaws, FrictionLaws, FatigueLaws, PartsLaws, ManyLaws, PlasticLaws>;
 
 }  // namespace hysteron

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sim/base/archive.h"
-#include "sim/bending/laws/every_law.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
 #include "sim/bending/laws/recovery.h"

@@ -4,10 +4,9 @@
 
 #include <type_traits>
 
+#include "sim/bending/laws/every_law.h"
 #include "sim/bending/laws/fatigue.h"
 #include "sim/bending/laws/four_directions.h"
-#include "sim/bending/laws/law_description.h"
-#include "sim/bending/laws/law_groups.h"
 #include "sim/bending/laws/measured_law.h"
 
 namespace hysteron {
@@ -107,7 +106,8 @@ bool visit_fatigued_laws(LawList<Laws...>, const LawChoice& c, const Visit& visi
   return ((c.name == Laws::kName && (visit_fatigued<Laws, Real, D, Memory>(c, visit), true)) || ...);
 }
 
-// Of a group (law_groups.h): FatigueLaws weaken, PartsLaws and ManyLaws take a fabric's parts.
+// A group of every_law.h; the laws of FatigueLaws weaken, those of PartsLaws and ManyLaws take a fabric's
+// parts.
 template <class Group, class Real, int D, class Memory, class Visit>
 bool visit_group(const LawChoice& c, const Visit& visit) {
   if constexpr (std::is_same_v<Group, FatigueLaws>)
@@ -120,7 +120,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }
 
-// Every group; needs every_law.h.
+// Every group.
 template <class Real, int D, class Memory, class Visit, class... Groups>
 bool visit_groups(LawList<Groups...>, const LawChoice& c, const Visit& visit) {
   return (visit_group<Groups, Real, D, Memory>(c, visit) || ...);

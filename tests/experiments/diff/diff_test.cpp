@@ -8,7 +8,7 @@
 
 #include "render/color_map.h"
 #include "render/compare.h"
-#include "render/ssim.h"
+#include "render/plane.h"
 #include "sim/base/csv.h"
 #include "tests/experiments/folder.h"
 #include "tests/experiments/program.h"

@@ -1,11 +1,9 @@
 // Numbers as texts and back.
-#include "sim/base/number_text.h"
+#include "sim/base/number_in.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "sim/base/number_in.h"
 
 namespace hysteron {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/base/enum_names.h"
 #include "sim/contact/face_touch.h"
-#include "sim/contact/sharp_obstacles.h"
+#include "sim/contact/obstacle_set.h"
 #include "tests/sim/time/scenes.h"
 
 namespace hysteron {

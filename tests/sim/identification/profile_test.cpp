@@ -6,8 +6,6 @@
 #include <sstream>
 
 #include "sim/base/error.h"
-#include "sim/identification/profile_line.h"
-#include "sim/identification/strip.h"
 #include "tests/sim/base/folder.h"
 #include "tests/sim/base/refusal.h"
 #include "tests/sim/identification/synthetic.h"

@@ -1,8 +1,8 @@
 // What the data cannot fix is named, and what they can is not.
 #include <gtest/gtest.h>
 
-#include "sim/identification/covariance.h"
 #include "sim/identification/curve.h"
+#include "sim/identification/least_squares.h"
 #include "tests/sim/identification/synthetic.h"
 
 namespace hysteron {

@@ -1,4 +1,4 @@
-#include "sim/mesh/subdivision.h"
+#include "sim/mesh/builders.h"
 
 #include <gtest/gtest.h>
 

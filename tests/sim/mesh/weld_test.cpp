@@ -1,4 +1,4 @@
-#include "sim/mesh/weld.h"
+#include "sim/mesh/topology.h"
 
 #include <gtest/gtest.h>
 

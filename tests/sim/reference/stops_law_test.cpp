@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/reference/stretched_strip.h"
+#include "sim/reference/fab_test.h"
 
 namespace hysteron {
 namespace {

@@ -1,7 +1,6 @@
 // Phases: times by name, in scene files and alone.
-#include "sim/scene/phases.h"
-
 #include "sim/scene/scene_reader.h"
+
 #include "tests/sim/scene/scene_file.h"
 
 namespace hysteron {

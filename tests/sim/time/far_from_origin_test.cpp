@@ -1,7 +1,7 @@
 // Cloth behaves alike wherever it is: positions are relative to where it starts.
 #include <gtest/gtest.h>
 
-#include "sim/scene/local_frame.h"
+#include "sim/scene/cloth.h"
 #include "tests/sim/scene/scene_file.h"
 #include "tests/sim/time/scenes.h"
 

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "sim/base/error.h"
-#include "sim/bending/laws/every_law.h"
 #include "sim/bending/laws/law_commands.h"
 #include "sim/bending/laws/law_visit.h"
-#include "tests/examples/law/example_laws.h"
+#include "tests/examples/law/exponential.h"
 
 namespace hysteron::testing {
+
+using ExampleLaws = LawList<ExponentialLaw>;  // a law that no program ships
 
 // What a fabric has beyond three numbers, on the scale of these, so that extreme fabrics have it as well.
 enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16 };

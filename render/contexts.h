@@ -1,15 +1,18 @@
-// A shared library opened at run time.  It is never closed: drivers keep threads and exit handlers.
+// OpenGL contexts without a window: through EGL and through OSMesa, both opened at run time.
 #pragma once
 
 #include <dlfcn.h>
-
 #include <initializer_list>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "render/offscreen.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {
 
+// A shared library opened at run time.  It is never closed: drivers keep threads and exit handlers.
 class SharedLibrary {
  public:
   // The first of `names` that opens; is_open() tells whether one did.
@@ -34,5 +37,20 @@ class SharedLibrary {
   void* handle_ = nullptr;
   std::string reason_;
 };
+
+// EGL's devices and the surfaceless platform; empty if libEGL cannot be opened.
+std::vector<Candidate> egl_candidates();
+
+// Why there are no candidates, in a few words.
+std::string egl_unavailable();
+
+// Error::machine if EGL refuses.
+std::unique_ptr<Offscreen> create_egl_context(const Candidate& candidate);
+
+// OpenGL contexts through OSMesa, Mesa's renderer into plain memory, opened at run time.  Mesa dropped it
+// in 25.1.
+
+// Error::machine if there is no libOSMesa or it refuses.
+std::unique_ptr<Offscreen> create_osmesa_context(const Candidate& candidate);
 
 }  // namespace hysteron::render

@@ -14,7 +14,7 @@ foreach(file IN LISTS FILES)
   string(APPEND cases "  if (name == \"${name}\") return bytes_of(kFile${number});\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE "${OUTPUT}" "// Written by render/embed.cmake.
+file(WRITE "${OUTPUT}" "// Written by cmake/embed.cmake.
 #include \"${HEADER}\"
 
 #include <string>
