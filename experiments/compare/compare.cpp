@@ -47,12 +47,12 @@ const KeyRow<CompareChoice> kRows[] = {
 constexpr double kOnion = 0.5;  // of a swing: there and back, with what is left after it [s]
 
 // "Swing: cotton-broad, bdf2": what all columns share.
-std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& columns) {
+std::string title_of(const CommandLine& line, const std::vector<ChildRun>& columns) {
   std::string title = line.names[0];
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const auto shared = [&](const auto& read) {
     std::string text;
-    for (const SweepColumn& c : columns) {
+    for (const ChildRun& c : columns) {
       if (!c.manifest) continue;
       const std::string own = read(c.manifest->scene);
       if (!text.empty() && own != text) return std::string();
@@ -133,7 +133,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
 
 int run_compare(const CommandLine& line) {
   if (line.names.size() != 1)
-    throw Error::request("needs what to compare: drape, swing, crease, fold, crumple or a scene");
+    throw Error::invalid_input("needs what to compare: drape, swing, crease, fold, crumple or a scene");
   CompareChoice choice;
   Options options;
   read_flags(line, choice, options);

@@ -124,14 +124,15 @@ struct ScratchFile {
 };
 
 // What the column's scene says that it takes [s], once its experiment has set what it sets.
-double planned_seconds(const SweepColumn& column) {
+double planned_seconds(const ChildRun& column) {
   const ScratchFile file;
   CommandLine line = column.line;
   line.flags = with_later(
       line.flags, {{"dump-scene", file.path.string()}, {"quiet", "true"}, {"out", column.folder.string()}});
   experiment_named(line.experiment).run(line);
   if (!std::filesystem::exists(file.path))
-    throw Error::request("compare.times: " + column.name + " simulates no cloth to picture (--compare.times)")
+    throw Error::invalid_input("compare.times: " + column.name +
+                               " simulates no cloth to picture (--compare.times)")
         .of("compare.times", "");
   const TomlNode scene = read_toml(file.path.string(), TomlLists::allowed);
   const Value& seconds = scene.find("seconds")->value;
@@ -184,19 +185,19 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
     plan.scales.push_back(scale);
   }
   if (!choice.to.empty() && plan.to < 0)
-    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)")
+    throw Error::invalid_input("compare.to = " + choice.to + " is no column (--compare.to)")
         .of("compare.to", choice.to);
   return plan;
 }
 
-void check_times(const std::vector<double>& times, const std::vector<SweepColumn>& columns) {
+void check_times(const std::vector<double>& times, const std::vector<ChildRun>& columns) {
   if (times.empty()) return;
   const double last = *std::max_element(times.begin(), times.end());
   double end = 0;
   for (auto column = columns.begin(); column != columns.end() && end < last; ++column)
     end = std::max(end, planned_seconds(*column));
   if (last <= end) return;
-  throw Error::request(
+  throw Error::invalid_input(
       fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",
                   last, end))
       .of("compare.times", fmt::format("{:g}", last));

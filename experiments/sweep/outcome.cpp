@@ -18,20 +18,18 @@ constexpr int kNotRun = -1, kRefused = 2;
 
 }  // namespace
 
-void write_outcome(const SweepColumn& run) {
+void write_outcome(const ChildRun& run) {
   std::error_code failure;
   std::filesystem::create_directories(run.folder, failure);
   if (failure)
-    throw Error::machine("cannot create the folder " + run.folder.string() + ": " + failure.message());
+    throw Error::system("cannot create the folder " + run.folder.string() + ": " + failure.message());
   const Json outcome = {{"exit_code", run.exit_code}, {"stopped", run.stopped}};
   write_text(run.folder / kOutcome, outcome.dump(2) + "\n");
 }
 
-bool is_settled(const SweepColumn& run) {
-  return run.exit_code == kRefused || run.exit_code == kCouldNotGoOn;
-}
+bool is_settled(const ChildRun& run) { return run.exit_code == kRefused || run.exit_code == kCouldNotGoOn; }
 
-void recall_outcome(SweepColumn& run) {
+void recall_outcome(ChildRun& run) {
   if (recall(run)) return;
   const Json outcome = json_or_none(run.folder / kOutcome);
   const bool known = outcome.is_object() && outcome.value("exit_code", Json()).is_number_integer() &&

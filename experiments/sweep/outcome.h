@@ -5,13 +5,13 @@
 
 namespace hysteron::experiments {
 
-// FOLDER/outcome.json: exit code and, of a run that is not complete, why.  Throws Error::machine.
-void write_outcome(const SweepColumn& run);
+// FOLDER/outcome.json: exit code and, of a run that is not complete, why.  Throws Error::system.
+void write_outcome(const ChildRun& run);
 
 // It was refused or could not go on: another attempt would end in the same way.
-bool is_settled(const SweepColumn& run);
+bool is_settled(const ChildRun& run);
 
 // What an earlier `sweep`, wherever it ran, has left of the run: kept, stopped, or "not run".
-void recall_outcome(SweepColumn& run);
+void recall_outcome(ChildRun& run);
 
 }  // namespace hysteron::experiments

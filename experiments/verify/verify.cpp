@@ -65,8 +65,9 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
   std::error_code failure;
   for (const auto& entry : fs::recursive_directory_iterator(folder, failure))
     if (entry.path().filename() == "manifest.json") found.insert(entry.path().parent_path());
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
-  if (found.empty()) throw Error::request("there is no manifest.json in " + folder.string() + " or below");
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (found.empty())
+    throw Error::invalid_input("there is no manifest.json in " + folder.string() + " or below");
   return {found.begin(), found.end()};
 }
 
@@ -161,7 +162,7 @@ TestCase case_of(const std::string& name, const Line& said, double seconds) {
 }
 
 int run_verify(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::request("needs a run's folder, or a folder of many runs");
+  if (line.names.size() != 1) throw Error::invalid_input("needs a run's folder, or a folder of many runs");
   VerifyChoice choice;
   Options options;
   options.out = "out/verify";
@@ -190,7 +191,7 @@ int run_verify(const CommandLine& line) {
   if (!choice.junit.empty()) write_junit(choice.junit, "verify", root.string(), cases);
   if (differs > 0) return kDiffers;
   if (same + within == 0)
-    throw Error::request("nothing was compared: no run in " + root.string() + " could be repeated");
+    throw Error::invalid_input("nothing was compared: no run in " + root.string() + " could be repeated");
   return 0;
 }
 

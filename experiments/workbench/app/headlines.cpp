@@ -90,8 +90,8 @@ void check_errors(const std::string& experiment) {
   std::string known;
   for (const Headlines& headlines : kAll)
     if (can_have(headlines)) known += (known.empty() ? "" : ", ") + headlines.experiment;
-  throw Error::request("--errors: " + experiment +
-                       " has no headline whose errors can be measured; these have: " + known)
+  throw Error::invalid_input("--errors: " + experiment +
+                             " has no headline whose errors can be measured; these have: " + known)
       .of("errors", "true");
 }
 

@@ -38,10 +38,12 @@ CommandLine parsed(const RecordedRun& run) {
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
   if (words.size() < 2)
-    throw Error::request(run.file.string() + " holds no command that could be repeated").of("command", "");
+    throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
+        .of("command", "");
   const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
   if (!line)
-    throw Error::request(run.file.string() + ": its command, \"" + run.manifest.command + "\", is no run");
+    throw Error::invalid_input(run.file.string() + ": its command, \"" + run.manifest.command +
+                               "\", is no run");
   return *line;
 }
 

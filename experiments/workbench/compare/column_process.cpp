@@ -31,11 +31,11 @@ std::vector<std::string> words_of(const CommandLine& line) {
   return words;
 }
 
-Json asked(const SweepColumn& column) {
+Json asked(const ChildRun& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
 }
 
-bool takes_checkpoints(const SweepColumn& column) {
+bool takes_checkpoints(const ChildRun& column) {
   return last_text(column.line.flags, "checkpoint", "0") != "0";
 }
 
@@ -50,7 +50,7 @@ std::vector<std::string> program_with(ProcessShare share) {
 }
 
 // Words after `hysteron` of the column's run.
-std::vector<std::string> all_words_of(const SweepColumn& column, const SweepJobs& jobs, int threads) {
+std::vector<std::string> all_words_of(const ChildRun& column, const SweepJobs& jobs, int threads) {
   std::vector<std::string> words = words_of(column.line);
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
@@ -67,7 +67,7 @@ std::string reason_of(int exit_code, const std::string& first_error_line) {
 }
 
 // What the run has left.
-void take_back(SweepColumn& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
+void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
   column.manifest = manifest_or_none(column.folder / "manifest.json");
   column.exit_code = exit_code;
   if (jobs.go_on && exit_code != 0 && exit_code != 3) {
@@ -75,8 +75,8 @@ void take_back(SweepColumn& column, const SweepJobs& jobs, int exit_code, const 
     column.stopped = reason_of(exit_code, error);
     return;
   }
-  if (exit_code == 2) throw Error::request(column.name + ": " + error);
-  if (exit_code != 0 && exit_code != 3) throw Error::machine(column.name + ": " + error);
+  if (exit_code == 2) throw Error::invalid_input(column.name + ": " + error);
+  if (exit_code != 0 && exit_code != 3) throw Error::system(column.name + ": " + error);
   if (exit_code == 3) column.stopped = reason_of(exit_code, error);
   if (!column.manifest) return;  // stopped before its first step, and left no folder
   write_text(column.folder / kAsked, asked(column).dump(2) + "\n");
@@ -86,20 +86,20 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void run_alone(SweepColumn& column, const SweepJobs& jobs, ProcessShare share) {
+void run_alone(ChildRun& column, const SweepJobs& jobs, ProcessShare share) {
   std::vector<std::string> command = program_with(share);
   for (const std::string& word : all_words_of(column, jobs, share.threads)) command.push_back(word);
   const auto start = Clock::now();
   const ProcessResult result = run_process(command, "");
   column.seconds = seconds_since(start);
-  if (!result.started) throw Error::machine("cannot start the run " + column.name);
+  if (!result.started) throw Error::system("cannot start the run " + column.name);
   take_back(column, jobs, result.exit_code, result.first_error_line);
 }
 
 // Columns that run in one process, `hysteron batch`, and what it says of them as they end.
 class Batch {
  public:
-  Batch(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
+  Batch(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
         const std::function<void(std::size_t)>& ended)
       : columns_(columns), chunk_(chunk), jobs_(jobs), ended_(ended), waiting_(chunk.begin(), chunk.end()) {}
 
@@ -111,7 +111,7 @@ class Batch {
       lines += Json(all_words_of(columns_[i], jobs_, share.threads)).dump() + "\n";
     const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
     if (!result.started)
-      throw Error::machine("cannot start the runs from " + columns_[chunk_[0]].name + " on");
+      throw Error::system("cannot start the runs from " + columns_[chunk_[0]].name + " on");
     for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -132,7 +132,7 @@ class Batch {
     }
   }
 
-  std::vector<SweepColumn>& columns_;
+  std::vector<ChildRun>& columns_;
   const Chunk& chunk_;
   const SweepJobs& jobs_;
   const std::function<void(std::size_t)>& ended_;
@@ -142,7 +142,7 @@ class Batch {
 };
 
 // Why the run cannot share a process; "": it can.
-std::string what_hinders(const CommandLine& line) {
+std::string why_not_batchable(const CommandLine& line) {
   static const std::set<std::string> kOthers = {"bench", "compare"};  // timed, or of processes itself
   if (!experiment_named(line.experiment).simulates || kOthers.contains(line.experiment))
     return "is of runs that step a cloth, not of " + line.experiment;
@@ -155,22 +155,22 @@ std::string what_hinders(const CommandLine& line) {
 
 }  // namespace
 
-bool recall(SweepColumn& column) {
+bool recall(ChildRun& column) {
   std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
   column.kept = manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
   if (column.kept) column.manifest = std::move(manifest);
   return column.kept;
 }
 
-void check_batch(const std::vector<SweepColumn>& columns, int batch) {
+void check_batch(const std::vector<ChildRun>& columns, int batch) {
   if (batch <= 1) return;
-  for (const SweepColumn& column : columns)
-    if (const std::string why = what_hinders(column.line); !why.empty())
-      throw Error::request("batch = " + std::to_string(batch) + " " + why + " (--batch)")
+  for (const ChildRun& column : columns)
+    if (const std::string why = why_not_batchable(column.line); !why.empty())
+      throw Error::invalid_input("batch = " + std::to_string(batch) + " " + why + " (--batch)")
           .of("batch", std::to_string(batch));
 }
 
-std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int largest, int first) {
+std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, int first) {
   std::vector<Chunk> chunks;
   std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -187,8 +187,8 @@ std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int larges
   return chunks;
 }
 
-void run_chunk(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
-               ProcessShare share, const std::function<void(std::size_t)>& ended) {
+void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs, ProcessShare share,
+               const std::function<void(std::size_t)>& ended) {
   std::error_code ignored;
   for (const std::size_t i : chunk) fs::remove(columns[i].folder / kAsked, ignored);
   if (chunk.size() > 1) return Batch(columns, chunk, jobs, ended).run(share);

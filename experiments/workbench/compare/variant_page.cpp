@@ -33,7 +33,7 @@ PageChoice taken_from(CommandLine& line) {
 }
 
 // The page's own, or the last of the column's frames; "" where there is none.
-fs::path shown_picture(const VariantPage& page, const SweepColumn& column) {
+fs::path shown_picture(const VariantPage& page, const ChildRun& column) {
   if (!column.stopped.empty() || !has_frames(column)) return {};
   const fs::path file = page.picture.empty() ? picture_of(column, column.manifest->frames->looks.at(0).name,
                                                           instants(column).size() - 1)
@@ -43,14 +43,14 @@ fs::path shown_picture(const VariantPage& page, const SweepColumn& column) {
 
 // Its end, a picture a column; nothing where no column has one.
 std::optional<render::ComparisonSheet> sheet_of(const VariantPage& page,
-                                                const std::vector<SweepColumn>& columns) {
+                                                const std::vector<ChildRun>& columns) {
   render::ComparisonSheet sheet;
   sheet.title = page.title;
   sheet.rows.emplace_back();
   const std::vector<render::ComparisonColumn> heads = heads_of(columns, page.metrics);
   const ProbedLoops loops(columns);
   Crop crop;
-  for (const SweepColumn& column : columns)
+  for (const ChildRun& column : columns)
     if (!shown_picture(page, column).empty()) crop.include(instants(column).back());
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const fs::path picture = shown_picture(page, columns[c]);
@@ -66,7 +66,7 @@ std::optional<render::ComparisonSheet> sheet_of(const VariantPage& page,
 }
 
 // As a comparison of the columns' last instants.
-void keep(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
+void keep(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
   const ComparisonPage kept{.title = page.title,
                             .notes = {},
                             .rows = 1,
@@ -76,7 +76,7 @@ void keep(Run& run, const VariantPage& page, const std::vector<SweepColumn>& col
                             .outlines = false,
                             .video = "none"};
   std::vector<std::vector<int>> frames;
-  for (const SweepColumn& column : columns) {
+  for (const ChildRun& column : columns) {
     const auto& drawn = column.manifest ? column.manifest->frames : std::nullopt;
     const int count = drawn && column.stopped.empty() ? static_cast<int>(drawn->instants.size()) : 0;
     frames.push_back(count > 0 ? std::vector<int>{count - 1} : std::vector<int>{});
@@ -84,8 +84,8 @@ void keep(Run& run, const VariantPage& page, const std::vector<SweepColumn>& col
   keep_page(run, kept, columns, frames);
 }
 
-void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
-  for (const SweepColumn& column : columns)
+void draw_page(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
+  for (const ChildRun& column : columns)
     if (!column.stopped.empty())
       run.warn(column.name + " is missing on the page's sheet and plots: " + column.stopped);
   if (const auto sheet = sheet_of(page, columns))
@@ -127,9 +127,9 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   VariantPage page = page_of(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)
-    throw Error::request("--checkpoint is of single runs: name one law, fabric, integrator");
+    throw Error::invalid_input("--checkpoint is of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
-  std::vector<SweepColumn> columns;
+  std::vector<ChildRun> columns;
   for (const Variant& variant : in_one_frame(line, variants))
     columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
@@ -144,8 +144,8 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
                        .go_on = true,
                        .batch = choice.batch};
   run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
-  for (const SweepColumn& column : columns)
-    if (column.exit_code == 1) throw Error::machine(column.name + ": " + column.stopped);
+  for (const ChildRun& column : columns)
+    if (column.exit_code == 1) throw Error::system(column.name + ": " + column.stopped);
   if (!page.setup.options.no_images) draw_page(run, page, columns);
   finish_with_report(run);
   return 0;
