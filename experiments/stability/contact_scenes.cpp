@@ -1,6 +1,6 @@
 // Sweep of contact: layers, solids and hands that ask too much.
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/stability/named_attempts.h"
+#include "experiments/stability/stability.h"
 #include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {

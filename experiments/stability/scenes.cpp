@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "experiments/specimens/clamped_mesh.h"
-#include "experiments/stability/named_attempts.h"
+#include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"

@@ -66,6 +66,26 @@ struct SweepAxis {
   std::vector<double> values = {};  // what the ticks mean, ascending, where they are numbers
 };
 
+// A row of a map of named attempts.
+struct NamedAttempt {
+  const char* name;
+  Attempt (*make)();
+};
+
+template <std::size_t count>
+SweepAxis axis_of(const std::string& label, const NamedAttempt (&table)[count]) {
+  SweepAxis axis{label, {}};
+  for (const NamedAttempt& entry : table) axis.ticks.push_back(entry.name);
+  return axis;
+}
+
+inline Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
+  Obstacle obstacle;
+  obstacle.kind = kind;
+  obstacle.center = center;
+  return obstacle;
+}
+
 // One map for each variant and integrator.
 struct Sweep {
   std::string name;   // "bending-step"

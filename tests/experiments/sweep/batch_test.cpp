@@ -191,7 +191,9 @@ TEST_F(Batch, EndsEveryRunAsTheProgramWouldByItself) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Outcome alone = program(lines[i]);
     EXPECT_EQ(reports[i]["exit_code"], alone.exit_code) << lines[i];
-    if (alone.exit_code != 0) EXPECT_EQ(reports[i]["error"].get<std::string>() + "\n", alone.err);
+    if (alone.exit_code != 0) {
+      EXPECT_EQ(reports[i]["error"].get<std::string>() + "\n", alone.err);
+    }
   }
   EXPECT_EQ(reports[0]["exit_code"], 0);
   EXPECT_EQ(reports[1]["exit_code"], 2);

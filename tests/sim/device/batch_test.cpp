@@ -147,7 +147,9 @@ TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
   };
   EXPECT_THROW(run_together(true, kMembers, job), Error);
   for (int i = 0; i < kMembers; ++i)
-    if (i != kFails) EXPECT_EQ(together[i], hash_after(member_scene(method, i), kSteps)) << i;
+    if (i != kFails) {
+      EXPECT_EQ(together[i], hash_after(member_scene(method, i), kSteps)) << i;
+    }
 }
 
 }  // namespace

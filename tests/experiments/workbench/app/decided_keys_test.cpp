@@ -120,7 +120,7 @@ TEST_F(Strips, WarnOfWhatAFileAsksForAndDoesNotGet) {
       written("seconds = 9\n[cloth]\ncopies = 2\nwidth = 0.02\n[[pin]]\nselect = \"nearest\"\n");
   const Outcome outcome = run(scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const std::string words :
+  for (const std::string& words :
        {"cloth.copies = 2 (" + scene.string() + ":3) is not used: cantilever does not use cloth.copies",
         "seconds = 9.0 (" + scene.string() + ":1) is not used: cantilever sets seconds itself",
         "[[pin]] (" + scene.string() + ":5) is not used: cantilever sets pin itself"}) {
