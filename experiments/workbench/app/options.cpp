@@ -23,7 +23,7 @@ const KeyRow<Options> kRows[] = {
     {"quality", at<&O::quality>, "", any(), "draft | final | figure", "of the pictures: a draft is drawn with 4 samples a pixel in place of 8; a figure, for pictures that are published, is lit from 192 directions and takes seconds"},
     {"renderer", at<&O::renderer>, "", any(), "auto | egl | osmesa", "how pictures are drawn"},
     {"no-images", at<&O::no_images>, "", any(), "", "draw no pictures"},
-    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
+    {"look", at<&O::look>, "", any(), "", "what pictures show: cloth | grid (printed, 1 cm) | clay | curvature | residual | difference | friction | height (from the lowest to the highest point) | wireframe | silhouette; of several, separated by commas, each but the first has a sequence of its own, frames-LOOK/"},
     {"curvature-range", at<&O::curvature_range>, "1/m", at_least(0), "", "curvature at the ends of the colours, half of it for residual and difference; 0: 2 k0"},
     {"reference", at<&O::reference>, "", any(), "", "folder of a run on the same mesh with --export ply: look difference subtracts its curvature"},
     {"plain", at<&O::plain>, "", any(), "", "pictures of the sequence without captions and bars"},
@@ -56,8 +56,8 @@ const KeyRow<Options> kRows[] = {
 constexpr int kSmallestSide = 16;    // [pixels] captions need some room
 constexpr int kLargestSide = 16384;  // [pixels] of textures in OpenGL drivers
 
-const std::vector<std::string> kLooks = {"cloth",      "grid",     "clay",      "curvature", "residual",
-                                         "difference", "friction", "wireframe", "silhouette"};
+const std::vector<std::string> kLooks = {"cloth",      "grid",     "clay",   "curvature", "residual",
+                                         "difference", "friction", "height", "wireframe", "silhouette"};
 
 // {0, 0} if the text is no WIDTHxHEIGHT.
 std::pair<int, int> sides(const std::string& size) {

@@ -16,7 +16,7 @@ constexpr double kCurvatureRange = 2;  // colours span this many K0 on either si
 
 render::Look base_look(const std::string& name) {
   const bool of_curvature = name == "residual" || name == "difference";
-  return render::look_named(of_curvature ? "curvature" : name);
+  return render::look_named(of_curvature ? "curvature" : name == "height" ? "friction" : name);
 }
 
 // [1/m].  What stays and what differs is half of what bends.
@@ -103,7 +103,8 @@ std::optional<render::ColorBar> color_bar_of(const Scene& scene, const Options& 
     return render::ColorBar{look.map, look.value_low, look.value_high, what, "1/m"};
   }
   if (look.show == render::Show::friction)
-    return render::ColorBar{look.map, 0, 1, "friction moment / M0", ""};
+    return render::ColorBar{look.map, 0, 1,
+                            name == "height" ? "height, from lowest to highest" : "friction moment / M0", ""};
   return {};
 }
 

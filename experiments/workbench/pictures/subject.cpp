@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "experiments/workbench/pictures/drawing.h"
@@ -40,6 +41,16 @@ double mean_edge(const ClothMesh& mesh) {
   return sum / static_cast<double>(mesh.edge.size());
 }
 
+// Of each vertex, 0 of the lowest to 1 of the highest.
+std::vector<float> heights(const std::vector<float>& xyz) {
+  std::vector<float> height;
+  for (std::size_t i = 2; i < xyz.size(); i += 3) height.push_back(xyz[i]);
+  const auto [low, high] = std::minmax_element(height.begin(), height.end());
+  const float least = *low, span = std::max(*high - least, std::numeric_limits<float>::min());
+  for (float& z : height) z = (z - least) / span;
+  return height;
+}
+
 class SimulatedSubject : public Subject {
  public:
   SimulatedSubject(const Scene& scene, const Cloth& cloth, Simulation& simulation,
@@ -68,6 +79,7 @@ class SimulatedSubject : public Subject {
 std::vector<float> SimulatedSubject::values(const std::string& look) {
   const int d = simulation_.dimension();
   if (look == "residual") return vertex_curvature(cloth_.mesh, simulation_.residual_curvature(), d);
+  if (look == "height") return heights(positions());
   if (look == "friction") return vertex_average(cloth_.mesh, simulation_.friction_share(), d);
   if (look != "curvature" && look != "difference") return {};
   std::vector<float> curvature = vertex_curvature(cloth_.mesh, simulation_.curvature(), d);
@@ -94,6 +106,7 @@ std::unique_ptr<Subject> simulated(const Scene& scene, const Cloth& cloth, Simul
 std::vector<float> KeptSubject::values(const std::string& look) {
   const KeptState& instant = instants_[now_];
   if (const auto kept = instant.values.find(look); kept != instant.values.end()) return kept->second;
+  if (look == "height") return heights(instant.xyz);
   if (look == "residual" || look == "friction" || look == "difference")
     throw Error::invalid_input("look = " + look + " needs values that were not kept: run with --look " +
                                look + " (--look)")

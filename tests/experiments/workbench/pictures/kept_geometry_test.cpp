@@ -1,5 +1,6 @@
 // What pictures are drawn from, packed and back.
 #include "experiments/workbench/pictures/kept_geometry.h"
+#include "experiments/workbench/pictures/subject.h"
 
 #include <gtest/gtest.h>
 
@@ -92,6 +93,16 @@ TEST(KeptGeometry, AFileThatEndsWithinARecordHasAllBeforeIt) {
   EXPECT_EQ(kept.cloths[0].instants[0].xyz, wave());
   EXPECT_EQ(kept.cloths[0].floor, -0.5f);
   EXPECT_EQ(kept.cloths[0].bounds.high.z(), 3);
+}
+
+TEST(KeptSubject, ShowsHeightsFromTheLowestToTheHighestPoint) {
+  const DrawnMesh mesh{3, {0, 1, 2}, {}, 1e-3};
+  const std::vector<KeptState> instants = {{0, {0, 0, 2, 1, 0, 3, 0, 1, 4}, {}, 0},
+                                           {1, {0, 0, 1, 1, 0, 1, 0, 1, 1}, {}, 0}};
+  KeptSubject subject(mesh, instants);
+  EXPECT_EQ(subject.values("height"), (std::vector<float>{0, 0.5f, 1}));
+  subject.go_to(1);
+  EXPECT_EQ(subject.values("height"), (std::vector<float>{0, 0, 0})) << "flat";
 }
 
 }  // namespace
