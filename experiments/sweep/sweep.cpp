@@ -12,11 +12,11 @@
 #include <thread>
 #include <utility>
 
-#include "experiments/sweep/outcome.h"
 #include "experiments/sweep/plots.h"
 #include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
@@ -187,7 +187,6 @@ void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const
   run_columns(
       runs, jobs,
       [&](SweepColumn& column) {
-        if (!column.kept) write_outcome(column);
         progress.ended(column);
         if (column.stopped.empty() && std::exchange(none_complete, false))
           warn_of_unknown_metric(run, study, column);
@@ -259,20 +258,19 @@ std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const Swee
   return {end(k - 1), end(k)};
 }
 
-// Without the study's own files, beside others that do so.  A run that is refused or cannot go on has an
-// outcome that another attempt would not change; one whose machine fails has none.
+// Without the study's own files, beside others that do so.  A run that is refused or cannot go on would end
+// so in another attempt, too; one whose machine fails ends this.
 int run_some(std::vector<SweepColumn> runs, const SweepChoice& choice, bool quiet) {
   for (const SweepColumn& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
       runs, jobs_of(choice, runs),
       [&](const SweepColumn& column) {
-        if (column.exit_code == 0 || is_settled(column)) write_outcome(column);
         if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
       },
       [](const std::string&) {});
   const auto failed = std::find_if(runs.begin(), runs.end(), [](const SweepColumn& column) {
-    return !column.stopped.empty() && !is_settled(column);
+    return !column.stopped.empty() && column.exit_code != 2 && column.exit_code != kCouldNotGoOn;
   });
   if (failed != runs.end()) throw Error::machine(failed->name + ": " + failed->stopped);
   return 0;
@@ -310,7 +308,9 @@ Experiment sweep() {
           .question = "an experiment over the axes of a study: one table, curves, maps",
           .run = run_sweep,
           .own_keys = own_keys,
-          .names = "STUDY"};
+          .names = "STUDY",
+          .headlines = {.all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
+                                {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

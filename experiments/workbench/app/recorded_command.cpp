@@ -1,5 +1,6 @@
 #include "experiments/workbench/app/recorded_command.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,7 +12,8 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// Words of a line that was quoted for a shell as command_line.h does: '...' and \'.
+// Of programs that noted no more than the command: words of a line that was quoted for a shell as
+// command_line.h does: '...' and \'.
 std::vector<std::string> words_of(const std::string& command) {
   std::vector<std::string> words;
   std::string word;
@@ -33,7 +35,14 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
-CommandLine parsed(const RecordedRun& run) {
+CommandLine line_of(const RecordedRun& run) {
+  if (run.manifest.spec) {
+    CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->names};
+    for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
+    if (!experiment_named(line.experiment).run)
+      throw Error::request(run.file.string() + ": there is no experiment " + line.experiment);
+    return line;
+  }
   const std::vector<std::string> words = words_of(run.manifest.command);
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
@@ -53,6 +62,14 @@ void find_scene(CommandLine& line, const RecordedRun& run) {
   }
 }
 
+// Without a simulation there are no threads, and of some experiments no pictures.
+bool takes(const Experiment& experiment, const std::string& key) {
+  if (experiment.simulates) return true;
+  const std::vector<KeyDescription> own =
+      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
+  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+}
+
 }  // namespace
 
 RecordedRun recorded_run(const std::string& folder_or_manifest) {
@@ -62,9 +79,9 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
   return {file, read_manifest(file)};
 }
 
-CommandLine line_that_repeats(const RecordedRun& run) {
+CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later, bool with_errors) {
   const Manifest& m = run.manifest;
-  CommandLine line = parsed(run);
+  CommandLine line = line_of(run);
   static const std::set<std::string> kOfThatTime = {"out", "resume",
                                                     "collect"};  // collected runs are run again
   std::erase_if(line.flags, [](const Flag& flag) { return kOfThatTime.contains(flag.path); });
@@ -77,6 +94,10 @@ CommandLine line_that_repeats(const RecordedRun& run) {
     find_scene(line, run);
   }
   if (m.experiment == "sweep") line.names = {run.file.string()};  // its study's file may be another by now
+  if (!with_errors)
+    std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
+  for (const Flag& flag : later)
+    if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
   line.command = command_of(line);
   return line;
 }

@@ -57,6 +57,8 @@ void check_batch(const std::vector<SweepColumn>& columns, int batch);
 // Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
 // not.
 bool recall(SweepColumn& column);
+// The same, or how the column ended, whoever ran it; "not run" where nothing is left of it.
+void recall_outcome(SweepColumn& column);
 
 // How many processes the columns take.
 std::size_t processes_of(const std::vector<SweepColumn>& columns, const SweepJobs& jobs);

@@ -287,7 +287,7 @@ TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
   const auto written = [&](const char* law) { return fs::last_write_time(out / law / "manifest.json"); };
   const auto first = written("linear");
   const auto second = written("prandtl");
-  fs::remove(out / "prandtl" / "asked.json");  // as if it had been interrupted
+  fs::remove(out / "prandtl" / "outcome.json");  // as if it had been interrupted
   ASSERT_EQ(program(line + " --resume" + in(out)).exit_code, 0);
   EXPECT_EQ(written("linear"), first);
   EXPECT_GT(written("prandtl"), second);
