@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <thread>
 #include <utility>
 
 #include "experiments/sweep/plots.h"
@@ -25,7 +24,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
-#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -75,6 +73,7 @@ std::vector<SweepColumn> columns_of(const Study& study, const std::filesystem::p
 
 SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {
   SweepJobs jobs;
+  jobs.at_once = choice.jobs;
   jobs.threads = choice.threads;
   jobs.batch = choice.batch;
   jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
@@ -82,10 +81,6 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& run
   jobs.gpu =
       std::any_of(runs.begin(), runs.end(), [](const SweepColumn& run) { return may_use_gpu(run.line); });
   jobs.go_on = true;
-  std::string reason;
-  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  jobs.at_once = choice.jobs > 0 ? choice.jobs : gpus > 0 ? gpus : std::max(1, cores / choice.threads);
   return jobs;
 }
 
@@ -196,7 +191,7 @@ void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const
       [&](const std::string& line) { progress.running(line); });
   warnings.say(run);
   progress.stop();
-  progress.note(run, std::min(jobs.at_once, static_cast<int>(processes_of(runs, jobs))));
+  progress.note(run, processes_at_once(runs, jobs));
 }
 
 void collect(Run& run, std::vector<SweepColumn>& runs) {

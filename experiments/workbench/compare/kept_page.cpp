@@ -84,7 +84,6 @@ ComparisonPage page_of(const Json& sheet) {
   page.curvature = json.at("curvature");
   page.outlines = json.at("outlines");
   page.onion = json.at("onion");
-  page.video = "none";
   return page;
 }
 
