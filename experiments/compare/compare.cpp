@@ -177,7 +177,7 @@ Experiment compare() {
           .run = run_compare,
           .simulates = true,
           .own_keys = own_keys,
-          .names = "drape|swing|crease|fold|crumple|SCENE"};
+          .names = "EXPERIMENT|SCENE"};
 }
 
 }  // namespace hysteron::experiments

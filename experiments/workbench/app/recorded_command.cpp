@@ -1,5 +1,7 @@
 #include "experiments/workbench/app/recorded_command.h"
 
+#include <wordexp.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,26 +14,12 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// Of programs that noted no more than the command: words of a line that was quoted for a shell as
-// command_line.h does: '...' and \'.
+// Of programs that noted no more than the command, which is quoted for a shell; none where it is not.
 std::vector<std::string> words_of(const std::string& command) {
-  std::vector<std::string> words;
-  std::string word;
-  bool inside = false, started = false;
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    const char c = command[i];
-    if (c == '\'') {
-      inside = !inside, started = true;
-    } else if (c == '\\' && !inside && i + 1 < command.size()) {
-      word += command[++i], started = true;
-    } else if (c == ' ' && !inside) {
-      if (started) words.push_back(word);
-      word.clear(), started = false;
-    } else {
-      word += c, started = true;
-    }
-  }
-  if (started) words.push_back(word);
+  wordexp_t found{};
+  if (wordexp(command.c_str(), &found, WRDE_NOCMD | WRDE_UNDEF) != 0) return {};
+  const std::vector<std::string> words(found.we_wordv, found.we_wordv + found.we_wordc);
+  wordfree(&found);
   return words;
 }
 
