@@ -37,10 +37,10 @@ namespace hysteron::experiments {
 #define HYSTERON_DECLARE(name) Experiment name();
 HYSTERON_EXPERIMENTS(HYSTERON_DECLARE)
 
-#define HYSTERON_LIST(name) name(),
-const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> all = {HYSTERON_EXPERIMENTS(HYSTERON_LIST)};
-  return all;
-}
+namespace {
 
+#define HYSTERON_LIST(name) name(),
+const Catalogue all([]() -> std::vector<Experiment> { return {HYSTERON_EXPERIMENTS(HYSTERON_LIST)}; });
+
+}  // namespace
 }  // namespace hysteron::experiments

@@ -1,5 +1,5 @@
-// `hysteron batch`: several command lines in one process, which on a GPU share its launches.  What `--batch`
-// of sweeps and comparisons starts.
+// `hysteron batch`: one command line or several in one process, which on a GPU share its launches.  What
+// sweeps, comparisons and all else that has runs side by side start.
 //
 //   a list of words a line on stdin -> runs, each as by itself -> {"run", "exit_code", "error"} a line on
 //   stdout, as they end
@@ -106,8 +106,8 @@ bool any(const std::vector<Member>& members, const std::function<bool(const Comm
 int run_batch(const CommandLine&) {
   std::vector<Member> members = members_in(std::cin);
   const Reports reports;
-  std::string reason;
-  const bool on_gpu = any(members, may_use_gpu) && gpu_count(reason) > 0;
+  std::string reason;  // one run has nothing to share a GPU's launches with
+  const bool on_gpu = members.size() > 1 && any(members, may_use_gpu) && gpu_count(reason) > 0;
   // One signal is for all of the runs, also for those that have not begun.
   std::optional<Interrupts> interrupts;
   if (any(members, [](const CommandLine& line) { return last_text(line.flags, "checkpoint", "0") != "0"; }))

@@ -174,7 +174,8 @@ Experiment bench() {
           .run = run_bench,
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
-          .defaults = defaults};
+          .defaults = defaults,
+          .timed = true};
 }
 
 }  // namespace hysteron::experiments

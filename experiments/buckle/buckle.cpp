@@ -190,7 +190,10 @@ Experiment buckle() {
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
           .defaults = defaults,
-          .decided = decided};
+          .decided = decided,
+          .headlines = {.all = {{"critical_gamma", "critical gamma", "", "{:.3f}"},
+                                {"reference_gamma", "that of theory", "", "{:.3f}", 1, kNoErrors}},
+                        .equilibria = true}};
 }
 
 }  // namespace hysteron::experiments

@@ -141,13 +141,17 @@ int run_cantilever(const CommandLine& line) {
 }  // namespace
 
 Experiment cantilever() {
-  return {.name = "cantilever",
-          .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
-          .run = run_cantilever,
-          .simulates = true,
-          .own_keys = own_keys_of<kRows>,
-          .defaults = defaults,
-          .decided = decided};
+  return {
+      .name = "cantilever",
+      .question = "a strip that sags, beside the elastica; bending length (ASTM D1388)",
+      .run = run_cantilever,
+      .simulates = true,
+      .own_keys = own_keys_of<kRows>,
+      .defaults = defaults,
+      .decided = decided,
+      .headlines = {.all = {{"tip_drop_over_length", "tip drop over length", "", "{:.4f}"},
+                            {"elastica_drop_over_length", "that of the elastica", "", "{:.4f}", 1, kNoErrors},
+                            {"bending_length_m", "bending length", "mm", "{:.2f}", 1e3}}}};
 }
 
 }  // namespace hysteron::experiments

@@ -44,8 +44,6 @@ const KeyRow<CompareChoice> kRows[] = {
 };
 // clang-format on
 
-constexpr double kOnion = 0.5;  // of a swing: there and back, with what is left after it [s]
-
 // "Swing: cotton-broad, bdf2": what all columns share.
 std::string title_of(const CommandLine& line, const std::vector<ChildRun>& columns) {
   std::string title = line.names[0];
@@ -91,8 +89,9 @@ void claim_files(Run& run, bool with_images) {
 std::vector<KeyDescription> own_keys() {
   CompareChoice choice;
   std::vector<KeyDescription> keys = descriptions(bind(kRows, choice));
-  for (const char* name : {"drape", "crease", "fold", "crumple"}) {
-    auto more = experiment_named(name).own_keys();
+  for (const Experiment& experiment : experiments()) {
+    if (!experiment.compared || !experiment.own_keys) continue;
+    auto more = experiment.own_keys();
     std::erase_if(more, [](const KeyDescription& key) { return key.path == "batch"; });  // is the page's
     keys.insert(keys.end(), more.begin(), more.end());
   }
@@ -122,7 +121,7 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
                             .look = options.looks().front(),
                             .to = plan.to,
                             .curvature = choice.difference == "curvature",
-                            .onion = experiment == "swing" ? kOnion : 0,
+                            .onion = experiment_named(experiment).onion,
                             .outlines = !choice.no_outlines,
                             .video = choice.video};
   const auto stage = run.stage("render");
@@ -132,8 +131,12 @@ void draw_page(Run& run, const CommandLine& line, const std::string& experiment,
 }
 
 int run_compare(const CommandLine& line) {
-  if (line.names.size() != 1)
-    throw Error::invalid_input("needs what to compare: drape, swing, crease, fold, crumple or a scene");
+  if (line.names.size() != 1) {
+    std::string known;
+    for (const Experiment& experiment : experiments())
+      if (experiment.compared) known += std::string(experiment.name) + ", ";
+    throw Error::invalid_input("needs what to compare: " + known + "or a scene");
+  }
   CompareChoice choice;
   Options options;
   read_flags(line, choice, options);
@@ -174,7 +177,7 @@ Experiment compare() {
           .run = run_compare,
           .simulates = true,
           .own_keys = own_keys,
-          .names = "drape|swing|crease|fold|crumple|SCENE"};
+          .names = "EXPERIMENT|SCENE"};
 }
 
 }  // namespace hysteron::experiments

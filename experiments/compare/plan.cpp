@@ -1,7 +1,6 @@
 #include "experiments/compare/plan.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <optional>
@@ -10,14 +9,13 @@
 #include "experiments/workbench/app/scene_source.h"
 #include "experiments/workbench/compare/matching.h"
 #include "experiments/workbench/compare/shared_framing.h"
+#include "experiments/workbench/session/planned_scene.h"
 #include "sim/base/error.h"
-#include "sim/scene/toml_file.h"
 
 namespace hysteron::experiments {
 namespace {
 
 constexpr const char* kLaws = "linear,pabst,obrien,narain,kim,dahl,prandtl";
-constexpr const char* kCompared[] = {"drape", "swing", "crease", "fold", "crumple"};
 
 // Flags that make the columns; all others are theirs.
 bool is_own(const Flag& flag) {
@@ -113,41 +111,13 @@ std::vector<Flag> asked_for_the_page(const CommandLine& inner, const CompareChoi
   return flags;
 }
 
-// A file of this process that goes with its scope.
-struct ScratchFile {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("hysteron-" + std::to_string(getpid()) + ".toml");
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
-// What the column's scene says that it takes [s], once its experiment has set what it sets.
-double planned_seconds(const ChildRun& column) {
-  const ScratchFile file;
-  CommandLine line = column.line;
-  line.flags = with_later(
-      line.flags, {{"dump-scene", file.path.string()}, {"quiet", "true"}, {"out", column.folder.string()}});
-  experiment_named(line.experiment).run(line);
-  if (!std::filesystem::exists(file.path))
-    throw Error::invalid_input("compare.times: " + column.name +
-                               " simulates no cloth to picture (--compare.times)")
-        .of("compare.times", "");
-  const TomlNode scene = read_toml(file.path.string(), TomlLists::allowed);
-  const Value& seconds = scene.find("seconds")->value;
-  const std::int64_t* whole = std::get_if<std::int64_t>(&seconds);
-  return whole ? static_cast<double>(*whole) : std::get<double>(seconds);
-}
-
 }  // namespace
 
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice) {
   CommandLine inner = line;
   inner.names.clear();
   const std::string what = line.names.front();
-  inner.experiment =
-      std::find(std::begin(kCompared), std::end(kCompared), what) != std::end(kCompared) ? what : "run";
+  inner.experiment = experiment_named(what).compared ? what : "run";
   std::erase_if(inner.flags, is_own);
   if (inner.experiment != what) inner.flags.push_back({"scene", what});
   if (!choice.fabrics.empty()) inner.flags.push_back({"fabric", choice.fabrics});
@@ -194,8 +164,14 @@ void check_times(const std::vector<double>& times, const std::vector<ChildRun>& 
   if (times.empty()) return;
   const double last = *std::max_element(times.begin(), times.end());
   double end = 0;
-  for (auto column = columns.begin(); column != columns.end() && end < last; ++column)
-    end = std::max(end, planned_seconds(*column));
+  for (auto column = columns.begin(); column != columns.end() && end < last; ++column) {
+    const std::optional<Scene> scene = planned_scene(column->line);
+    if (!scene)
+      throw Error::invalid_input("compare.times: " + column->name +
+                                 " simulates no cloth to picture (--compare.times)")
+          .of("compare.times", "");
+    end = std::max(end, scene->seconds);
+  }
   if (last <= end) return;
   throw Error::invalid_input(
       fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",

@@ -280,7 +280,15 @@ Experiment crease() {
           .simulates = true,
           .own_keys = own_keys_of<kRows, page_keys>,
           .defaults = defaults,
-          .decided = decided};
+          .decided = decided,
+          .compared = true,
+          .headlines = {
+              .all = {{"recovery_angle_deg", "recovery angle", "degree", "{:.1f}"},
+                      {"release_angle_deg", "at once after release", "degree", "{:.1f}"},
+                      {"recovery_angle_15_s_deg", "15 s after it", "degree", "{:.1f}"},
+                      {"law_recovery_angle_deg", "that of the law alone", "degree", "{:.1f}", 1, kNoErrors},
+                      {"residual_curvature_per_m", "residual curvature", "1/m", "{:.4g}"}},
+              .own_mesh = true}};
 }
 
 }  // namespace hysteron::experiments

@@ -204,13 +204,19 @@ int run_crumple(const CommandLine& line) { return run_variants(line, crumple_onc
 }  // namespace
 
 Experiment crumple() {
-  return {.name = "crumple",
-          .question = "crushed, opened, spread and hung: wrinkles that stay",
-          .run = run_crumple,
-          .simulates = true,
-          .own_keys = own_keys_of<kRows, page_keys>,
-          .defaults = defaults,
-          .framing = framing};
+  return {
+      .name = "crumple",
+      .question = "crushed, opened, spread and hung: wrinkles that stay",
+      .run = run_crumple,
+      .simulates = true,
+      .own_keys = own_keys_of<kRows, page_keys>,
+      .defaults = defaults,
+      .framing = framing,
+      .compared = true,
+      .headlines = {.all = {{"residual_curvature_rms_per_m", "residual curvature (rms)", "1/m", "{:.4g}"},
+                            {"ridge_length_m", "length of ridges", "mm", "{:.1f}", 1e3},
+                            {"curvature_rms_per_m", "curvature (rms)", "1/m", "{:.4g}"},
+                            {"intersections", "pairs of triangles that cross", "", "{:.0f}", 1, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

@@ -262,7 +262,15 @@ Experiment drape() {
           .simulates = true,
           .own_keys = own_keys_of<kRows>,
           .defaults = defaults,
-          .decided = decided};
+          .decided = decided,
+          .compared = true,
+          .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}"},
+                                {"published_drape_coefficient_percent", "published coefficient", "%",
+                                 "{:.1f}", 1, kNoErrors},
+                                {"node_count", "folds", "", "{:.0f}"},
+                                {"published_node_count", "published folds", "", "{:.0f}", 1, kNoErrors}},
+                        .release = "drape.release",
+                        .paths = {"lowered", "dropped"}}};
 }
 
 }  // namespace hysteron::experiments

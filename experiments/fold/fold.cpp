@@ -267,7 +267,11 @@ Experiment fold() {
           .simulates = true,
           .own_keys = own_keys_of<kRows, page_keys>,
           .defaults = defaults,
-          .decided = decided};
+          .decided = decided,
+          .compared = true,
+          .headlines = {.all = {{"recovery_angle_deg", "recovery angle", "degree", "{:.1f}"},
+                                {"2HB_N", "2HB", "mN", "{:.4g}", 1e3},
+                                {"set_curvature_per_m", "set", "1/m", "{:.4g}"}}}};
 }
 
 }  // namespace hysteron::experiments

@@ -388,7 +388,8 @@ Experiment render_files() {
               "those of a run's folder again, from the geometry that it keeps",
           .run = run_render,
           .own_keys = own_keys_of<keys_of>,
-          .names = "FILES|DIR"};
+          .names = "FILES|DIR",
+          .headlines = {.all = {{"frames_count", "frames", "", "{:.0f}", 1, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

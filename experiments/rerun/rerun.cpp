@@ -53,14 +53,6 @@ std::string folder_for(const RecordedRun& run) {
   return "out/rerun-" + (name.empty() ? run.manifest.experiment : name);
 }
 
-// Without a simulation there are no threads, and of some experiments no pictures.
-bool takes(const Experiment& experiment, const std::string& key) {
-  if (experiment.simulates) return true;
-  const std::vector<KeyDescription> own =
-      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
-  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
-}
-
 // A warning of a run that is over: said, and kept in its manifest and on its page.
 void warn_of(const fs::path& folder, const std::string& text) {
   std::cerr << "warning: " << text << std::endl;
@@ -106,18 +98,13 @@ int run_rerun(const CommandLine& line) {
   if (const std::string flow = last_text(line.flags, "snakemake", ""); !flow.empty())
     return write_runs(line, flow);
   const RecordedRun run = recorded_run(line.names.front());
-  CommandLine repeated = line_that_repeats(run);
-  if (last_text(line.flags, "no-errors", "") == "true")
-    std::erase_if(repeated.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
   const std::string out = last_text(line.flags, "out", folder_for(run));
-  const Experiment& experiment = experiment_named(repeated.experiment);
-  for (const Flag& flag : line.flags)
-    if (flag.path != "out" && flag.path != "no-errors" && takes(experiment, flag.path))
-      repeated.flags.push_back(flag);
-  repeated.flags.push_back({"out", out});
-  repeated.command = command_of(repeated);
+  std::vector<Flag> later = line.flags;
+  std::erase_if(later, [](const Flag& flag) { return flag.path == "no-errors" || flag.path == "out"; });
+  later.push_back({"out", out});
+  CommandLine repeated = line_that_repeats(run, later, last_text(line.flags, "no-errors", "") != "true");
   choose_gpu(repeated);
-  const int exit_code = experiment.run(repeated);
+  const int exit_code = experiment_named(repeated.experiment).run(repeated);
   say_outcome(run.manifest, out, last_text(line.flags, "quiet", "") == "true");
   return exit_code;
 }

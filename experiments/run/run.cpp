@@ -121,7 +121,8 @@ Experiment run_scenes() {
           .simulates = true,
           .defaults = defaults,
           .framing = framing,
-          .names = "SCENE"};
+          .names = "SCENE",
+          .headlines = {.asked = true}};
 }
 
 }  // namespace hysteron::experiments

@@ -9,14 +9,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <thread>
 #include <utility>
 
-#include "experiments/sweep/outcome.h"
 #include "experiments/sweep/plots.h"
 #include "experiments/sweep/recorded_study.h"
 #include "experiments/sweep/study.h"
 #include "experiments/sweep/tables.h"
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/app/run_folder.h"
@@ -25,7 +24,6 @@
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/error.h"
 #include "sim/base/number_in.h"
-#include "sim/time/back_end.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -75,16 +73,13 @@ std::vector<ChildRun> columns_of(const Study& study, const std::filesystem::path
 
 SweepJobs jobs_of(const SweepChoice& choice, const std::vector<ChildRun>& runs) {
   SweepJobs jobs;
+  jobs.at_once = choice.jobs;
   jobs.threads = choice.threads;
   jobs.batch = choice.batch;
   jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
   jobs.checkpoints = jobs.resume;
   jobs.gpu = std::any_of(runs.begin(), runs.end(), [](const ChildRun& run) { return may_use_gpu(run.line); });
   jobs.go_on = true;
-  std::string reason;
-  const int gpus = jobs.gpu ? gpu_count(reason) : 0;
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  jobs.at_once = choice.jobs > 0 ? choice.jobs : gpus > 0 ? gpus : std::max(1, cores / choice.threads);
   return jobs;
 }
 
@@ -186,7 +181,6 @@ void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const Sw
   run_columns(
       runs, jobs,
       [&](ChildRun& column) {
-        if (!column.kept) write_outcome(column);
         progress.ended(column);
         if (column.stopped.empty() && std::exchange(none_complete, false))
           warn_of_unknown_metric(run, study, column);
@@ -196,7 +190,7 @@ void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const Sw
       [&](const std::string& line) { progress.running(line); });
   warnings.say(run);
   progress.stop();
-  progress.note(run, std::min(jobs.at_once, static_cast<int>(processes_of(runs, jobs))));
+  progress.note(run, processes_at_once(runs, jobs));
 }
 
 void collect(Run& run, std::vector<ChildRun>& runs) {
@@ -259,20 +253,19 @@ std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoic
   return {end(k - 1), end(k)};
 }
 
-// Without the study's own files, beside others that do so.  A run that is refused or cannot go on has an
-// outcome that another attempt would not change; one whose machine fails has none.
+// Without the study's own files, beside others that do so.  A run that is refused or cannot go on would end
+// so in another attempt, too; one whose machine fails ends this.
 int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) {
   for (const ChildRun& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
       runs, jobs_of(choice, runs),
       [&](const ChildRun& column) {
-        if (column.exit_code == 0 || is_settled(column)) write_outcome(column);
         if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
       },
       [](const std::string&) {});
   const auto failed = std::find_if(runs.begin(), runs.end(), [](const ChildRun& column) {
-    return !column.stopped.empty() && !is_settled(column);
+    return !column.stopped.empty() && column.exit_code != 2 && column.exit_code != kCouldNotGoOn;
   });
   if (failed != runs.end()) throw Error::system(failed->name + ": " + failed->stopped);
   return 0;
@@ -311,7 +304,9 @@ Experiment sweep() {
           .question = "an experiment over the axes of a study: one table, curves, maps",
           .run = run_sweep,
           .own_keys = own_keys,
-          .names = "STUDY"};
+          .names = "STUDY",
+          .headlines = {.all = {{"runs_count", "runs", "", "{:.0f}", 1, kNoErrors},
+                                {"failed_count", "of them not complete", "", "{:.0f}", 1, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

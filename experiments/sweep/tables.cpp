@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/compare/comparison.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -17,13 +17,7 @@ std::string field_of(const MetricValue& value) {
   return value.is(true) ? "1" : value.is(false) ? "0" : "";
 }
 
-std::vector<std::string> metrics_of_any(const std::vector<ChildRun>& runs) {
-  std::vector<std::string> names;
-  for (const ChildRun& run : runs)
-    for (const auto& [name, value] : run.metrics())
-      if (!field_of(value).empty() && !std::count(names.begin(), names.end(), name)) names.push_back(name);
-  return names;
-}
+bool has_field(const MetricValue& value) { return !field_of(value).empty(); }
 
 // By the runs' scenes.
 std::vector<std::string> asked_of_any(const std::vector<ChildRun>& runs) {
@@ -85,7 +79,7 @@ std::vector<double> numbers_of(const std::vector<ChildRun>& runs, const std::str
 
 std::vector<std::string> metrics_shown(const Study& study, const std::vector<ChildRun>& runs) {
   constexpr std::size_t kFew = 4;
-  const std::vector<std::string> known = metrics_of_any(runs);
+  const std::vector<std::string> known = metrics_in(runs, has_field);
   std::vector<std::string> wanted = study.metrics;
   if (wanted.empty()) wanted = headlines_of(study.experiment).with_errors();
   if (wanted.empty()) wanted = asked_of_any(runs);
@@ -112,7 +106,7 @@ std::string unknown_metric(const Study& study, std::span<const ChildRun> runs) {
 }
 
 TextTable table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
-  const std::vector<std::string> metrics = metrics_of_any(runs);
+  const std::vector<std::string> metrics = metrics_in(runs, has_field);
   TextTable table;
   table.head = {"run"};
   for (const StudyAxis& axis : study.axes) table.head.push_back(axis.key);

@@ -239,7 +239,15 @@ Experiment swing() {
           .question = "a clamped strip, released: energy lost to friction",
           .run = run_swing,
           .simulates = true,
-          .defaults = defaults};
+          .defaults = defaults,
+          .compared = true,
+          .onion = kOnion,
+          .headlines = {.all = {{"decay_shape", "decay", "", "", 1, kNoErrors},
+                                {"decay_per_turn_percent", "decay per turn", "%", "{:.1f}"},
+                                {"decay_step_fraction", "second line of decay begins at", "%", "{:.0f}", 100},
+                                {"turns", "turns", "", "{:.0f}", 1, kNoErrors},
+                                {"bending_friction_J", "lost to friction in bending", "mJ", "{:.4g}", 1e3},
+                                {"viscous_J", "lost to viscosity", "mJ", "{:.4g}", 1e3, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

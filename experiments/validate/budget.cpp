@@ -23,21 +23,16 @@ Drape on_other_tester(Drape drape) {
   return drape;
 }
 
-BudgetRow run_trial(const Trial& trial, int number, const ValidateFlags& flags, Run& run) {
-  std::vector<double> coefficients;
-  BudgetRow row{trial.drape.fabric, trial.number, trial.value, flags.draws};
-  for (int draw = 1; draw <= flags.draws; ++draw) {
-    Drape drape = trial.drape;
+// Of trial `number`, a drape a mesh.
+std::vector<Drape> drapes_of(const Trial& trial, std::size_t number, int draws) {
+  std::vector<Drape> drapes;
+  for (int draw = 1; draw <= draws; ++draw) {
+    Drape& drape = drapes.emplace_back(trial.drape);
     drape.varied = "budget-" + std::to_string(number) + "-" + std::to_string(draw);
     drape.further.push_back({"seed", std::to_string(draw)});
     drape.further.push_back({"no-images", "true"});
-    run_drape(drape, flags, run);
-    coefficients.push_back(drape.coefficient());
-    row.published = drape.published();
   }
-  row.coefficient = mean_of(coefficients);
-  row.error = spread_of(coefficients) / std::sqrt(flags.draws);
-  return row;
+  return drapes;
 }
 
 }  // namespace
@@ -103,10 +98,19 @@ void write_budget(const ValidateFlags& flags, Run& run) {
   CsvFile file(run.path("budget.csv"),
                {"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
   for (const std::string& fabric : split(flags.fabrics)) {
+    const std::vector<Trial> trials = trials_of(read_fabric(fabric, "--fabrics"), flags);
+    std::vector<Drape> all;
+    for (std::size_t t = 0; t < trials.size(); ++t)
+      for (Drape& drape : drapes_of(trials[t], t, flags.draws)) all.push_back(std::move(drape));
+    run_drapes(all, flags, run);
     std::vector<BudgetRow> rows;
-    int number = 0;
-    for (const Trial& trial : trials_of(read_fabric(fabric, "--fabrics"), flags)) {
-      BudgetRow& row = rows.emplace_back(run_trial(trial, number++, flags, run));
+    for (const Trial& trial : trials) {
+      std::vector<double> coefficients;
+      for (int draw = 0; draw < flags.draws; ++draw)
+        coefficients.push_back(all[rows.size() * static_cast<std::size_t>(flags.draws) + draw].coefficient());
+      BudgetRow& row = rows.emplace_back(
+          BudgetRow{fabric, trial.number, trial.value, flags.draws, mean_of(coefficients),
+                    spread_of(coefficients) / std::sqrt(flags.draws), NAN, all.back().published()});
       row.change = row.coefficient - rows[0].coefficient;
       file.row(
           {fabric, row.number, row.value, row.meshes, row.coefficient, row.error, row.change, row.published});

@@ -5,25 +5,28 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/workbench/compare/comparison.h"
 #include "render/plot.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
+#include "sim/base/error.h"
 #include "sim/scene/fabric_reader.h"
 
 namespace hysteron::experiments {
 
-Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
-                   Run& run, const std::string& folder) {
-  CommandLine line{name, "hysteron " + name, own, {}};
-  const std::filesystem::path out = run.folder() / folder;
-  line.flags.push_back({"out", out.string()});
-  line.flags.push_back({"quiet", "true"});
+std::vector<Manifest> results_of(const std::string& experiment, const std::vector<Variant>& runs,
+                                 const ValidateFlags& flags, Run& run) {
+  CommandLine line{experiment, "", {}, {}};
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
-  for (const Flag& flag : own) line.command += " --" + flag.path + " " + flag.text;
-  experiment_named(name).run(line);
-  Manifest manifest = read_manifest(out / "manifest.json");
-  for (const std::string& text : manifest.warnings) run.manifest().warnings.push_back(folder + ": " + text);
-  return manifest;
+  std::vector<ChildRun> columns;
+  for (const Variant& one : runs) columns.push_back(column_of(one.name, line, one.flags, run.folder()));
+  run_columns(run, columns, {.gpu = flags.device != "cpu"});
+  std::vector<Manifest> manifests;
+  for (ChildRun& column : columns) {
+    if (!column.stopped.empty()) throw Error::simulation(column.name + ": " + column.stopped);
+    manifests.push_back(std::move(column.manifest.value()));
+  }
+  return manifests;
 }
 
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags) {
@@ -59,14 +62,18 @@ std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags) {
   return own;
 }
 
-void run_drape(Drape& drape, const ValidateFlags& flags, Run& run) {
-  const Manifest manifest = result_of("drape", flags_of(drape, flags), flags, run, drape.name());
-  drape.metrics = manifest.metrics;
-  drape.seconds = manifest.total_seconds();
-  run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",
-                           drape.name(), drape.number("drape_coefficient_percent"),
-                           drape.number("published_drape_coefficient_percent"), drape.number("node_count"),
-                           drape.seconds));
+void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run) {
+  std::vector<Variant> runs;
+  for (const Drape& drape : drapes) runs.push_back({drape.name(), flags_of(drape, flags)});
+  const std::vector<Manifest> manifests = results_of("drape", runs, flags, run);
+  for (std::size_t d = 0; d < drapes.size(); ++d) {
+    Drape& drape = drapes[d];
+    drape.metrics = manifests[d].metrics;
+    drape.seconds = manifests[d].total_seconds();
+    run.progress(fmt::format("{}: drape coefficient {:.1f} % (published {:.1f}), {:.0f} nodes, {:.1f} s",
+                             drape.name(), drape.coefficient(), drape.published(), drape.number("node_count"),
+                             drape.seconds));
+  }
 }
 
 namespace {
@@ -137,10 +144,8 @@ void draw_drapes(Run& run, const std::vector<Drape>& drapes) {
 
 void compare_drapes(const ValidateFlags& flags, Run& run) {
   std::vector<Drape> drapes = planned(flags);
-  for (Drape& drape : drapes) {
-    run_drape(drape, flags, run);
-    write_drapes(run, drapes);  // a run that is cut short keeps what it has found
-  }
+  run_drapes(drapes, flags, run);
+  write_drapes(run, drapes);
   note_drapes(run, drapes);
   if (!flags.options.no_images) draw_drapes(run, drapes);
 }

@@ -8,6 +8,7 @@
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/variants.h"
 
 namespace hysteron::experiments {
 
@@ -28,16 +29,16 @@ struct Drape {
   double published() const { return number("published_drape_coefficient_percent"); }
 };
 
-// Runs another subcommand into a folder of this one; its manifest.  What it warns of it has said: the
-// manifest of this one keeps it, too.
-Manifest result_of(const std::string& name, const std::vector<Flag>& own, const ValidateFlags& flags,
-                   Run& run, const std::string& folder);
+// Runs of another subcommand, each in a folder of this one, side by side; their manifests.  What they warn of
+// this one does, too.  Throws Error::simulation where one of them cannot go on.
+std::vector<Manifest> results_of(const std::string& experiment, const std::vector<Variant>& runs,
+                                 const ValidateFlags& flags, Run& run);
 
 // As the flags say: with the first of their laws, on the tester that the fabric's file names.
 Drape nominal_drape(const std::string& fabric, const ValidateFlags& flags);
 // What the subcommand `drape` is told; numbers lose no bit on the way.
 std::vector<Flag> flags_of(const Drape& drape, const ValidateFlags& flags);
-void run_drape(Drape& drape, const ValidateFlags& flags, Run& run);
+void run_drapes(std::vector<Drape>& drapes, const ValidateFlags& flags, Run& run);
 
 // Every fabric under every law, released as on its tester and lowered alone, and the first law with four
 // times the triangles and with half the step: drape.csv, plot_drape.

@@ -45,19 +45,22 @@ Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.op
 void measure_bending_lengths(const F& flags, Run& run) {
   CsvFile file(run.path("cantilever.csv"),
                "fabric,law,bending length [m],of the elastica [m],remaining drop over length");
+  std::vector<Variant> runs;
   for (const std::string& fabric : split(flags.fabrics))
-    for (const std::string& law : split(flags.laws)) {
-      const std::string name = "cantilever-" + fabric + "-" + law;
-      const Metrics metrics =
-          result_of("cantilever", {{"fabric", fabric}, {"law", law}, {"triangles", "512"}}, flags, run, name)
-              .metrics;
-      const double cloth = metrics["bending_length_m"].number(),
-                   curve = metrics["elastica_bending_length_m"].number();
-      file.row({fabric, law, cloth, curve, metrics["residual_drop_over_length"].number()});
-      run.metric(name + ".bending_length_m", cloth);
-      run.progress(name + ": bending length " + number_field(cloth) + " m, elastica " + number_field(curve) +
-                   " m");
-    }
+    for (const std::string& law : split(flags.laws))
+      runs.push_back(
+          {"cantilever-" + fabric + "-" + law, {{"fabric", fabric}, {"law", law}, {"triangles", "512"}}});
+  const std::vector<Manifest> results = results_of("cantilever", runs, flags, run);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Metrics& metrics = results[r].metrics;
+    const double cloth = metrics.number("bending_length_m"),
+                 curve = metrics.number("elastica_bending_length_m");
+    file.row({runs[r].flags[0].text, runs[r].flags[1].text, cloth, curve,
+              metrics.number("residual_drop_over_length")});
+    run.metric(runs[r].name + ".bending_length_m", cloth);
+    run.progress(runs[r].name + ": bending length " + number_field(cloth) + " m, elastica " +
+                 number_field(curve) + " m");
+  }
   file.commit();
 }
 
@@ -100,10 +103,14 @@ int run_validate(const CommandLine& line) {
 }  // namespace
 
 Experiment validate() {
-  return {.name = "validate",
-          .question = "the model against measurements: KES pairs, loops, drape coefficients, bending lengths",
-          .run = run_validate,
-          .own_keys = own_keys_of<keys_of>};
+  return {
+      .name = "validate",
+      .question = "the model against measurements: KES pairs, loops, drape coefficients, bending lengths",
+      .run = run_validate,
+      .own_keys = own_keys_of<keys_of>,
+      .headlines = {.all = {{"drape_coefficient_percent", "drape coefficient", "%", "{:.1f}", 1, kNoErrors},
+                            {"node_count", "folds", "", "{:.0f}", 1, kNoErrors},
+                            {"bending_length_m", "bending length", "mm", "{:.2f}", 1e3, kNoErrors}}}};
 }
 
 }  // namespace hysteron::experiments

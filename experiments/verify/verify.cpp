@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include "experiments/verify/repetition.h"
@@ -11,9 +11,9 @@
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/app/recorded_command.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/sweep_columns.h"
 #include "experiments/workbench/pages/junit.h"
 #include "sim/base/error.h"
-#include "sim/base/process.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -31,7 +31,7 @@ using V = VerifyChoice;
 const KeyRow<V> kRows[] = {
     {"at-most", at<&V::at_most>, "s", at_least(0), "", "only runs that have taken this wall clock time or less, and no GPU; 0: all; with --quick 4 s unless given"},
     {"device", at<&V::device>, "", any(), "", "auto | cpu | cuda | cuda:N: where to repeat them in place of where they ran"},
-    {"threads", at<&V::threads>, "", between(0, 1024), "", "CPU threads; 0: as many as they had"},
+    {"threads", at<&V::threads>, "", between(0, 1024), "", "CPU threads of each run; 0: its share of the cores"},
     {"exact", at<&V::exact>, "", any(), "", "the same bits are required of runs by another build or device, too"},
     {"limits", at<&V::limits>, "", any(), "", "a TOML file of limits on pictures and metrics, or one of assets/limits by its name"},
     {"junit", at<&V::junit>, "", any(), "", "a JUnit XML file, with a test case for each run"},
@@ -80,29 +80,14 @@ bool has_runs_inside(const fs::path& folder) {
 
 // Why there is nothing to repeat, or not now; "" if there is.
 std::string why_skipped(const Manifest& m, const fs::path& folder, const VerifyChoice& choice) {
-  static const std::set<std::string> kTimings = {"bench"};
   if (!m.complete) return "is not complete";
-  if (kTimings.contains(m.experiment)) return "measures durations, which no two runs share";
+  if (experiment_named(m.experiment).timed) return "measures durations, which no two runs share";
   if (!m.state_hash && has_runs_inside(folder)) return "a page of several runs, each of which has a line";
   if (choice.at_most <= 0) return "";
   if (m.device && m.device->starts_with("cuda")) return "ran on a GPU";
   if (m.total_seconds() > choice.at_most)
     return fmt::format("took {:.3g} s, more than {:.3g} s", m.total_seconds(), choice.at_most);
   return "";
-}
-
-std::vector<std::string> command_for(const fs::path& folder, const fs::path& out, bool with_pictures,
-                                     const VerifyChoice& choice) {
-  std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(),
-                                    "rerun",
-                                    folder.string(),
-                                    "--out=" + out.string(),
-                                    "--quiet",
-                                    "--no-errors"};
-  if (!with_pictures) words.push_back("--no-images");
-  if (!choice.device.empty()) words.push_back("--device=" + choice.device);
-  if (choice.threads > 0) words.push_back("--threads=" + std::to_string(choice.threads));
-  return words;
 }
 
 std::string words_of(const Repetition& r, const std::string& reasons) {
@@ -130,24 +115,47 @@ Outcome outcome_of(Agreement agreement) {
   return agreement == Agreement::errors ? Outcome::within : Outcome::differs;
 }
 
-Line verified(const fs::path& folder, const fs::path& out, const VerifyChoice& choice, const Limits& limits,
-              bool no_images) {
-  const Manifest recorded = read_manifest(folder / "manifest.json");
-  if (const std::string why = why_skipped(recorded, folder, choice); !why.empty())
-    return {Outcome::skipped, "skipped: " + why};
-  const std::vector<std::string> pictures =
-      no_images ? std::vector<std::string>() : pictures_in(recorded, folder);
-  const ProcessResult result = run_process(command_for(folder, out, !pictures.empty(), choice), "");
-  if (result.exit_code != 0) {
-    const std::string why = result.first_error_line.empty() ? "ended by a signal" : result.first_error_line;
-    return {Outcome::failed, "could not be repeated: " + why};
-  }
-  const Manifest now = read_manifest(out / "manifest.json");
-  Repetition repetition = compare_runs(recorded, now, limits, choice.exact);
-  compare_pictures(pictures, folder, out, limits, repetition);
+// A folder's run, and what has come of its repetition.
+struct ErrorRunResult {
+  std::string name;
+  RecordedRun recorded;
+  std::vector<std::string> pictures;
+  std::optional<Line> said{};
+  double seconds = 0;
+};
+
+Line compared(const ErrorRunResult& run, const ChildRun& now, const VerifyChoice& choice,
+              const Limits& limits) {
+  if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
+  const Manifest& before = run.recorded.manifest;
+  Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
+  compare_pictures(run.pictures, run.recorded.file.parent_path(), now.folder, limits, repetition);
   if (!repetition.has_state && repetition.metrics + repetition.pictures == 0)
     return {Outcome::skipped, "skipped: it holds nothing that could be compared"};
-  return {outcome_of(repetition.agreement()), words_of(repetition, reasons_between(recorded, now))};
+  return {outcome_of(repetition.agreement()), words_of(repetition, reasons_between(before, *now.manifest))};
+}
+
+// The runs that are repeated as columns below OUT; of the others it is said why they are not.
+std::vector<ChildRun> columns_of(std::vector<ErrorRunResult>& runs, const VerifyChoice& choice,
+                                 const Options& options) {
+  std::vector<ChildRun> columns;
+  for (ErrorRunResult& run : runs) {
+    const fs::path folder = run.recorded.file.parent_path();
+    if (const std::string why = why_skipped(run.recorded.manifest, folder, choice); !why.empty()) {
+      run.said = {Outcome::skipped, "skipped: " + why};
+      continue;
+    }
+    if (!options.no_images) run.pictures = pictures_in(run.recorded.manifest, folder);
+    std::vector<Flag> later;
+    if (run.pictures.empty()) later.push_back({"no-images", "true"});
+    if (!choice.device.empty()) later.push_back({"device", choice.device});
+    try {
+      columns.push_back(column_of(run.name, line_that_repeats(run.recorded, later, false), {}, options.out));
+    } catch (const Error& error) {
+      run.said = {Outcome::failed, std::string("could not be repeated: ") + error.what()};
+    }
+  }
+  return columns;
 }
 
 const char* word_of(Outcome outcome) {
@@ -169,24 +177,39 @@ int run_verify(const CommandLine& line) {
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
   const fs::path root = line.names.front();
   const Limits limits = read_limits(choice.limits);
-  const std::vector<fs::path> folders = folders_below(root);
+  std::vector<ErrorRunResult> runs;
+  for (const fs::path& folder : folders_below(root))
+    runs.push_back({fs::relative(folder, root).string(), recorded_run(folder.string()), {}});
   int count[5] = {};
   std::vector<TestCase> cases;
-  for (const fs::path& folder : folders) {
-    const std::string name = fs::relative(folder, root).string();
-    const auto start = std::chrono::steady_clock::now();
-    const Line said = verified(folder, fs::path(options.out) / name, choice, limits, options.no_images);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    cases.push_back(case_of(name, said, took.count()));
-    ++count[static_cast<int>(said.outcome)];
-    if (said.outcome == Outcome::skipped && options.quiet) continue;
-    std::cout << fmt::format("{:<8}{:<36} {}", word_of(said.outcome), name, said.words) << std::endl;
-  }
+  const auto say = [&] {  // in the order of their names, as far as they are known
+    for (std::size_t next = cases.size(); next < runs.size() && runs[next].said; ++next) {
+      const auto& [outcome, words] = *runs[next].said;
+      cases.push_back(case_of(runs[next].name, *runs[next].said, runs[next].seconds));
+      ++count[static_cast<int>(outcome)];
+      if (outcome == Outcome::skipped && options.quiet) continue;
+      std::cout << fmt::format("{:<8}{:<36} {}", word_of(outcome), runs[next].name, words) << std::endl;
+    }
+  };
+  std::vector<ChildRun> columns = columns_of(runs, choice, options);
+  say();
+  if (!columns.empty())
+    run_columns(
+        columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .go_on = true},
+        [&](const ChildRun& column) {
+          ErrorRunResult& run = *std::find_if(runs.begin(), runs.end(), [&](const ErrorRunResult& other) {
+            return other.name == column.name;
+          });
+          run.said = compared(run, column, choice, limits);
+          run.seconds = column.seconds;
+          say();
+        },
+        [](const std::string&) {});
   const auto [same, within, differs, skipped, failed] = std::to_array(count);
   std::cout
       << fmt::format(
              "{} of {} runs repeated: {} the same, {} within errors, {} differ; {} could not be, {} skipped",
-             same + within + differs, folders.size(), same, within, differs, failed, skipped)
+             same + within + differs, runs.size(), same, within, differs, failed, skipped)
       << std::endl;
   if (!choice.junit.empty()) write_junit(choice.junit, "verify", root.string(), cases);
   if (differs > 0) return kDiffers;

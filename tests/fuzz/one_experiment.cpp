@@ -11,13 +11,15 @@ int jobs_together() { return 1; }
 
 namespace hysteron::experiments {
 
-const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> one = {{.name = "swing",
-                                               .question = "",
-                                               .run = [](const CommandLine&) { return 0; },
-                                               .simulates = true,
-                                               .defaults = [] { return Setup(); }}};
-  return one;
-}
+namespace {
 
+const Catalogue one([]() -> std::vector<Experiment> {
+  return {{.name = "swing",
+           .question = "",
+           .run = [](const CommandLine&) { return 0; },
+           .simulates = true,
+           .defaults = [] { return Setup(); }}};
+});
+
+}  // namespace
 }  // namespace hysteron::experiments

@@ -1,5 +1,6 @@
 // Folders include each other one way only: python -> experiments -> render -> libraries beside the simulation
-// -> the rest of sim, and inside each of them no folder one that includes it, directly or through others.
+// -> the rest of sim, and inside each of them no folder one that includes it, directly or through others. Nor
+// does a folder call what is defined above it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -76,6 +78,58 @@ std::vector<std::string> arrows_back(const Folders& folders) {
       if (rank(other) > rank(folder) || leads_to(folders, other, folder))
         back.push_back(folder + " -> " + other);
   return back;
+}
+
+// The functions that files below a folder declare, not indented, or define.
+struct Functions {
+  std::map<std::string, std::string> declared;  // in headers, by name: the file
+  std::set<std::string> defined;
+};
+
+void add_functions(const fs::path& file, Functions& all) {
+  static const std::regex kFunction(
+      "(?!using|struct|class|template|namespace|extern|typedef|enum|inline|constexpr|static_assert|#|/)"
+      "[\\w:<>,&* ]+[ &*](?:\\w+::)?(\\w+)\\(.*");
+  std::istringstream lines(whole_file(file.string(), "reading functions"));
+  std::smatch found;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == ' ' || !std::regex_match(line, found, kFunction)) continue;
+    const std::string name = found[1];
+    while (line.find_first_of(";{") == line.npos && std::getline(lines, line)) continue;
+    const std::size_t end = line.find_first_of(";{");
+    if (end == line.npos) continue;
+    if (line[end] == '{')
+      all.defined.insert(name);
+    else if (file.extension() == ".h")
+      all.declared.emplace(name, file.string());
+  }
+}
+
+// "experiments() of sim/a/a.h": functions that a folder's headers promise and that no file in it defines, so
+// that whoever calls them calls up.
+std::vector<std::string> defined_above(const fs::path& root, const std::string& folder) {
+  Functions all;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+    if (entry.is_regular_file()) add_functions(entry.path(), all);
+  all.defined.insert("embedded_file");  // by the build
+  std::vector<std::string> above;
+  for (const auto& [name, file] : all.declared)
+    if (!all.defined.contains(name)) above.push_back(name + "() of " + fs::relative(file, root).string());
+  return above;
+}
+
+TEST(Calls, OfTheProjectRunOneWay) {
+  for (const char* folder : {"sim", "render", "experiments/workbench"})
+    EXPECT_EQ(defined_above(HYSTERON_SOURCE_FOLDER, folder), std::vector<std::string>()) << folder;
+}
+
+TEST(Calls, ThatRunUpAreFound) {
+  const test::Folder folder;
+  const fs::path root = folder.file("root");
+  fs::create_directories(root / "sim" / "a");
+  folder.write("root/sim/a/a.h", "const std::vector<int>& all();\nint one(int a,\n        int b);\n");
+  folder.write("root/sim/a/a.cpp", "int one(int a,\n        int b) {\n  return all()[a + b];\n}\n");
+  EXPECT_EQ(defined_above(root, "sim"), std::vector<std::string>{"all() of sim/a/a.h"});
 }
 
 TEST(Includes, OfTheProjectRunOneWay) {

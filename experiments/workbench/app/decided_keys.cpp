@@ -17,13 +17,6 @@ Json value_at(const Json& scene, std::string path) {
   return scene.contains(place) ? scene[place] : Json();
 }
 
-// Null where the catalogue has none of that name.
-const Experiment* in_the_catalogue(const std::string& name) {
-  for (const Experiment& experiment : experiments())
-    if (experiment.name == name) return &experiment;
-  return nullptr;
-}
-
 // Where the tables of that name stand, "x.toml:3"; "" where they are not of a file.
 std::string place_of_tables(const Scene& scene, const std::string& name) {
   const auto first = scene.origin.find(name + "[0]");
@@ -33,8 +26,8 @@ std::string place_of_tables(const Scene& scene, const std::string& name) {
 }  // namespace
 
 std::vector<DecidedKey> decided_by(const std::string& experiment) {
-  const Experiment* known = in_the_catalogue(experiment);
-  return known && known->decided ? known->decided() : std::vector<DecidedKey>();
+  const auto decided = experiment_named(experiment).decided;
+  return decided ? decided() : std::vector<DecidedKey>();
 }
 
 std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<std::string>& used,
@@ -67,10 +60,9 @@ void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>
 // A file that was dumped has every key: those that are as the experiment has them by itself ask for nothing.
 std::vector<std::string> lost_words(const CommandLine& line, const Setup& setup) {
   std::vector<std::string> words;
-  const Experiment* experiment = in_the_catalogue(line.experiment);
-  if (!experiment || !experiment->defaults || setup.decided.empty()) return words;
-  const Json usual = to_json(experiment->defaults().scene), asked = Json::parse(setup.asked),
-             now = to_json(setup.scene);
+  const auto defaults = experiment_named(line.experiment).defaults;
+  if (!defaults || setup.decided.empty()) return words;
+  const Json usual = to_json(defaults().scene), asked = Json::parse(setup.asked), now = to_json(setup.scene);
   for (const DecidedKey& key : setup.decided) {
     if (const std::string place = place_of_tables(setup.scene, key.path); !place.empty())
       words.push_back("[[" + key.path + "]] (" + place +

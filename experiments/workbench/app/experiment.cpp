@@ -8,16 +8,59 @@
 
 #include "experiments/workbench/app/camera_file.h"
 #include "experiments/workbench/app/decided_keys.h"
-#include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/scene_source.h"
 #include "sim/base/comma_list.h"
+#include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"
 
 namespace hysteron::experiments {
 
+namespace {
+std::vector<Experiment> (*catalogue)() = nullptr;
+}
+
+Catalogue::Catalogue(std::vector<Experiment> (*all)()) { catalogue = all; }
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> all = catalogue ? catalogue() : std::vector<Experiment>();
+  return all;
+}
+
 const Experiment& experiment_named(const std::string& name) {
-  const auto& all = experiments();
-  return *std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; });
+  static const Experiment kNone{.name = "", .question = ""};
+  for (const Experiment& experiment : experiments())
+    if (name == experiment.name) return experiment;
+  return kNone;
+}
+
+std::vector<std::string> Headlines::with_errors() const {
+  std::vector<std::string> metrics;
+  for (const Headline& headline : all)
+    if (headline.has_errors) metrics.push_back(headline.metric);
+  return metrics;
+}
+
+const Headlines& headlines_of(const std::string& experiment) {
+  return experiment_named(experiment).headlines;
+}
+
+bool is_asked_for(const std::string& metric) {
+  for (const Experiment& experiment : experiments())
+    for (const Headline& headline : experiment.headlines.all)
+      if (metric == headline.metric) return true;
+  return false;
+}
+
+void check_errors(const std::string& experiment) {
+  const auto can_have = [](const Headlines& h) { return h.asked || !h.with_errors().empty(); };
+  if (can_have(headlines_of(experiment))) return;
+  std::vector<std::string> known;
+  for (const Experiment& other : experiments())
+    if (can_have(other.headlines)) known.emplace_back(other.name);
+  throw Error::invalid_input(
+      "--errors: " + experiment +
+      " has no headline whose errors can be measured; these have: " + join(known, ", "))
+      .of("errors", "true");
 }
 
 std::string last_text(const std::vector<Flag>& flags, const std::string& path, const std::string& otherwise) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/workbench/app/headlines.h"
 #include "experiments/workbench/app/mesh_record.h"
 #include "experiments/workbench/app/options.h"
 #include "sim/scene/scene_reader.h"
@@ -52,11 +53,19 @@ struct Experiment {
   const char* names = "";    // what CommandLine::names are ("DIR"); "": not allowed
   const char* differs = "";  // what exit code 4 says; "": it does not occur
   bool hidden = false;       // called by scripts of the project: not in --help
+  bool compared = false;     // `compare NAME` takes it by its name, other scenes by their files
+  double onion = 0;          // a comparison shows all instants up to then in one picture first [s]; 0: none
+  bool timed = false;        // its results are durations: it shares no process, and no two runs agree
+  Headlines headlines = {};
 };
 
-// All subcommands, in the order of --help (experiments/catalogue.cpp).
+// All subcommands, in the order of --help, as the program has named them.
 const std::vector<Experiment>& experiments();
-// The one with this name, which there must be.
+// What names them, once, before main() begins (experiments/catalogue.cpp).
+struct Catalogue {
+  explicit Catalogue(std::vector<Experiment> (*all)());
+};
+// The one with this name; one without a name or anything else where there is none.
 const Experiment& experiment_named(const std::string& name);
 
 // "it is an option of drape", of a key that no scene has; "" where no experiment has it.

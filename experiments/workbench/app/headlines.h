@@ -1,10 +1,12 @@
-// The numbers that each experiment is asked for, and what its repeats may draw.
+// The numbers that an experiment is asked for, and what its repeats may draw.
 #pragma once
 
 #include <string>
 #include <vector>
 
 namespace hysteron::experiments {
+
+inline constexpr bool kNoErrors = false;  // of Headline::has_errors
 
 struct Headline {
   const char* metric;
@@ -16,8 +18,7 @@ struct Headline {
 };
 
 struct Headlines {
-  std::string experiment;
-  std::vector<Headline> all;         // in the order in which they are shown
+  std::vector<Headline> all{};       // in the order in which they are shown
   bool equilibria = false;           // found at loads that --step does not set
   bool own_mesh = false;             // the experiment cuts its mesh, whatever --mesh and --seed say
   std::string release{};             // key of how the cloth is let go, where that matters
@@ -28,7 +29,7 @@ struct Headlines {
   std::vector<std::string> with_errors() const;
 };
 
-// None of an experiment without.
+// None of an experiment without, or that is not in the catalogue.
 const Headlines& headlines_of(const std::string& experiment);
 
 // Whether the metric is a headline of any experiment.

@@ -153,11 +153,18 @@ struct Statements {
   std::vector<std::string> sentences;
 };
 
+// What a run was asked for beside its experiment, as it can be asked for again.
+struct RunSpec {
+  std::vector<std::string> names;                            // files, folders
+  std::vector<std::pair<std::string, std::string>> flags{};  // path and text, in their order
+};
+
 struct Manifest {
   std::string version, commit;
   std::string instructions;  // that the program was built for, "x86-64-v3"; "": not noted
   bool dirty = false;
   std::string experiment, command, started;
+  std::optional<RunSpec> spec;       // of older programs only the command is known
   std::shared_ptr<const Json> keys;  // all that the run was asked for, as it is written
   SceneRecord scene;                 // the same, as it is read
   std::shared_ptr<const Json>

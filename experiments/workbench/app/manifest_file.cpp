@@ -226,6 +226,15 @@ SceneRecord scene_of(const Json& json) {
   return scene;
 }
 
+std::optional<RunSpec> spec_of(const Json& json) {
+  if (!json.is_object()) return {};
+  RunSpec spec{texts_at(json, "names")};
+  for (const Json& flag : at(json, "flags"))
+    if (flag.is_array() && flag.size() == 2 && flag[0].is_string() && flag[1].is_string())
+      spec.flags.emplace_back(flag[0], flag[1]);
+  return spec;
+}
+
 std::array<double, 4> cloth_of(const Json& instant) {
   const Json& box = at(instant, "cloth");
   std::array<double, 4> cloth{};
@@ -297,6 +306,7 @@ Json to_json(const Manifest& m) {
   if (!m.instructions.empty()) json["hysteron"]["instructions"] = m.instructions;
   json["experiment"] = m.experiment;
   json["command"] = m.command;
+  if (m.spec) json["spec"] = {{"names", m.spec->names}, {"flags", m.spec->flags}};
   json["started"] = m.started;
   json["scene"] = *m.keys;
   if (m.options) json["options"] = *m.options;
@@ -319,6 +329,7 @@ Manifest manifest_of(const Json& json) {
   m.dirty = is_true_at(program, "dirty");
   m.experiment = json.contains("experiment") ? text_at(json, "experiment") : "run";
   m.command = text_at(json, "command");
+  m.spec = spec_of(at(json, "spec"));
   m.started = text_at(json, "started");
   m.scene = scene_of(at(json, "scene"));
   m.keys = std::make_shared<const Json>(at(json, "scene"));

@@ -1,5 +1,8 @@
 #include "experiments/workbench/app/recorded_command.h"
 
+#include <wordexp.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -11,29 +14,23 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// Words of a line that was quoted for a shell as command_line.h does: '...' and \'.
+// Of programs that noted no more than the command, which is quoted for a shell; none where it is not.
 std::vector<std::string> words_of(const std::string& command) {
-  std::vector<std::string> words;
-  std::string word;
-  bool inside = false, started = false;
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    const char c = command[i];
-    if (c == '\'') {
-      inside = !inside, started = true;
-    } else if (c == '\\' && !inside && i + 1 < command.size()) {
-      word += command[++i], started = true;
-    } else if (c == ' ' && !inside) {
-      if (started) words.push_back(word);
-      word.clear(), started = false;
-    } else {
-      word += c, started = true;
-    }
-  }
-  if (started) words.push_back(word);
+  wordexp_t found{};
+  if (wordexp(command.c_str(), &found, WRDE_NOCMD | WRDE_UNDEF) != 0) return {};
+  const std::vector<std::string> words(found.we_wordv, found.we_wordv + found.we_wordc);
+  wordfree(&found);
   return words;
 }
 
-CommandLine parsed(const RecordedRun& run) {
+CommandLine line_of(const RecordedRun& run) {
+  if (run.manifest.spec) {
+    CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->names};
+    for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
+    if (!experiment_named(line.experiment).run)
+      throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
+    return line;
+  }
   const std::vector<std::string> words = words_of(run.manifest.command);
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
@@ -55,6 +52,14 @@ void find_scene(CommandLine& line, const RecordedRun& run) {
   }
 }
 
+// Without a simulation there are no threads, and of some experiments no pictures.
+bool takes(const Experiment& experiment, const std::string& key) {
+  if (experiment.simulates) return true;
+  const std::vector<KeyDescription> own =
+      experiment.own_keys ? experiment.own_keys() : std::vector<KeyDescription>();
+  return std::any_of(own.begin(), own.end(), [&](const KeyDescription& known) { return known.path == key; });
+}
+
 }  // namespace
 
 RecordedRun recorded_run(const std::string& folder_or_manifest) {
@@ -64,9 +69,9 @@ RecordedRun recorded_run(const std::string& folder_or_manifest) {
   return {file, read_manifest(file)};
 }
 
-CommandLine line_that_repeats(const RecordedRun& run) {
+CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later, bool with_errors) {
   const Manifest& m = run.manifest;
-  CommandLine line = parsed(run);
+  CommandLine line = line_of(run);
   static const std::set<std::string> kOfThatTime = {"out", "resume",
                                                     "collect"};  // collected runs are run again
   std::erase_if(line.flags, [](const Flag& flag) { return kOfThatTime.contains(flag.path); });
@@ -79,6 +84,10 @@ CommandLine line_that_repeats(const RecordedRun& run) {
     find_scene(line, run);
   }
   if (m.experiment == "sweep") line.names = {run.file.string()};  // its study's file may be another by now
+  if (!with_errors)
+    std::erase_if(line.flags, [](const Flag& flag) { return flag.path.starts_with("errors"); });
+  for (const Flag& flag : later)
+    if (takes(experiment_named(line.experiment), flag.path)) line.flags.push_back(flag);
   line.command = command_of(line);
   return line;
 }

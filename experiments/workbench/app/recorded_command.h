@@ -18,8 +18,10 @@ RecordedRun recorded_run(const std::string& folder_or_manifest);
 
 // The same experiment with the resolved scene and keys of the manifest, or, of runs that did not note their
 // keys, with the command that it holds; without a folder for the results.  Throws Error::invalid_input where
-// that command is not understood any more.
-CommandLine line_that_repeats(const RecordedRun& run);
+// that command is not understood any more. `later`: flags that come after its own, as far as the experiment
+// takes them.
+CommandLine line_that_repeats(const RecordedRun& run, const std::vector<Flag>& later = {},
+                              bool with_errors = true);
 
 // As it is typed: "hysteron drape --scene=a.toml".
 std::string command_of(const CommandLine& line);

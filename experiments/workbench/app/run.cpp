@@ -59,6 +59,8 @@ Manifest first_entries(const CommandLine& line, const Json& scene) {
   manifest.dirty = kGitDirty;
   manifest.experiment = line.experiment;
   manifest.command = line.command;
+  manifest.spec = RunSpec{line.names};
+  for (const Flag& flag : line.flags) manifest.spec->flags.emplace_back(flag.path, flag.text);
   manifest.started = utc_now();
   manifest.keys = std::make_shared<const Json>(scene);
   manifest.precision = text("precision");

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "experiments/workbench/app/exit_codes.h"
 #include "experiments/workbench/app/gpu_choice.h"
 #include "experiments/workbench/app/json_file.h"
 #include "experiments/workbench/app/manifest_file.h"
@@ -21,12 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// What was asked of a finished column, and of which program: it stands in its folder.
-constexpr const char* kAsked = "asked.json";
+// What was asked of a column that has ended, of which program, and how it ended: it stands in its folder.
+constexpr const char* kOutcome = "outcome.json";
+constexpr int kNotRun = -1;  // as an exit code
 
 // Words after `hysteron`.
 std::vector<std::string> words_of(const CommandLine& line) {
   std::vector<std::string> words = {line.experiment};
+  words.insert(words.end(), line.names.begin(), line.names.end());
   for (const Flag& flag : line.flags) words.push_back("--" + flag.path + "=" + flag.text);
   return words;
 }
@@ -66,37 +69,34 @@ std::string reason_of(int exit_code, const std::string& first_error_line) {
   return exit_code < 0 ? "ended by a signal" : "ended with exit code " + std::to_string(exit_code);
 }
 
+// Of a run that could not make its folder nothing is left.
+void write_outcome(const ChildRun& column) {
+  std::error_code failure;
+  fs::create_directories(column.folder, failure);
+  if (failure) return;
+  const Json outcome = {
+      {"asked", asked(column)}, {"exit_code", column.exit_code}, {"stopped", column.stopped}};
+  write_text(column.folder / kOutcome, outcome.dump(2) + "\n");
+}
+
 // What the run has left.
 void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
-  column.manifest = manifest_or_none(column.folder / "manifest.json");
+  const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
   column.exit_code = exit_code;
-  if (jobs.go_on && exit_code != 0 && exit_code != 3) {
-    column.manifest.reset();  // of an earlier run
-    column.stopped = reason_of(exit_code, error);
-    return;
+  if (!has_results && !jobs.go_on) {
+    const std::string why = column.name + ": " + error;
+    throw exit_code == 2 ? Error::invalid_input(why) : Error::system(why);
   }
-  if (exit_code == 2) throw Error::invalid_input(column.name + ": " + error);
-  if (exit_code != 0 && exit_code != 3) throw Error::system(column.name + ": " + error);
-  if (exit_code == 3) column.stopped = reason_of(exit_code, error);
-  if (!column.manifest) return;  // stopped before its first step, and left no folder
-  write_text(column.folder / kAsked, asked(column).dump(2) + "\n");
+  if (exit_code != 0) column.stopped = reason_of(exit_code, error);
+  if (has_results) column.manifest = manifest_or_none(column.folder / "manifest.json");
+  write_outcome(column);
 }
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void run_alone(ChildRun& column, const SweepJobs& jobs, ProcessShare share) {
-  std::vector<std::string> command = program_with(share);
-  for (const std::string& word : all_words_of(column, jobs, share.threads)) command.push_back(word);
-  const auto start = Clock::now();
-  const ProcessResult result = run_process(command, "");
-  column.seconds = seconds_since(start);
-  if (!result.started) throw Error::system("cannot start the run " + column.name);
-  take_back(column, jobs, result.exit_code, result.first_error_line);
-}
-
-// Columns that run in one process, `hysteron batch`, and what it says of them as they end.
+// A process, `hysteron batch`, and what it says of its columns as they end.
 class Batch {
  public:
   Batch(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
@@ -110,8 +110,7 @@ class Batch {
     for (const std::size_t i : chunk_)
       lines += Json(all_words_of(columns_[i], jobs_, share.threads)).dump() + "\n";
     const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
-    if (!result.started)
-      throw Error::system("cannot start the runs from " + columns_[chunk_[0]].name + " on");
+    if (!result.started) throw Error::system("cannot start the run " + columns_[chunk_[0]].name);
     for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -143,8 +142,8 @@ class Batch {
 
 // Why the run cannot share a process; "": it can.
 std::string why_not_batchable(const CommandLine& line) {
-  static const std::set<std::string> kOthers = {"bench", "compare"};  // timed, or of processes itself
-  if (!experiment_named(line.experiment).simulates || kOthers.contains(line.experiment))
+  const Experiment& experiment = experiment_named(line.experiment);
+  if (!experiment.simulates || experiment.timed)
     return "is of runs that step a cloth, not of " + line.experiment;
   if (last_text(line.flags, "errors", "") == "true")
     return "is of runs without errors, whose repeats are processes of their own (errors.batch)";
@@ -157,9 +156,22 @@ std::string why_not_batchable(const CommandLine& line) {
 
 bool recall(ChildRun& column) {
   std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
-  column.kept = manifest && manifest->complete && json_or_none(column.folder / kAsked) == asked(column);
+  const Json outcome = json_or_none(column.folder / kOutcome);
+  column.kept = manifest && manifest->complete && outcome.is_object() &&
+                outcome.value("asked", Json()) == asked(column);
   if (column.kept) column.manifest = std::move(manifest);
   return column.kept;
+}
+
+void recall_outcome(ChildRun& column) {
+  if (recall(column)) return;
+  const Json outcome = json_or_none(column.folder / kOutcome);
+  const bool known = outcome.is_object() && outcome.value("exit_code", Json()).is_number_integer() &&
+                     outcome.value("stopped", Json()).is_string();
+  column.exit_code = known ? outcome["exit_code"].get<int>() : kNotRun;
+  column.stopped = known ? outcome["stopped"].get<std::string>() : "";
+  if (column.stopped.empty()) column.stopped = "not run", column.exit_code = kNotRun;
+  if (column.exit_code == kCouldNotGoOn) column.manifest = manifest_or_none(column.folder / "manifest.json");
 }
 
 void check_batch(const std::vector<ChildRun>& columns, int batch) {
@@ -190,10 +202,8 @@ std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, 
 void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs, ProcessShare share,
                const std::function<void(std::size_t)>& ended) {
   std::error_code ignored;
-  for (const std::size_t i : chunk) fs::remove(columns[i].folder / kAsked, ignored);
-  if (chunk.size() > 1) return Batch(columns, chunk, jobs, ended).run(share);
-  run_alone(columns[chunk.front()], jobs, share);
-  ended(chunk.front());
+  for (const std::size_t i : chunk) fs::remove(columns[i].folder / kOutcome, ignored);
+  Batch(columns, chunk, jobs, ended).run(share);
 }
 
 }  // namespace hysteron::experiments

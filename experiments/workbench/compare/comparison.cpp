@@ -10,16 +10,6 @@
 namespace hysteron::experiments {
 namespace {
 
-// Names of the metrics that are `wanted`, each once.
-std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
-                                    bool (*wanted)(const MetricValue&)) {
-  std::vector<std::string> keys;
-  for (const ChildRun& column : columns)
-    for (const auto& [key, value] : column.metrics())
-      if (wanted(value) && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
-  return keys;
-}
-
 bool is_numeric(const MetricValue& value) { return value.is_numeric(); }
 bool is_number_or_text(const MetricValue& value) { return value.is_numeric() || value.is_text(); }
 
@@ -29,6 +19,15 @@ CsvField field_of(const MetricValue& value) {
 }
 
 }  // namespace
+
+std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
+                                    bool (*wanted)(const MetricValue&)) {
+  std::vector<std::string> keys;
+  for (const ChildRun& column : columns)
+    for (const auto& [key, value] : column.metrics())
+      if (wanted(value) && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
+  return keys;
+}
 
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   run_columns(

@@ -13,6 +13,9 @@ namespace hysteron::experiments {
 // sweep_columns.h throws.
 void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
+// Names of the metrics that are `wanted`, each once.
+std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns, bool (*wanted)(const MetricValue&));
+
 // Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
 // columns none of which is complete, not all that would be there are known, and none is refused.
 void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names);

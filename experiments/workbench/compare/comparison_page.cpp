@@ -136,7 +136,9 @@ class Table {
     if (!has_frames(column)) return {};
     const std::size_t frame = frame_at(column, time);
     const bool over = time - second(column, frame) > 1e-9;
-    return {crop.of(render::read_png(picture_of(column, page_.look, frame))),
+    const auto file =
+        page_.picture.empty() ? picture_of(column, page_.look, frame) : column.folder / page_.picture;
+    return {crop.of(render::read_png(file)),
             over ? fmt::format("{} {:.2f} s", column.stopped.empty() ? "at rest since" : "stopped at",
                                second(column, frame))
                  : "",
@@ -294,7 +296,8 @@ std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::v
   std::vector<std::vector<int>> frames(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
     if (!has_frames(columns[c])) continue;
-    std::set<int> chosen = {0};
+    std::set<int> chosen;
+    if (times.size() > 1 || page.onion > 0) chosen.insert(0);
     for (const double time : times) chosen.insert(static_cast<int>(frame_at(columns[c], time)));
     if (page.onion > 0)
       for (std::size_t f = 0; f <= frame_at(columns[c], std::min(page.onion, times.back())); ++f)

@@ -11,16 +11,17 @@ namespace hysteron::experiments {
 
 struct ComparisonPage {
   std::string title;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes{};
   int rows = 4;                      // instants, at most
-  std::vector<double> times;         // of the rows, in their place [s]; empty: spread over what moves
+  std::vector<double> times{};       // of the rows, in their place [s]; empty: spread over what moves
   std::vector<std::string> metrics;  // behind the columns' names and in bars; empty: those of shown_numbers()
   std::string look;                  // of the pictures
+  std::string picture{};             // a file of each column's folder in place of them; "": none
   int to = -1;                       // the column that others differ from; -1: no differences
   bool curvature = false;            // what differs: curvature, as the columns pictured it, not pictures
   double onion = 0;                  // a row first with all instants up to then over each other [s]; 0: none
   bool outlines = true;              // of all columns, over each other
-  std::string video;                 // none | mp4 | gif
+  std::string video = "none";        // none | mp4 | gif
 };
 
 // Columns have pictures of `look` and, for outlines, silhouettes.  Writes sheet.png and the video where it is

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 // What a page reads of a column's manifest; the scene stands beside it, pictures are noted anew.
 Json page_manifest(const Manifest& manifest) {
   Json json = to_json(manifest);
-  for (const char* key : {"scene", "options", "asked", "meshes", "frames", "files"}) json.erase(key);
+  for (const char* key : {"spec", "scene", "options", "asked", "meshes", "frames", "files"}) json.erase(key);
   return json;
 }
 
@@ -84,7 +84,6 @@ ComparisonPage page_of(const Json& sheet) {
   page.curvature = json.at("curvature");
   page.outlines = json.at("outlines");
   page.onion = json.at("onion");
-  page.video = "none";
   return page;
 }
 

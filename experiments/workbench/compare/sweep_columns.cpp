@@ -117,7 +117,10 @@ Machine machine_for(const SweepJobs& jobs) {
   const int gpus = jobs.gpu ? gpu_count(reason) : 0;
   const int cores =
       jobs.cores > 0 ? jobs.cores : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return {gpus, cores, jobs.at_once > 0 ? jobs.at_once : std::max(1, gpus > 0 ? gpus : cores)};
+  return {gpus, cores,
+          jobs.at_once > 0 ? jobs.at_once
+          : gpus > 0       ? gpus
+                           : std::max(1, cores / std::max(1, jobs.threads))};
 }
 
 // Batches no larger than leaves something to each GPU or core.
@@ -157,8 +160,9 @@ std::string progress_in(const fs::path& folder) {
   return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), *manifest->scene.seconds);
 }
 
-std::size_t processes_of(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
-  return chunks_for(columns, jobs, machine_for(jobs)).size();
+int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
+  const Machine machine = machine_for(jobs);
+  return std::min(static_cast<int>(chunks_for(columns, jobs, machine).size()), machine.at_once);
 }
 
 void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,

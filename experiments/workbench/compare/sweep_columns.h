@@ -36,7 +36,7 @@ void explain_columns(const std::vector<ChildRun>& columns);
 
 // What is not asked of the runs but of how they are run.
 struct SweepJobs {
-  int at_once = 0;  // 0: one for each GPU, or for each core
+  int at_once = 0;  // 0: one for each GPU, or for each core or `threads` of them
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
   bool gpu = true;           // may be used
@@ -57,9 +57,11 @@ void check_batch(const std::vector<ChildRun>& columns, int batch);
 // Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
 // not.
 bool recall(ChildRun& column);
+// The same, or how the column ended, whoever ran it; "not run" where nothing is left of it.
+void recall_outcome(ChildRun& column);
 
-// How many processes the columns take.
-std::size_t processes_of(const std::vector<ChildRun>& columns, const SweepJobs& jobs);
+// How many processes the columns take at a time.
+int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
 // "kept", "done", or why it stopped.
 std::string outcome_of(const ChildRun& column);

@@ -1,18 +1,15 @@
 #include "experiments/workbench/compare/variant_page.h"
 
-#include <optional>
-
 #include "experiments/workbench/compare/column_view.h"
 #include "experiments/workbench/compare/comparison.h"
-#include "experiments/workbench/compare/kept_page.h"
+#include "experiments/workbench/compare/comparison_page.h"
 #include "experiments/workbench/compare/shared_framing.h"
-#include "experiments/workbench/pages/pictures.h"
 #include "experiments/workbench/pages/report.h"
+#include "experiments/workbench/pictures/kept_geometry.h"
 #include "sim/base/error.h"
 
 namespace hysteron::experiments {
 namespace {
-namespace fs = std::filesystem;
 
 struct PageChoice {
   int batch = 1;
@@ -32,65 +29,24 @@ PageChoice taken_from(CommandLine& line) {
   return choice;
 }
 
-// The page's own, or the last of the column's frames; "" where there is none.
-fs::path shown_picture(const VariantPage& page, const ChildRun& column) {
-  if (!column.stopped.empty() || !has_frames(column)) return {};
-  const fs::path file = page.picture.empty() ? picture_of(column, column.manifest->frames->looks.at(0).name,
-                                                          instants(column).size() - 1)
-                                             : column.folder / page.picture;
-  return is_there(file) ? file : fs::path();
-}
-
-// Its end, a picture a column; nothing where no column has one.
-std::optional<render::ComparisonSheet> sheet_of(const VariantPage& page,
-                                                const std::vector<ChildRun>& columns) {
-  render::ComparisonSheet sheet;
-  sheet.title = page.title;
-  sheet.rows.emplace_back();
-  const std::vector<render::ComparisonColumn> heads = heads_of(columns, page.metrics);
-  const ProbedLoops loops(columns);
-  Crop crop;
-  for (const ChildRun& column : columns)
-    if (!shown_picture(page, column).empty()) crop.include(instants(column).back());
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    const fs::path picture = shown_picture(page, columns[c]);
-    if (picture.empty()) continue;
-    sheet.columns.push_back(heads[c]);
-    sheet.columns.back().cells = {
-        {crop.of(render::read_png(picture)), "", loops.at(c, instants(columns[c]).back().time)}};
-    sheet.rows[0].metres_per_pixel = columns[c].manifest->frames->metres_per_pixel;
-  }
-  sheet.scale_note = "at the cloth's middle";
-  if (sheet.columns.empty()) return {};
-  return sheet;
-}
-
-// As a comparison of the columns' last instants.
-void keep(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
-  const ComparisonPage kept{.title = page.title,
-                            .notes = {},
-                            .rows = 1,
-                            .times = {},
-                            .metrics = page.metrics,
-                            .look = page.setup.options.looks().front(),
-                            .outlines = false,
-                            .video = "none"};
-  std::vector<std::vector<int>> frames;
-  for (const ChildRun& column : columns) {
-    const auto& drawn = column.manifest ? column.manifest->frames : std::nullopt;
-    const int count = drawn && column.stopped.empty() ? static_cast<int>(drawn->instants.size()) : 0;
-    frames.push_back(count > 0 ? std::vector<int>{count - 1} : std::vector<int>{});
-  }
-  keep_page(run, kept, columns, frames);
-}
-
+// A comparison of the columns' last instants, of those that have one; plots.
 void draw_page(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
-  for (const ChildRun& column : columns)
+  std::vector<ChildRun> shown;
+  for (const ChildRun& column : columns) {
     if (!column.stopped.empty())
       run.warn(column.name + " is missing on the page's sheet and plots: " + column.stopped);
-  if (const auto sheet = sheet_of(page, columns))
-    render::write_png(run.path("sheet.png"), render::draw_comparison(*sheet), render::PngEffort::best);
-  keep(run, page, columns);
+    else if (has_frames(column))
+      shown.push_back(column);
+  }
+  if (!shown.empty())
+    draw_comparison_page(run,
+                         {.title = page.title,
+                          .rows = 1,
+                          .metrics = page.metrics,
+                          .look = page.setup.options.looks().front(),
+                          .picture = page.picture,
+                          .outlines = false},
+                         shown);
   for (TablePlot plot : page.plots) {
     plot.plot.title = page.title;
     draw(run, plot, columns);

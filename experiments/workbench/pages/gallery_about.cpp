@@ -37,12 +37,7 @@ std::string first_upper(std::string text) {
   return text;
 }
 
-std::string question_of(const std::string& name) {
-  for (const Experiment& experiment : experiments()) {
-    if (experiment.name == name) return experiment.question;
-  }
-  return "";
-}
+std::string question_of(const std::string& name) { return experiment_named(name).question; }
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");

@@ -1,8 +1,8 @@
 #include "experiments/workbench/pages/gallery_folders.h"
 
 #include <algorithm>
-#include <iterator>
 
+#include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "experiments/workbench/pages/pictures.h"
 #include "sim/base/error.h"
@@ -11,14 +11,11 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-// Others follow in the order of their names.
-constexpr const char* kOrder[] = {"compare", "drape",   "swing",    "crease",     "fold",
-                                  "crumple", "render",  "kes",      "cantilever", "buckle",
-                                  "law",     "figures", "fit",      "accuracy",   "stability",
-                                  "bench",   "speed",   "validate", "sweep",      "scenes"};
-
-std::ptrdiff_t place_of(const std::string& experiment) {
-  return std::find(std::begin(kOrder), std::end(kOrder), experiment) - std::begin(kOrder);
+// As in --help; others follow in the order of their names.
+std::ptrdiff_t place_of(const std::string& name) {
+  const auto& all = experiments();
+  return std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return name == e.name; }) -
+         all.begin();
 }
 
 // A link to a folder through which it was reached has no last subfolder.

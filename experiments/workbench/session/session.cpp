@@ -17,6 +17,7 @@
 #include "experiments/workbench/pages/simulated_run.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/planned_scene.h"
 #include "experiments/workbench/session/resting.h"
 #include "sim/bending/curvature_operator.h"
 #include "sim/bending/laws/recovery.h"
@@ -97,6 +98,23 @@ void explain(const Cloth& cloth, const Simulation& simulation) {
             << " per triangle" << std::endl;
 }
 
+namespace {
+thread_local std::optional<Scene>* planned = nullptr;  // what planned_scene() waits for
+
+struct Planning {
+  explicit Planning(std::optional<Scene>& scene) { planned = &scene; }
+  ~Planning() { planned = nullptr; }
+};
+}  // namespace
+
+std::optional<Scene> planned_scene(CommandLine line) {
+  std::optional<Scene> scene;
+  const Planning planning(scene);
+  line.flags.push_back({"explain", "true"});
+  experiment_named(line.experiment).run(line);
+  return scene;
+}
+
 Session::Session(const CommandLine& line, const Setup& setup, std::optional<Cloth> cloth)
     : line_(line),
       setup_(checked(setup)),
@@ -105,6 +123,10 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
       rest_angle_(rest_angles(cloth_.mesh)),
       probes_(setup.options.probe, cloth_.mesh, simulation_->dimension()),
       recoveries_(setup.scene) {
+  if (planned) {
+    *planned = setup.scene;
+    return;
+  }
   if (setup.options.explain) {
     explain(cloth_, *simulation_);
     std::cout << probes_.text() << std::flush;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -106,18 +106,11 @@ TEST(Budget, RowsAreMeansOfTheirDrapesAndChangesFromTheFirst) {
   const auto out = folder.path() / "v";
   std::ofstream(folder.path() / "one-unknown") << kOneUnknown;
   const InFolder here(folder.path());  // where the name is a file's
-  CommandLine line{"validate",
-                   "hysteron validate",
-                   {{"fabrics", "one-unknown"},
-                    {"parts", "budget"},
-                    {"laws", "linear"},
-                    {"triangles", "100"},
-                    {"seconds", "0.5"},
-                    {"step", "0.0166666666666"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  ASSERT_EQ(experiment_named("validate").run(line), 0);
+  ASSERT_EQ(program("validate --quick --quiet --no-images --fabrics one-unknown --parts budget --laws linear "
+                    "--triangles 100 --seconds 0.5 --step 0.0166666666666 --out " +
+                    out.string())
+                .exit_code,
+            0);
   const std::vector<BudgetRow> rows = read_budget(out / "budget.csv");
   ASSERT_EQ(rows.size(), 5u);  // file, two ends, tester, mesh
   for (int trial = 0; trial < 5; ++trial) {

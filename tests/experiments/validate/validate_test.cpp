@@ -8,7 +8,7 @@
 #include "experiments/validate/drapes.h"
 #include "experiments/validate/spread.h"
 #include "experiments/workbench/app/experiment.h"
-#include "tests/experiments/folder.h"
+#include "tests/experiments/program.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -16,15 +16,11 @@ namespace {
 TEST(Validate, SetsDrapesAndBendingLengthsBesideWhatIsPublished) {
   const Folder folder;
   const auto out = folder.path() / "v";
-  CommandLine line{"validate",
-                   "hysteron validate",
-                   {{"fabrics", "wool-tropical"},
-                    {"laws", "linear"},
-                    {"parts", "pairs,drapes,lengths"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  ASSERT_EQ(experiment_named("validate").run(line), 0);
+  ASSERT_EQ(program("validate --quick --quiet --no-images --fabrics wool-tropical --laws linear --parts "
+                    "pairs,drapes,lengths --out " +
+                    out.string())
+                .exit_code,
+            0);
   const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
   // What the drape of its own folder found, and nothing else: which of several ways so coarse a disc buckles
   // (three meshes: 45, 60 and 75 %) is chance.  Closed forms are in outline_test.cpp, a fine drape among the
@@ -110,17 +106,11 @@ TEST(Validate, TakesOverWhatAFitPredictsOfOtherLoops) {
 TEST(Validate, SaysWhetherTheMeasuredDrapeLiesAmongTheDrawn) {
   const Folder folder;
   const auto out = folder.path() / "v";
-  CommandLine line{"validate",
-                   "hysteron validate",
-                   {{"fabrics", "polyester-faille"},
-                    {"parts", "spread,draws"},
-                    {"laws", "prandtl"},
-                    {"triangles", "150"},
-                    {"seconds", "0.2"},
-                    {"out", out.string()}},
-                   {}};
-  for (const char* bare : {"quick", "quiet", "no-images"}) line.flags.push_back({bare, "true"});
-  ASSERT_EQ(experiment_named("validate").run(line), 0);
+  ASSERT_EQ(program("validate --quick --quiet --no-images --fabrics polyester-faille --parts spread,draws "
+                    "--laws prandtl --triangles 150 --seconds 0.2 --out " +
+                    out.string())
+                .exit_code,
+            0);
   const auto metrics = nlohmann::json::parse(text_of(out / "manifest.json"))["metrics"];
   const double low = metrics["polyester-faille.spread_low_percent"],
                high = metrics["polyester-faille.spread_high_percent"];

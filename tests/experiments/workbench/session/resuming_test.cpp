@@ -264,6 +264,20 @@ TEST(Checkpoints, AreRefusedWhereSeveralRunsAreAskedFor) {
             "hysteron crumple: --checkpoint is of single runs: name one law, fabric, integrator\n");
 }
 
+TEST(Resuming, OfSeveralLawsKeepsThoseThatAreFinished) {
+  const Folder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string line = "crumple --quick --triangles 60 --seconds 0.02 --no-images --law linear,prandtl";
+  ASSERT_EQ(program(line + in(out)).exit_code, 0);
+  const auto written = [&](const char* law) { return fs::last_write_time(out / law / "manifest.json"); };
+  const auto first = written("linear");
+  const auto second = written("prandtl");
+  fs::remove(out / "prandtl" / "outcome.json");  // as if it had been interrupted
+  ASSERT_EQ(program(line + " --resume" + in(out)).exit_code, 0);
+  EXPECT_EQ(written("linear"), first);
+  EXPECT_GT(written("prandtl"), second);
+}
+
 // A run that begins anew does not go on later from what another has left.
 TEST(Resuming, ARunThatBeginsAnewRemovesTheCheckpoint) {
   const Folder folder;
