@@ -34,7 +34,7 @@ std::span<const unsigned char> bytes_of(const char (&literal)[size]) {
 }  // namespace
 
 std::span<const unsigned char> embedded_file(std::string_view name) {
-${cases}  throw Error::machine(\"looking for \" + std::string(name) + \": it is not embedded in this binary\");
+${cases}  throw Error::system(\"looking for \" + std::string(name) + \": it is not embedded in this binary\");
 }
 
 }  // namespace hysteron::${NAMESPACE}

@@ -10,7 +10,7 @@
 namespace hysteron::render {
 namespace {
 
-constexpr Rgb8 kPlate{255, 255, 255}, kAxis{150, 153, 158}, kGhost{176, 178, 182}, kLetter{70, 73, 78};
+constexpr Rgb8 kPlate{255, 255, 255}, kAxis{150, 153, 158}, kGhost{176, 178, 182}, kAxisName{70, 73, 78};
 constexpr float kOpacity = 0.86f;  // of the white behind the loop
 constexpr double kAir = 0.12;      // of the extent, beyond the largest values
 constexpr float kEdge = 0.02f;     // between the inset and the picture's border, of the shorter side
@@ -148,10 +148,10 @@ void draw_loop(Image& image, const LoopInset& inset, Corner corner, float share,
   const bool left = at.x(0) - at.left > at.side / 2;  // of which there is more room
   const bool below = at.y(0) - at.top < at.side / 2;
   draw_text(image, "M", left ? at.x(0) - 1.3f * letters : at.x(0) + 0.35f * letters,
-            below ? at.top + at.side : at.top + letters, {kLetter, letters});
+            below ? at.top + at.side : at.top + letters, {kAxisName, letters});
   const bool above = at.y(0) - 1.4f * letters >= at.top;
   draw_text(image, "κ", left ? at.left : at.left + at.side - text_width("κ", letters),
-            at.y(0) + (above ? -0.4f : 1.4f) * letters, {kLetter, letters});
+            at.y(0) + (above ? -0.4f : 1.4f) * letters, {kAxisName, letters});
   draw_path(image, at, inset.reference, bold, kGhost);
   draw_path(image, at, inset.path, bold, inset.color);
   const float x = at.x(inset.path.curvature.back()), y = at.y(inset.path.moment.back());
