@@ -81,6 +81,7 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& run
   jobs.gpu =
       std::any_of(runs.begin(), runs.end(), [](const SweepColumn& run) { return may_use_gpu(run.line); });
   jobs.go_on = true;
+  jobs.keep_reasons = true;
   return jobs;
 }
 
