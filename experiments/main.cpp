@@ -20,11 +20,11 @@ using namespace hysteron::experiments;
 void say_last_words(const CommandLine& line) {
   if (Run::first_folder().empty() || last_text(line.flags, "json", "") == "true") return;
   if (experiment_named(line.experiment).hidden) return;
-  std::cout << closing_words(Run::first_folder()) << std::flush;
+  std::cout << closing_summary(Run::first_folder()) << std::flush;
 }
 
 int flushed(int exit_code) {
-  if (!std::cout.flush() || std::ferror(stdout)) throw Error::machine("cannot write to standard output");
+  if (!std::cout.flush() || std::ferror(stdout)) throw Error::system("cannot write to standard output");
   return exit_code;
 }
 

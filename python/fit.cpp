@@ -18,7 +18,7 @@ constexpr const char* kFrom = "arrays in Python";
 
 std::vector<double> column(const Numbers& values, const std::string& name, std::size_t rows) {
   if (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != rows)
-    throw Error::request(name + " must have " + std::to_string(rows) + " numbers, as many as curvature")
+    throw Error::invalid_input(name + " must have " + std::to_string(rows) + " numbers, as many as curvature")
         .of(name, std::to_string(values.size()));
   return {values.data(), values.data() + values.size()};
 }
@@ -26,7 +26,7 @@ std::vector<double> column(const Numbers& values, const std::string& name, std::
 MomentSeries series_of(const Numbers& curvature, const Numbers& moment, const std::optional<Numbers>& time,
                        double ripple, const std::string& units) {
   if (units != "si" && units != "kes")
-    throw Error::request("units = " + units + " must be si | kes").of("units", units);
+    throw Error::invalid_input("units = " + units + " must be si | kes").of("units", units);
   MomentSeries series;
   series.name = "the loop";
   const auto rows = static_cast<std::size_t>(curvature.size());
@@ -43,7 +43,8 @@ MomentSeries series_of(const Numbers& curvature, const Numbers& moment, const st
     if (rows > 0) series.seconds[0] = 0;
     for (std::size_t i = 1; i < rows; ++i)
       if (series.seconds[i] < 0)
-        throw Error::request("time must not fall, as it does at row " + std::to_string(i)).of("time", "");
+        throw Error::invalid_input("time must not fall, as it does at row " + std::to_string(i))
+            .of("time", "");
   }
   prepare(series, ripple);
   return series;

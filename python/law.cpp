@@ -56,8 +56,9 @@ const double* LawState::checked(const Numbers& curvature) const {
                                           curvature.shape(1) == dimension_;
   if (fits) return curvature.data();
   const std::string shape = shape_text(curvature), n = std::to_string(elements_);
-  throw Error::request("curvature has shape " + shape + ", must be " +
-                       (dimension_ == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(dimension_) + ")"))
+  throw Error::invalid_input(
+      "curvature has shape " + shape + ", must be " +
+      (dimension_ == 1 ? "(" + n + ",)" : "(" + n + ", " + std::to_string(dimension_) + ")"))
       .of("curvature", shape);
 }
 
@@ -73,7 +74,7 @@ py::array LawState::step(const Numbers& curvature, double dt, py::object out) {
   if (!out.is_none()) {
     using Doubles = py::array_t<double, py::array::c_style>;
     if (!Doubles::check_(out) || py::reinterpret_borrow<py::array>(out).size() != moment.size())
-      throw Error::request("out must be a C-contiguous array of doubles, as many as curvature has")
+      throw Error::invalid_input("out must be a C-contiguous array of doubles, as many as curvature has")
           .of("out", "");
     moment = py::reinterpret_borrow<py::array_t<double>>(out);
   }
@@ -146,7 +147,7 @@ struct Law {
 
   LawState rest(int elements, int threads) const {
     if (elements < 1)
-      throw Error::request("elements = " + std::to_string(elements) + " must be >= 1")
+      throw Error::invalid_input("elements = " + std::to_string(elements) + " must be >= 1")
           .of("elements", std::to_string(elements));
     return {choice, dimension, elements, threads};
   }
@@ -154,7 +155,7 @@ struct Law {
 
 Law make_law(const std::string& name, py::object fabric, int dimension, const py::kwargs& parameters) {
   if (dimension != 1 && dimension != 3)
-    throw Error::request("dimension = " + std::to_string(dimension) + " must be 1 or 3")
+    throw Error::invalid_input("dimension = " + std::to_string(dimension) + " must be 1 or 3")
         .of("dimension", std::to_string(dimension));
   const std::vector<std::string> known = law_parameter_names(name);
   LawParameters texts;

@@ -25,8 +25,8 @@ render::Image image_of(py::handle picture, const std::string& what) {
   const auto array = py::reinterpret_borrow<py::array>(picture);
   if (!py::isinstance<py::array_t<std::uint8_t>>(array) || array.ndim() != 3 ||
       (array.shape(2) != 3 && array.shape(2) != 4))
-    throw Error::request(what +
-                         " must be an array of bytes (uint8) of shape (H, W, 3) or (H, W, 4), or a PNG file")
+    throw Error::invalid_input(
+        what + " must be an array of bytes (uint8) of shape (H, W, 3) or (H, W, 4), or a PNG file")
         .of(what, py::str(array.attr("shape")));
   const Bytes bytes(array);
   render::Image image(static_cast<int>(bytes.shape(1)), static_cast<int>(bytes.shape(0)),
@@ -40,7 +40,7 @@ py::dict diff(py::object a, py::object b, double pixels_per_degree, const std::s
   flags.pixels_per_degree = pixels_per_degree;
   flags.map = map;
   if (map != "steps" && map != "flip")
-    throw Error::request("map = " + map + " must be steps | flip").of("map", map);
+    throw Error::invalid_input("map = " + map + " must be steps | flip").of("map", map);
   experiments::Comparison found;
   render::Image of_a = image_of(a, "a"), of_b = image_of(b, "b");
   unlocked([&] { found = compare_pictures(std::move(of_a), std::move(of_b), flags); });
@@ -63,8 +63,8 @@ void set_options(experiments::Options& options, const py::kwargs& given) {
   for (const auto& [name, value] : given) {
     const std::string path = key_named(py::str(name), kNames);
     if (std::find(kNames.begin(), kNames.end(), path) == kNames.end())
-      throw Error::request("render has no argument \"" + path + "\"; there are: size, bounds, caption, " +
-                           join(kNames, ", "))
+      throw Error::invalid_input("render has no argument \"" + path +
+                                 "\"; there are: size, bounds, caption, " + join(kNames, ", "))
           .of(path, "");
     assign(find_key(keys, path, "render"), to_value(value, path), "render");
   }
@@ -74,7 +74,7 @@ std::optional<render::Box> box_of(const std::optional<std::pair<Numbers, Numbers
   if (!bounds) return {};
   const auto corner = [](const Numbers& at) -> Eigen::Vector3f {
     if (at.size() != 3)
-      throw Error::request("bounds must be two corners of three numbers [m]").of("bounds", "");
+      throw Error::invalid_input("bounds must be two corners of three numbers [m]").of("bounds", "");
     return Eigen::Map<const Eigen::Vector3d>(at.data()).cast<float>();
   };
   return render::Box{corner(bounds->first), corner(bounds->second)};

@@ -6,7 +6,7 @@
 
 namespace hysteron::python {
 
-// Error::request unless it can be simulated.
+// Error::invalid_input unless it can be simulated.
 const Scene& checked(const Scene& scene);
 
 }  // namespace hysteron::python

@@ -22,7 +22,7 @@ SimulationValue::SimulationValue(const Scene& scene) : scene_(python::checked(sc
 }
 
 Simulation& SimulationValue::at_rest() const {
-  if (in_use_) throw Error::request("the simulation is stepping on another thread");
+  if (in_use_) throw Error::invalid_input("the simulation is stepping on another thread");
   return *simulation_;
 }
 
@@ -40,7 +40,7 @@ void SimulationValue::alone(const Body& body) {
 void SimulationValue::advance(int steps) {
   if (steps < 0) {
     const std::string text = std::to_string(steps);
-    throw Error::request("steps = " + text + " must be >= 0").of("steps", text);
+    throw Error::invalid_input("steps = " + text + " must be >= 0").of("steps", text);
   }
   for (int s = 0; s < steps; ++s) {
     alone([](Simulation& simulation) { simulation.advance(1); });
@@ -104,7 +104,7 @@ py::tuple hand(const S& self, int pin) {
 
 void drive(const S& self, int pin, const Numbers& velocity, double spin) {
   if (velocity.size() != 3)
-    throw Error::request("velocity must have three components [m/s]").of("velocity", "");
+    throw Error::invalid_input("velocity must have three components [m/s]").of("velocity", "");
   self.at_rest().drive(pin, Eigen::Map<const Eigen::Vector3d>(velocity.data()), spin);
 }
 

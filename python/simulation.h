@@ -21,7 +21,7 @@ class SimulationValue {
 
   const Scene& scene() const { return scene_; }
   const Cloth& cloth() const { return cloth_; }
-  // Error::request while another thread steps or draws it.
+  // Error::invalid_input while another thread steps or draws it.
   Simulation& at_rest() const;
   render::Image picture(const PictureChoice& choice);
 

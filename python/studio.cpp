@@ -47,7 +47,7 @@ render::Image Studio::picture(const Scene& scene, const Cloth& cloth, Simulation
         studio.view().set_positions(xyz);
         render::Image image = studio.draw(pictures::look_of(scene, choice.options, name), camera, shown);
         if (!studio.view().shows_cloth())
-          throw Error::run("the picture shows no cloth: bounds must frame where it is");
+          throw Error::simulation("the picture shows no cloth: bounds must frame where it is");
         if (!choice.caption.empty())
           pictures::letter(image, camera, bounds.center(), choice.caption,
                            pictures::color_bar_of(scene, choice.options, name));

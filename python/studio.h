@@ -20,7 +20,7 @@ struct PictureChoice {
 
 class Studio {
  public:
-  // Error::machine where no context is to be had.
+  // Error::system where no context is to be had.
   render::Image picture(const Scene& scene, const Cloth& cloth, Simulation& simulation,
                         const PictureChoice& choice);
 

@@ -19,7 +19,7 @@ std::string plain(std::string path) {
 
 [[noreturn]] void refuse(const std::string& key, py::handle value, const std::string& allowed) {
   const std::string text = py::repr(value);
-  throw Error::request(key + " = " + text + " must be " + allowed).of(key, text);
+  throw Error::invalid_input(key + " = " + text + " must be " + allowed).of(key, text);
 }
 
 bool is_mapping(py::handle value) { return py::isinstance<py::dict>(value); }

@@ -22,8 +22,8 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 std::string key_named(const std::string& name, const std::vector<std::string>& keys);
 std::vector<std::string> paths(const std::vector<KeyDescription>& keys);
 
-// A value as a scene file would hold it: bool, int, float, str, a path, or numbers.  Error::request of the
-// key for any other.
+// A value as a scene file would hold it: bool, int, float, str, a path, or numbers.  Error::invalid_input of
+// the key for any other.
 Value to_value(py::handle value, const std::string& key);
 // As a file would spell it; for parameters of laws.
 std::string to_text(py::handle value, const std::string& key);

@@ -35,12 +35,12 @@ Eigen::Vector3f up_for(const Eigen::Vector3f& forward) {
 }  // namespace
 
 Box box_of(std::span<const float> positions) {
-  if (positions.size() < 3) throw Error::request("bounding box: there are no points");
+  if (positions.size() < 3) throw Error::invalid_input("bounding box: there are no points");
   Box box{{positions[0], positions[1], positions[2]}, {positions[0], positions[1], positions[2]}};
   for (size_t i = 0; i + 2 < positions.size(); i += 3) {
     const Eigen::Vector3f point(positions[i], positions[i + 1], positions[i + 2]);
     if (!point.allFinite())
-      throw Error::request("bounding box: point " + std::to_string(i / 3) + " is not finite");
+      throw Error::invalid_input("bounding box: point " + std::to_string(i / 3) + " is not finite");
     box = box.merged({point, point});
   }
   return box;
@@ -48,10 +48,10 @@ Box box_of(std::span<const float> positions) {
 
 Camera Camera::perspective(const Eigen::Vector3f& eye, const Eigen::Vector3f& target, float fov_degree) {
   const float distance = (target - eye).norm();
-  if (!(distance > 0)) throw Error::request("camera: eye and target are the same point");
+  if (!(distance > 0)) throw Error::invalid_input("camera: eye and target are the same point");
   if (!(fov_degree > 0 && fov_degree < 170))
-    throw Error::request("camera: fov = " + std::to_string(fov_degree) +
-                         " degree; allowed: above 0, below 170");
+    throw Error::invalid_input("camera: fov = " + std::to_string(fov_degree) +
+                               " degree; allowed: above 0, below 170");
   Camera camera;
   camera.eye_ = eye;
   camera.target_ = target;
@@ -174,7 +174,7 @@ float Camera::metres_per_pixel(int height) const {
   return 2 * (is_orthographic() ? half_height_ : tan_half_fov_) / static_cast<float>(height);
 }
 Window Camera::window_of(std::span<const float> points, float aspect) const {
-  if (points.size() < 3) throw Error::request("window of a picture: there are no points");
+  if (points.size() < 3) throw Error::invalid_input("window of a picture: there are no points");
   const Eigen::Matrix4f clip = projection(aspect) * view();
   const double inf = std::numeric_limits<double>::infinity();
   Window window{inf, inf, -inf, -inf};

@@ -14,7 +14,7 @@ struct Box {
   Box merged(const Box& other) const { return {low.cwiseMin(other.low), high.cwiseMax(other.high)}; }
 };
 
-// Box of points given as x, y, z each.  Error::request if there are none or one is not finite.
+// Box of points given as x, y, z each.  Error::invalid_input if there are none or one is not finite.
 Box box_of(std::span<const float> positions);
 
 // Part of a picture, in shares of its width and height from its lower left corner; it may reach beyond.
@@ -33,7 +33,7 @@ class Camera {
 
   // Perspective; looks against `direction`, as near as the points, given as x, y, z each, stay whole in a
   // picture of this aspect with `margin` of its width and height free on every side: they touch two of its
-  // borders.  Error::request if there are none.
+  // borders.  Error::invalid_input if there are none.
   static Camera around(std::span<const float> points, const Eigen::Vector3f& direction, float fov_degree,
                        float aspect, float margin);
 
@@ -46,7 +46,7 @@ class Camera {
   Eigen::Matrix4f projection(float aspect, const Window& window = {}) const;
   // Whether all points, given as x, y, z each, lie within a picture of this aspect.
   bool frames(std::span<const float> positions, float aspect) const;
-  // Box of the points' images, which may reach beyond the picture.  Error::request if there are none.
+  // Box of the points' images, which may reach beyond the picture.  Error::invalid_input if there are none.
   Window window_of(std::span<const float> points, float aspect) const;
   const Eigen::Vector3f& eye() const { return eye_; }
   const Eigen::Vector3f& target() const { return target_; }

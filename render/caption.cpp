@@ -170,7 +170,7 @@ void draw_caption(Image& image, std::string_view text, Corner corner) {
 
 double scale_bar_length(const Image& image, double metres_per_pixel) {
   if (!(metres_per_pixel > 0) || !std::isfinite(metres_per_pixel))
-    throw Error::request("scale bar: " + std::to_string(metres_per_pixel) + " m per pixel must be > 0");
+    throw Error::invalid_input("scale bar: " + std::to_string(metres_per_pixel) + " m per pixel must be > 0");
   const double wanted = metres_per_pixel * image.width() / 6;
   const double decade = std::pow(10, std::floor(std::log10(wanted)));
   double best = decade;
@@ -197,8 +197,8 @@ double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std:
 
 ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner) {
   if (!(bar.low < bar.high))
-    throw Error::request("colour bar: low = " + number_text(bar.low) +
-                         " must be below high = " + number_text(bar.high));
+    throw Error::invalid_input("colour bar: low = " + number_text(bar.low) +
+                               " must be below high = " + number_text(bar.high));
   const std::string title = bar.label + (bar.unit.empty() ? "" : " [" + bar.unit + "]");
   const float size = fitting_size(image, title, text_size(image)), letters = 0.85f * size;
   // The first and the last number are centred under the bar's ends.

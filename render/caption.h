@@ -41,7 +41,7 @@ std::string length_text(double metres);
 double scale_bar_length(const Image& image, double metres_per_pixel);
 // A bar of scale_bar_length with its label ("5 cm"); `note` says in which plane it holds ("at the cloth's
 // centre"), set smaller if it would leave its half of the picture.  Returns the bar's length in pixels.
-// Error::request if metres_per_pixel is not positive.
+// Error::invalid_input if metres_per_pixel is not positive.
 double draw_scale_bar(Image& image, double metres_per_pixel, Corner corner, std::string_view note = "");
 
 struct ColorBar {
@@ -58,7 +58,7 @@ struct ColorBarPlace {
   std::vector<int> tick_columns;
 };
 
-// Horizontal bar with ticks, label and unit.  Error::request unless low < high.
+// Horizontal bar with ticks, label and unit.  Error::invalid_input unless low < high.
 ColorBarPlace draw_color_bar(Image& image, const ColorBar& bar, Corner corner);
 
 }  // namespace hysteron::render

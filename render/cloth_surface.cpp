@@ -17,22 +17,22 @@ enum Attribute : GLuint { kPosition, kNormal, kPattern, kValue, kSky };
 
 void require_topology(const ClothTopology& topology) {
   if (topology.vertices == 0 || topology.triangles.empty())
-    throw Error::request("drawing a cloth: it has no triangles");
+    throw Error::invalid_input("drawing a cloth: it has no triangles");
   for (size_t i = 0; i < topology.triangles.size(); ++i)
     if (topology.triangles[i] < 0 || static_cast<size_t>(topology.triangles[i]) >= topology.vertices)
-      throw Error::request("drawing a cloth: triangle " + std::to_string(i / 3) + " names vertex " +
-                           std::to_string(topology.triangles[i]) + "; allowed: 0 to " +
-                           std::to_string(topology.vertices - 1));
+      throw Error::invalid_input("drawing a cloth: triangle " + std::to_string(i / 3) + " names vertex " +
+                                 std::to_string(topology.triangles[i]) + "; allowed: 0 to " +
+                                 std::to_string(topology.vertices - 1));
   if (!topology.pattern.empty() && topology.pattern.size() != 2 * topology.vertices)
-    throw Error::request("drawing a cloth: " + std::to_string(topology.pattern.size()) +
-                         " pattern coordinates; allowed: none or two for each of " +
-                         std::to_string(topology.vertices) + " vertices");
+    throw Error::invalid_input("drawing a cloth: " + std::to_string(topology.pattern.size()) +
+                               " pattern coordinates; allowed: none or two for each of " +
+                               std::to_string(topology.vertices) + " vertices");
 }
 
 void require_count(const char* what, size_t count, size_t expected) {
   if (count != expected)
-    throw Error::request("drawing a cloth: " + std::to_string(count) + " " + what + " given, " +
-                         std::to_string(expected) + " expected");
+    throw Error::invalid_input("drawing a cloth: " + std::to_string(count) + " " + what + " given, " +
+                               std::to_string(expected) + " expected");
 }
 
 void view_as_texture(const GlFunctions& gl, const GlTexture& texture, GLenum format, const GlBuffer& buffer) {
@@ -72,9 +72,9 @@ ClothSurface::ClothSurface(const GlFunctions& gl, const ClothTopology& topology)
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
   if (3 * std::max(vertices_, 2 * triangles_) > static_cast<size_t>(largest))
-    throw Error::machine("drawing a cloth of " + std::to_string(triangles_) +
-                         " triangles: the driver's texture buffers hold " + std::to_string(largest) +
-                         " items");
+    throw Error::system("drawing a cloth of " + std::to_string(triangles_) +
+                        " triangles: the driver's texture buffers hold " + std::to_string(largest) +
+                        " items");
   upload_topology(topology);
   upload_adjacency(topology);
   upload_boundary(topology);

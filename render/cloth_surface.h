@@ -23,13 +23,14 @@ inline constexpr int kIndexUnit = 4;
 
 class ClothSurface {
  public:
-  // Error::request for a triangle that names a vertex beyond `vertices`, or a pattern of another length.
+  // Error::invalid_input for a triangle that names a vertex beyond `vertices`, or a pattern of another
+  // length.
   ClothSurface(const GlFunctions& gl, const ClothTopology& topology);
 
   size_t vertices() const { return vertices_; }
   size_t triangles() const { return triangles_; }
 
-  // x, y, z each [m].  Error::request if their number is not the topology's.
+  // x, y, z each [m].  Error::invalid_input if their number is not the topology's.
   void set_positions(std::span<const float> xyz);
   // One a vertex, for the colour map; an empty span stands for zero everywhere.
   void set_values(std::span<const float> values);

@@ -18,11 +18,11 @@ namespace {
 constexpr int kSamplesAtOnce = 4;
 constexpr int kFigureSamples = 1;  // a figure has passes enough
 constexpr int kColorMapUnit = 2;
-constexpr float kLeastThickness = 1.2f;  // of cloth as it is drawn [pixels]
+constexpr float kMinThickness = 1.2f;  // of cloth as it is drawn [pixels]
 // Of the key light beside the camera [degree].
 constexpr float kKeyAzimuth = 100, kKeyElevation = 30;
-constexpr float kRaking = 0.2f;      // elevation of a raking light above the cloth's plane [rad]
-constexpr float kLeastAlong = 0.2f;  // of a light's direction that must lie in that plane
+constexpr float kRaking = 0.2f;    // elevation of a raking light above the cloth's plane [rad]
+constexpr float kMinAlong = 0.2f;  // of a light's direction that must lie in that plane
 // Longest side of an obstacle's triangles over its diagonal: their corners carry the room's soft shadows.
 constexpr float kSkySpacing = 1.0f / 16;
 constexpr float kBodySkyBlur = 3.2f, kBodySkyLift = 2.4f;  // texels: neighbouring directions blend
@@ -71,7 +71,7 @@ Eigen::Vector3f normal_of(std::span<const float> xyz) {
 }
 
 Box mesh_box(const TriangleMesh& mesh) {
-  if (mesh.positions.empty()) throw Error::request("drawing an obstacle: it has no triangles");
+  if (mesh.positions.empty()) throw Error::invalid_input("drawing an obstacle: it has no triangles");
   Box box{mesh.positions.front(), mesh.positions.front()};
   for (const Eigen::Vector3f& p : mesh.positions) box = box.merged({p, p});
   return box;
@@ -103,8 +103,9 @@ void upload_color_map(const GlFunctions& gl, const GlTexture& texture, ColorMap 
 PictureSize checked(Offscreen& offscreen, PictureSize size) {
   const int largest = std::min(size.width, size.height) < 1 ? 0 : std::max(size.width, size.height);
   if (largest < 1 || largest > kLargestSide || size.samples < 1 || size.supersample < 1 || size.tile < 2)
-    throw Error::request("picture of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                         " pixels: 1 to " + std::to_string(kLargestSide) + " a side are allowed");
+    throw Error::invalid_input("picture of " + std::to_string(size.width) + " x " +
+                               std::to_string(size.height) + " pixels: 1 to " + std::to_string(kLargestSide) +
+                               " a side are allowed");
   offscreen.make_current();
   GLint most = 0;
   offscreen.gl().GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
@@ -164,7 +165,7 @@ void ClothView::set_cloth(const ClothTopology& topology) {
 }
 
 void ClothView::set_positions(std::span<const float> xyz) {
-  if (!cloth_) throw Error::request("drawing a cloth: positions were given before its triangles");
+  if (!cloth_) throw Error::invalid_input("drawing a cloth: positions were given before its triangles");
   offscreen_.make_current();
   cloth_->set_positions(xyz);
   if (!triangles_.empty()) cloth_side_ = long_side(std::exchange(triangles_, {}), xyz, 3);
@@ -173,7 +174,7 @@ void ClothView::set_positions(std::span<const float> xyz) {
 }
 
 void ClothView::set_values(std::span<const float> values) {
-  if (!cloth_) throw Error::request("drawing a cloth: values were given before its triangles");
+  if (!cloth_) throw Error::invalid_input("drawing a cloth: values were given before its triangles");
   offscreen_.make_current();
   cloth_->set_values(values);
 }
@@ -205,8 +206,8 @@ int ClothView::add_obstacle(const TriangleMesh& mesh, const Eigen::Matrix4f& pla
 
 ClothView::Obstacle& ClothView::obstacle(int number) {
   if (number < 0 || number >= static_cast<int>(obstacles_.size()))
-    throw Error::request("obstacle " + std::to_string(number) + " is not among the " +
-                         std::to_string(obstacles_.size()) + " drawn");
+    throw Error::invalid_input("obstacle " + std::to_string(number) + " is not among the " +
+                               std::to_string(obstacles_.size()) + " drawn");
   return obstacles_[number];
 }
 
@@ -287,7 +288,7 @@ Eigen::Vector3f ClothView::to_light(const Camera& camera) const {
   Eigen::Vector3f normal = cloth_normal_.value_or(eye);
   if (normal.dot(eye) < 0) normal = -normal;
   Eigen::Vector3f along = side - side.dot(normal) * normal;
-  if (along.norm() < kLeastAlong) along = Eigen::Vector3f::UnitZ() - normal.z() * normal;
+  if (along.norm() < kMinAlong) along = Eigen::Vector3f::UnitZ() - normal.z() * normal;
   Eigen::Vector3f light = std::cos(kRaking) * along.normalized() + std::sin(kRaking) * normal;
   light.z() = std::max(light.z(), std::sin(kRaking));  // a ground, or the room's floor, hides what is lower
   return light;
@@ -470,7 +471,7 @@ void ClothView::begin_cloth(const Program& program, const View& view) const {
   program.set("position", kPositionUnit);
   program.set("corner_index", kIndexUnit);
   program.set("sheet_half", 0.5f * look_.thickness);
-  program.set("least_half", 0.5f * kLeastThickness * view.pixel);
+  program.set("least_half", 0.5f * kMinThickness * view.pixel);
   gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
   gl_.BindTexture(GL_TEXTURE_2D, color_map_.name());
 }

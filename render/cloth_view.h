@@ -45,7 +45,7 @@ Eigen::Vector3f key_beside(const Camera& camera);
 
 class ClothView {
  public:
-  // `offscreen` must outlive the view.  Error::request for a side below 1 or above 65536 pixels.
+  // `offscreen` must outlive the view.  Error::invalid_input for a side below 1 or above 65536 pixels.
   ClothView(Offscreen& offscreen, const PictureSize& size);
   ~ClothView();
   ClothView(const ClothView&) = delete;

@@ -25,8 +25,8 @@ int largest_step(const std::uint8_t* a, const std::uint8_t* b) {
 
 void require_same_size(const Image& a, const Image& b) {
   if (a.width() != b.width() || a.height() != b.height() || a.empty())
-    throw Error::request("comparing pictures of " + size_text(a) + " and " + size_text(b) +
-                         " pixels: sizes must be equal and not zero");
+    throw Error::invalid_input("comparing pictures of " + size_text(a) + " and " + size_text(b) +
+                               " pixels: sizes must be equal and not zero");
 }
 
 Difference compare(const Image& a, const Image& b) {
@@ -55,7 +55,8 @@ Difference compare(const Image& a, const Image& b) {
 Image heat_map(const Image& a, const Image& b, int full_scale) {
   require_same_size(a, b);
   if (full_scale < 1)
-    throw Error::request("heat map: full scale = " + std::to_string(full_scale) + " steps must be >= 1");
+    throw Error::invalid_input("heat map: full scale = " + std::to_string(full_scale) +
+                               " steps must be >= 1");
   std::array<Rgb8, 256> colors;
   for (int i = 0; i < 256; ++i)
     colors[i] = map_color8(ColorMap::sequential, static_cast<float>(i) / static_cast<float>(full_scale));

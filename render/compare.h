@@ -13,10 +13,10 @@ struct Difference {
   double pixels_over_8_percent = 0;  // pixels with a channel that differs by more than 8
 };
 
-// Error::request unless both pictures have the same size and a pixel.
+// Error::invalid_input unless both pictures have the same size and a pixel.
 void require_same_size(const Image& a, const Image& b);
 
-// Error::request if the sizes differ.  Alpha is ignored.
+// Error::invalid_input if the sizes differ.  Alpha is ignored.
 Difference compare(const Image& a, const Image& b);
 
 // Largest channel difference of every pixel: dark for equal, up to pale yellow from `full_scale` on.

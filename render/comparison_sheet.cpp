@@ -16,7 +16,7 @@ constexpr float kLine = 1.65f;                                  // from baseline
 constexpr float kTitle = 1.35f;                                 // letters of the title
 constexpr float kPlateEdge = 0.02f;                             // of an inset, around its frame
 constexpr float kInsetShare = 0.28f;                            // of a cell's shorter side
-constexpr int kLeastCell = 32;                                  // [pixels]
+constexpr int kMinCell = 32;                                    // [pixels]
 constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
 constexpr const char* kBetween = " · ";
 
@@ -235,7 +235,7 @@ double want(const ComparisonSheet& sheet, const Page& page) {
 
 Page best_page(const ComparisonSheet& sheet) {
   if (sheet.beside > 0) return page_with(sheet, static_cast<std::size_t>(sheet.beside));
-  const std::size_t most = std::min<std::size_t>(kMostBeside, sheet.columns.size());
+  const std::size_t most = std::min<std::size_t>(kMaxBeside, sheet.columns.size());
   Page best = page_with(sheet, most);
   for (std::size_t beside = most - 1; beside >= 1; --beside) {
     const Page page = page_with(sheet, beside);
@@ -501,12 +501,12 @@ bool is_dark(const Image& image, int x, int y) {
 
 void check(const ComparisonSheet& sheet) {
   if (sheet.columns.empty() || sheet.rows.empty())
-    throw Error::request("comparison: there are no columns or no rows");
+    throw Error::invalid_input("comparison: there are no columns or no rows");
   for (const ComparisonColumn& column : sheet.columns)
     if (column.cells.size() != sheet.rows.size())
-      throw Error::request("comparison: the column \"" + column.name + "\" has " +
-                           std::to_string(column.cells.size()) + " cells for " +
-                           std::to_string(sheet.rows.size()) + " rows");
+      throw Error::invalid_input("comparison: the column \"" + column.name + "\" has " +
+                                 std::to_string(column.cells.size()) + " cells for " +
+                                 std::to_string(sheet.rows.size()) + " rows");
 }
 
 }  // namespace
@@ -516,10 +516,10 @@ float sheet_letters(int width) { return std::ceil(static_cast<float>(width) / 84
 Image draw_comparison(const ComparisonSheet& sheet) {
   check(sheet);
   Page page = best_page(sheet);
-  if (page.cell_width < kLeastCell)
-    throw Error::request("comparison: columns in " + std::to_string(sheet.width) + " pixels leave " +
-                         std::to_string(page.cell_width) + " for a picture; at least " +
-                         std::to_string(kLeastCell) + " are needed");
+  if (page.cell_width < kMinCell)
+    throw Error::invalid_input("comparison: columns in " + std::to_string(sheet.width) + " pixels leave " +
+                               std::to_string(page.cell_width) + " for a picture; at least " +
+                               std::to_string(kMinCell) + " are needed");
   return Drawing(sheet, std::move(page)).draw();
 }
 
@@ -549,7 +549,7 @@ void fade_to_page(Image& image) {
 
 void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width) {
   if (target.width() != silhouette.width() || target.height() != silhouette.height())
-    throw Error::request("outline: the silhouette has another size than the picture");
+    throw Error::invalid_input("outline: the silhouette has another size than the picture");
   for (int y = 0; y < silhouette.height(); ++y)
     for (int x = 0; x < silhouette.width(); ++x) {
       if (!is_dark(silhouette, x, y)) continue;

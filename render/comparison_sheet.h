@@ -51,12 +51,12 @@ struct ComparisonSheet {
   static constexpr int kSheetWidth = 1676;  // twice the width of a repository's front page
 };
 
-inline constexpr int kMostBeside = 5;
+inline constexpr int kMaxBeside = 5;
 // Capitals' height on a page: 1/84 of its width, rounded up [pixels].
 float sheet_letters(int width);
 
-// Error::request if there are no columns or rows, a column has another number of cells than there are rows,
-// or less than 32 pixels are left for a cell.
+// Error::invalid_input if there are no columns or rows, a column has another number of cells than there are
+// rows, or less than 32 pixels are left for a cell.
 Image draw_comparison(const ComparisonSheet& sheet);
 
 // Cells without edges: where most of a picture's border is nearly white, its outer 4 % go over into the page,
@@ -64,7 +64,7 @@ Image draw_comparison(const ComparisonSheet& sheet);
 void fade_to_page(Image& image);
 
 // The outline of a silhouette, black on white, drawn over `target` of the same size; `width` in pixels.
-// Error::request if the sizes differ.
+// Error::invalid_input if the sizes differ.
 void draw_outline(Image& target, const Image& silhouette, const Rgb8& color, int width);
 
 }  // namespace hysteron::render

@@ -9,7 +9,7 @@
 namespace hysteron::render {
 
 Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout) {
-  if (entries.empty()) throw Error::request("contact sheet: there are no pictures");
+  if (entries.empty()) throw Error::invalid_input("contact sheet: there are no pictures");
   ComparisonSheet sheet;
   sheet.title = layout.title;
   sheet.width = layout.width;
@@ -20,7 +20,7 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& l
   sheet.rows = {{"", "", layout.metres_per_pixel}};
   for (const SheetEntry& entry : entries) {
     if (entry.image.empty())
-      throw Error::request("contact sheet: the picture \"" + entry.caption + "\" is empty");
+      throw Error::invalid_input("contact sheet: the picture \"" + entry.caption + "\" is empty");
     sheet.columns.push_back({entry.caption, {}, {}, "", {{entry.image, "", entry.loop}}});
   }
   return draw_comparison(sheet);
@@ -28,12 +28,12 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& l
 
 Image onion_skin(const std::vector<Image>& pictures) {
   constexpr double kPalest = 0.72;  // share of white in the first
-  if (pictures.empty()) throw Error::request("onion skin: there are no pictures");
+  if (pictures.empty()) throw Error::invalid_input("onion skin: there are no pictures");
   Image over = pictures.back();
   for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
     const Image& one = pictures[i];
     if (one.width() != over.width() || one.height() != over.height() || one.channels() != over.channels())
-      throw Error::request("onion skin: the pictures differ in size");
+      throw Error::invalid_input("onion skin: the pictures differ in size");
     const double pale = kPalest * (1 - static_cast<double>(i) / static_cast<double>(pictures.size() - 1));
     for (std::size_t k = 0; k < over.pixels().size(); ++k)
       over.pixels()[k] =

@@ -24,12 +24,12 @@ struct SheetLayout {
   std::vector<ColorBar> bars{};
 };
 
-// Cells are equally large and show each picture whole.  Error::request if there are no pictures, one is
+// Cells are equally large and show each picture whole.  Error::invalid_input if there are no pictures, one is
 // empty, or the page is too narrow for its columns.
 Image contact_sheet(const std::vector<SheetEntry>& entries, const SheetLayout& layout);
 
 // Pictures on white over each other, the darkest of each pixel, the earlier the paler: a motion in one
-// picture. Error::request if there are none or their sizes differ.
+// picture. Error::invalid_input if there are none or their sizes differ.
 Image onion_skin(const std::vector<Image>& pictures);
 
 // `count` indices spread evenly from the first to the last of `total`: the pictures of a sequence worth a

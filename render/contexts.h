@@ -30,7 +30,7 @@ class SharedLibrary {
   template <class Function>
   void load(const char* name, Function& function) const {
     function = is_open() ? reinterpret_cast<Function>(dlsym(handle_, name)) : nullptr;
-    if (function == nullptr) throw Error::machine(is_open() ? std::string("it has no ") + name : reason_);
+    if (function == nullptr) throw Error::system(is_open() ? std::string("it has no ") + name : reason_);
   }
 
  private:
@@ -44,13 +44,13 @@ std::vector<Candidate> egl_candidates();
 // Why there are no candidates, in a few words.
 std::string egl_unavailable();
 
-// Error::machine if EGL refuses.
+// Error::system if EGL refuses.
 std::unique_ptr<Offscreen> create_egl_context(const Candidate& candidate);
 
 // OpenGL contexts through OSMesa, Mesa's renderer into plain memory, opened at run time.  Mesa dropped it
 // in 25.1.
 
-// Error::machine if there is no libOSMesa or it refuses.
+// Error::system if there is no libOSMesa or it refuses.
 std::unique_ptr<Offscreen> create_osmesa_context(const Candidate& candidate);
 
 }  // namespace hysteron::render

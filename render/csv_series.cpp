@@ -18,14 +18,15 @@ size_t column_named(const std::vector<std::string>& names, const std::string& wa
     if (names[i] == wanted || names[i].substr(0, names[i].find(" [")) == wanted) return i;
     all += (i ? ", " : "") + names[i];
   }
-  throw Error::request(fmt::format("{}: no column \"{}\"; there are: {}", attempt, wanted, all));
+  throw Error::invalid_input(fmt::format("{}: no column \"{}\"; there are: {}", attempt, wanted, all));
 }
 
 double number_in(const std::string& cell, const std::string& attempt, int line) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   char* end = nullptr;
   const double value = std::strtod(cell.c_str(), &end);
-  if (*end != '\0') throw Error::request(fmt::format("{}:{}: \"{}\" is no number", attempt, line, cell));
+  if (*end != '\0')
+    throw Error::invalid_input(fmt::format("{}:{}: \"{}\" is no number", attempt, line, cell));
   return value;
 }
 
@@ -35,7 +36,7 @@ Series series_from_csv(const std::filesystem::path& csv, const std::string& x, c
                        const std::string& label) {
   const std::string attempt = "reading " + csv.string();
   const TextTable table = words_in(file_named(csv, attempt), csv.string());
-  if (table.head.empty()) throw Error::request(attempt + ": the file is empty");
+  if (table.head.empty()) throw Error::invalid_input(attempt + ": the file is empty");
   const size_t x_column = column_named(table.head, x, attempt),
                y_column = column_named(table.head, y, attempt);
   Series series{.label = label, .x = {}, .y = {}};

@@ -92,7 +92,7 @@ Candidate describe_device(EGLDeviceEXT device, int index) {
 }
 
 Error egl_error(const char* attempted) {
-  return Error::machine(
+  return Error::system(
       fmt::format("{} fails with EGL error 0x{:04x}", attempted, static_cast<unsigned>(egl().GetError())));
 }
 
@@ -121,11 +121,11 @@ class EglContext : public Offscreen {
 
  private:
   void open_display(const Candidate& candidate) {
-    if (!egl().GetPlatformDisplay) throw Error::machine("EGL has no eglGetPlatformDisplayEXT");
+    if (!egl().GetPlatformDisplay) throw Error::system("EGL has no eglGetPlatformDisplayEXT");
     if (candidate.kind == Candidate::Kind::egl_device) {
       const auto devices = query_devices();
       if (candidate.device < 0 || candidate.device >= static_cast<int>(devices.size()))
-        throw Error::machine("EGL has " + std::to_string(devices.size()) + " devices");
+        throw Error::system("EGL has " + std::to_string(devices.size()) + " devices");
       display_ = egl().GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[candidate.device], nullptr);
     } else {
       display_ = egl().GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);

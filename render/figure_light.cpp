@@ -21,8 +21,8 @@ const Eigen::Vector3f kKey{4.1f, 4.0f, 3.87f};      // on a surface that faces i
 const Eigen::Vector3f kSky{0.96f, 1.0f, 1.06f};     // on a surface that faces up
 const Eigen::Vector3f kFloor{0.91f, 0.90f, 0.88f};  // on a surface that faces down
 
-constexpr float kOpenLight = 3;        // of the studio on open ground: half the key's and the sky's
-constexpr float kLeastExposed = 0.3f;  // a dim room is exposed longer, for its key light alone
+constexpr float kOpenLight = 3;      // of the studio on open ground: half the key's and the sky's
+constexpr float kMinExposed = 0.3f;  // a dim room is exposed longer, for its key light alone
 
 float u(int index, int base) { return static_cast<float>(radical_inverse(index, base)); }
 
@@ -118,7 +118,7 @@ void FigureLight::bind(const Program& program) const {
   program.set("room_map", kRoomUnit);
   const auto passes = static_cast<float>(passes_);  // each draws the whole light of its directions
   program.set("open_ground", open_);
-  program.set("exposure", 1 / (kOpenLight * (kLeastExposed + (1 - kLeastExposed) * room_)));
+  program.set("exposure", 1 / (kOpenLight * (kMinExposed + (1 - kMinExposed) * room_)));
   for (int k = 0; k < kPassLights; ++k) {
     const std::string index = "[" + std::to_string(k) + "]";
     program.set(("light_matrix" + index).c_str(), matrices_[k]);

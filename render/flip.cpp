@@ -16,12 +16,12 @@ namespace hysteron::render {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kColorExponent = 0.7;            // q_c
-constexpr double kKnee = 0.4;                     // p_c, share of the largest colour difference
-constexpr double kKneeError = 0.95;               // p_t, error that this share is mapped to
-constexpr double kFeatureWidth = 0.082;           // w [degree], of the edges and points that are looked for
-constexpr double kFeatureExponent = 0.5;          // q_f
-constexpr double kLeastPpd = 1, kMostPpd = 1000;  // [pixels/degree]: filters of 3 to 273 pixels
+constexpr double kColorExponent = 0.7;         // q_c
+constexpr double kKnee = 0.4;                  // p_c, share of the largest colour difference
+constexpr double kKneeError = 0.95;            // p_t, error that this share is mapped to
+constexpr double kFeatureWidth = 0.082;        // w [degree], of the edges and points that are looked for
+constexpr double kFeatureExponent = 0.5;       // q_f
+constexpr double kMinPpd = 1, kMaxPpd = 1000;  // [pixels/degree]: filters of 3 to 273 pixels
 
 constexpr int kSerialRows = 64;  // pictures this small are done before threads have started
 
@@ -195,8 +195,8 @@ Features features_of(const Plane& luminance, const FeatureKernels& kernels) {
 }
 
 void require_ppd(double ppd) {
-  if (!(ppd >= kLeastPpd && ppd <= kMostPpd))
-    throw Error::request("FLIP: " + std::to_string(ppd) + " pixels per degree must be in [1, 1000]");
+  if (!(ppd >= kMinPpd && ppd <= kMaxPpd))
+    throw Error::invalid_input("FLIP: " + std::to_string(ppd) + " pixels per degree must be in [1, 1000]");
 }
 
 }  // namespace

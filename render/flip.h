@@ -15,8 +15,8 @@ inline constexpr double kPixelsPerDegree = 3840 * std::numbers::pi / 180;
 // Oskarsson, Astrom, Fairchild 2020, "FLIP: A Difference Evaluator for Alternating Images", HPG; letters as
 // there).  The colours that an eye can tell apart at that distance are compared by HyAB in L*a*b* with the
 // Hunt effect, and the difference is raised where edges or points stand in one picture only.  Beyond the
-// border, filters see its pixels repeated. Error::request if the sizes differ or pixels_per_degree is not in
-// [1, 1000].  Alpha is ignored.
+// border, filters see its pixels repeated. Error::invalid_input if the sizes differ or pixels_per_degree is
+// not in [1, 1000].  Alpha is ignored.
 Plane flip_map(const Image& a, const Image& b, double pixels_per_degree = kPixelsPerDegree);
 
 // Its mean, by which whole pictures are compared.

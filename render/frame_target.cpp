@@ -12,8 +12,8 @@ void require_size(const GlFunctions& gl, int width, int height) {
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
   if (width < 1 || height < 1 || width > largest || height > largest)
-    throw Error::request("picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                         " pixels: this driver allows 1 to " + std::to_string(largest) + " a side");
+    throw Error::invalid_input("picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                               " pixels: this driver allows 1 to " + std::to_string(largest) + " a side");
 }
 
 void attach(const GlFunctions& gl, GLenum attachment, const GlRenderbuffer& buffer) {
@@ -23,8 +23,8 @@ void attach(const GlFunctions& gl, GLenum attachment, const GlRenderbuffer& buff
 void require_complete(const GlFunctions& gl) {
   const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Error::machine("making the framebuffer: the driver calls it incomplete, status " +
-                         std::to_string(status));
+    throw Error::system("making the framebuffer: the driver calls it incomplete, status " +
+                        std::to_string(status));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace hysteron::render {
 
 class FrameTarget {
  public:
-  // `samples` is clamped to what the driver offers.  Error::request if the driver cannot hold a picture this
-  // large.
+  // `samples` is clamped to what the driver offers.  Error::invalid_input if the driver cannot hold a picture
+  // this large.
   FrameTarget(const GlFunctions& gl, int width, int height, int samples);
 
   int width() const { return width_; }

@@ -105,12 +105,13 @@ std::string label_text(const std::string& text) { return single_quoted(unmarked(
 std::string data_text(const std::string& text) { return "\"" + unmarked(text, "\\\\") + "\""; }
 
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& all) {
-  if (all.empty()) throw Error::request("plot " + base.string() + ": there is nothing to draw");
+  if (all.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
   for (const Series& series : all)
     if (series.x.size() != series.y.size() || series.x.empty())
-      throw Error::request("plot " + base.string() + ": series \"" + series.label + "\" has " +
-                           std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) +
-                           " y values; as many of both are needed, at least one");
+      throw Error::invalid_input("plot " + base.string() + ": series \"" + series.label + "\" has " +
+                                 std::to_string(series.x.size()) + " x and " +
+                                 std::to_string(series.y.size()) +
+                                 " y values; as many of both are needed, at least one");
 }
 
 std::string data_blocks(const std::vector<Series>& series, std::size_t first) {
@@ -197,13 +198,13 @@ void write_both(const std::filesystem::path& base, int width, int height, const 
       "set output\n" + pdf_commands(width, height, pdf.temporary()) + drawing + "set output\n";
   const ProcessResult result = run_process({"gnuplot", "-"}, script);
   if (!result.started)
-    throw Error::machine("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
+    throw Error::system("plot " + base.string() + ": gnuplot cannot be started; install gnuplot-nox");
   if (result.exit_code == kNoLetters)
-    throw Error::machine("plot " + base.string() +
-                         ": gnuplot finds no fonts and would leave all letters out; install fontconfig and "
-                         "fonts-dejavu-core");
+    throw Error::system("plot " + base.string() +
+                        ": gnuplot finds no fonts and would leave all letters out; install fontconfig and "
+                        "fonts-dejavu-core");
   if (result.exit_code != 0 || !has_content(png.temporary()) || !has_content(svg.temporary()))
-    throw Error::machine("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
+    throw Error::system("plot " + base.string() + ": gnuplot fails: " + result.first_error_line);
   png.commit();
   svg.commit();
   if (!has_content(pdf.temporary())) return;

@@ -16,7 +16,7 @@ std::string number(double value);
 std::string label_text(const std::string& text);
 std::string data_text(const std::string& text);
 
-// Throws Error::request, naming `base`, if there is no series, or one without as many x as y.
+// Throws Error::invalid_input, naming `base`, if there is no series, or one without as many x as y.
 void require_drawable(const std::filesystem::path& base, const std::vector<Series>& series);
 
 // `$series<first>`, `$series<first + 1>`, ...: the numbers that plot_command() refers to.
@@ -33,7 +33,7 @@ std::string axis_commands(const char* name, const Axis& axis);
 std::string mark_commands(const std::vector<Mark>& marks);
 
 // Runs `prologue`, then `drawing` once for BASE.png, once for BASE.svg and, where gnuplot can, for BASE.pdf;
-// the first two appear, or none. Throws Error::machine if gnuplot is missing or fails.
+// the first two appear, or none. Throws Error::system if gnuplot is missing or fails.
 void write_both(const std::filesystem::path& base, int width, int height, const std::string& prologue,
                 const std::string& drawing);
 

@@ -13,8 +13,8 @@ constexpr int kTop = 136, kRight = 24, kGapX = 20, kGapY = 44;
 constexpr int kBesideLabel = 52, kBelowLabel = 54;  // where the axes' labels stand
 constexpr int kLetter = 8;                          // width of a tick's letter
 constexpr int kLegend = 78, kSwatch = 15, kLegendLetter = 9, kLegendGap = 34;
-constexpr int kLeastMap = 380, kLeastPage = 1000;  // widths: of a map, and of all maps together
-constexpr double kHalfCell = 0.47;                 // in cells: the rest is the grid between them
+constexpr int kMinMap = 380, kMinPage = 1000;  // widths: of a map, and of all maps together
+constexpr double kHalfCell = 0.47;             // in cells: the rest is the grid between them
 
 std::size_t longest(const std::vector<std::string>& words) {
   std::size_t most = 0;
@@ -24,7 +24,7 @@ std::size_t longest(const std::vector<std::string>& words) {
 
 // Room for a map's title.
 int map_width(const HeatMaps& page) {
-  return std::max(kLeastMap, page.cell_width * static_cast<int>(page.x.ticks.size()));
+  return std::max(kMinMap, page.cell_width * static_cast<int>(page.x.ticks.size()));
 }
 
 bool upright(const HeatMaps& page) {
@@ -36,7 +36,7 @@ gnuplot::PanelPage layout(const HeatMaps& page) {
   const int below = upright(page) ? static_cast<int>(longest(page.x.ticks)) * kLetter : kLetter * 2;
   const int columns = std::clamp(page.columns, 1, count);
   const int left = kBesideLabel + kLetter * static_cast<int>(longest(page.y.ticks) + 1);
-  const int spare = kLeastPage - columns * (map_width(page) + kGapX);
+  const int spare = kMinPage - columns * (map_width(page) + kGapX);
   return {count,
           columns,
           map_width(page),
@@ -111,15 +111,15 @@ std::string common_commands(const HeatMaps& page) {
 }
 
 void require_fitting(const std::filesystem::path& base, const HeatMaps& page) {
-  if (page.maps.empty()) throw Error::request("plot " + base.string() + ": there is nothing to draw");
+  if (page.maps.empty()) throw Error::invalid_input("plot " + base.string() + ": there is nothing to draw");
   for (const HeatMap& map : page.maps) {
     const bool fits = map.rows.size() == page.y.ticks.size() &&
                       std::all_of(map.rows.begin(), map.rows.end(),
                                   [&](const auto& row) { return row.size() == page.x.ticks.size(); });
     if (fits) continue;
-    throw Error::request("plot " + base.string() + ": map \"" + map.title + "\" must have " +
-                         std::to_string(page.y.ticks.size()) + " rows of " +
-                         std::to_string(page.x.ticks.size()) + " cells");
+    throw Error::invalid_input("plot " + base.string() + ": map \"" + map.title + "\" must have " +
+                               std::to_string(page.y.ticks.size()) + " rows of " +
+                               std::to_string(page.x.ticks.size()) + " cells");
   }
 }
 

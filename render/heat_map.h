@@ -39,8 +39,8 @@ struct HeatMaps {
   int cell_width = 46, cell_height = 34;  // [pixels]
 };
 
-// Writes BASE.png and BASE.svg, each whole or not at all.  Error::request if there is no map, or one whose
-// rows do not fit its axes; else as write_plot().
+// Writes BASE.png and BASE.svg, each whole or not at all.  Error::invalid_input if there is no map, or one
+// whose rows do not fit its axes; else as write_plot().
 void write_heat_maps(const std::filesystem::path& base, const HeatMaps& page);
 
 }  // namespace hysteron::render

@@ -71,11 +71,11 @@ void store(std::uint8_t* pixel, const std::array<float, 4>& light, int channels)
 
 Image::Image(int width, int height, int channels) : width_(width), height_(height), channels_(channels) {
   if (width <= 0 || height <= 0)
-    throw Error::request("picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                         " pixels: both sides must be >= 1");
+    throw Error::invalid_input("picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                               " pixels: both sides must be >= 1");
   if (channels != 3 && channels != 4)
-    throw Error::request("picture of " + std::to_string(channels) +
-                         " channels: 3 (RGB) or 4 (RGBA) are allowed");
+    throw Error::invalid_input("picture of " + std::to_string(channels) +
+                               " channels: 3 (RGB) or 4 (RGBA) are allowed");
   pixels_.assign(row_bytes() * height, 0);
 }
 
@@ -99,9 +99,9 @@ std::size_t pixels_shrunk() { return pixels_read; }
 
 Image shrink(const Image& source, int width, int height) {
   if (width > source.width() || height > source.height())
-    throw Error::request("shrinking a picture of " + std::to_string(source.width()) + " x " +
-                         std::to_string(source.height()) + " to " + std::to_string(width) + " x " +
-                         std::to_string(height) + " pixels: no side may grow");
+    throw Error::invalid_input("shrinking a picture of " + std::to_string(source.width()) + " x " +
+                               std::to_string(source.height()) + " to " + std::to_string(width) + " x " +
+                               std::to_string(height) + " pixels: no side may grow");
   Image result(width, height, source.channels());
   const auto columns = footprints(source.width(), width);
   const auto rows = footprints(source.height(), height);
@@ -157,13 +157,13 @@ bool encode(png_structp png, png_infop header, const Image& image, PngEffort eff
 
 // What a header announces, against what the rest of the file can hold: "" if it may be so.
 std::string excess_of(std::int64_t width, std::int64_t height, std::size_t bytes) {
-  constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
-  constexpr std::int64_t kMostDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
+  constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // 1 GiB of RGBA
+  constexpr std::int64_t kMaxDeflated = 1032;  // zlib's technical details: bytes that one byte can stand for
   const std::string announced =
       "its header announces " + std::to_string(width) + "x" + std::to_string(height) + " pixels, ";
-  if (width * height > kMostPixels)
-    return announced + "more than the " + std::to_string(kMostPixels) + " that are read";
-  if (height * ((width + 7) / 8) > kMostDeflated * static_cast<std::int64_t>(bytes))  // of one bit a pixel
+  if (width * height > kMaxPixels)
+    return announced + "more than the " + std::to_string(kMaxPixels) + " that are read";
+  if (height * ((width + 7) / 8) > kMaxDeflated * static_cast<std::int64_t>(bytes))  // of one bit a pixel
     return announced + "more than its bytes can hold";
   return "";
 }
@@ -176,16 +176,16 @@ bool has_end(std::span<const std::uint8_t> bytes) {
 
 // A picture whose header libpng has read.
 struct Opened {
-  // Throws Error::request unless the header can be true and the file has its end.
+  // Throws Error::invalid_input unless the header can be true and the file has its end.
   Opened(std::span<const std::uint8_t> bytes, const std::string& name) : reading("reading " + name + ": ") {
     header.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()))
-      throw Error::request(reading + "not a PNG picture (" + header.message + ")");
+      throw Error::invalid_input(reading + "not a PNG picture (" + header.message + ")");
     const std::string excess = excess_of(header.width, header.height, bytes.size());
     if (excess.empty() && has_end(bytes)) return;
     png_image_free(&header);
-    throw Error::request(reading +
-                         (excess.empty() ? "a broken PNG picture: the file ends too early" : excess));
+    throw Error::invalid_input(reading +
+                               (excess.empty() ? "a broken PNG picture: the file ends too early" : excess));
   }
   Opened(const Opened&) = delete;
   ~Opened() { png_image_free(&header); }
@@ -201,14 +201,14 @@ std::span<const std::uint8_t> bytes_in(const std::string& file) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort) {
-  if (image.empty()) throw Error::request("encoding a PNG: the picture is empty");
+  if (image.empty()) throw Error::invalid_input("encoding a PNG: the picture is empty");
   std::vector<std::uint8_t> out;
   out.reserve(image.pixels().size() / 4 + 1024);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop header = png ? png_create_info_struct(png) : nullptr;
   const bool done = header && encode(png, header, image, effort, out);
   png_destroy_write_struct(&png, &header);
-  if (!done) throw Error::machine("encoding a PNG: libpng failed, probably out of memory");
+  if (!done) throw Error::system("encoding a PNG: libpng failed, probably out of memory");
   return out;
 }
 
@@ -227,7 +227,7 @@ Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name) {
   header.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height), alpha ? 4 : 3);
   if (!png_image_finish_read(&header, nullptr, image.pixels().data(), 0, nullptr))
-    throw Error::request(opened.reading + "a broken PNG picture: " + header.message);
+    throw Error::invalid_input(opened.reading + "a broken PNG picture: " + header.message);
   return image;
 }
 

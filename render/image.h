@@ -18,7 +18,7 @@ using Rgb8 = std::array<std::uint8_t, 3>;
 class Image {
  public:
   Image() = default;
-  // Error::request if a side is not positive or channels is not 3 or 4.
+  // Error::invalid_input if a side is not positive or channels is not 3 or 4.
   Image(int width, int height, int channels = 3);
   Image(int width, int height, const Rgb8& fill);
 
@@ -47,7 +47,7 @@ class Image {
 void paste(Image& target, const Image& source, int x, int y);
 
 // Averages over exact pixel footprints in linear light: for supersampling and contact sheets.  Only shrinks;
-// Error::request if a side grows.
+// Error::invalid_input if a side grows.
 Image shrink(const Image& source, int width, int height);
 // Pixels that shrink() has read on this thread so far: what a page of pictures costs, on any machine.
 std::size_t pixels_shrunk();
@@ -61,7 +61,7 @@ enum class PngEffort {
 std::vector<std::uint8_t> encode_png(const Image& image, PngEffort effort = PngEffort::fast);
 
 // Writes a temporary file beside `path` and renames it, so that `path` is either whole or not there.
-// Error::machine if the folder cannot be written or the disk is full.
+// Error::system if the folder cannot be written or the disk is full.
 void write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::fast);
 
 // A PNG file in memory; `name` stands for it in errors.  Otherwise as read_png.
@@ -74,7 +74,8 @@ struct ImageSize {
 // Of a PNG file, of which only the header and the end are looked at.  Errors as read_png.
 ImageSize png_size(const std::filesystem::path& path);
 
-// RGB or RGBA as in the file (grey becomes RGB).  Error::request if the file is missing or not a picture.
+// RGB or RGBA as in the file (grey becomes RGB).  Error::invalid_input if the file is missing or not a
+// picture.
 Image read_png(const std::filesystem::path& path);
 
 }  // namespace hysteron::render

@@ -39,7 +39,7 @@ Look look_named(std::string_view name) {
     look.show = Show::silhouette;
     look.backdrop_top = look.backdrop_bottom = {255, 255, 255};
   } else {
-    throw Error::request(
+    throw Error::invalid_input(
         "look = \"" + std::string(name) +
         "\" is unknown; allowed: cloth, grid, clay, curvature, friction, wireframe, silhouette");
   }
@@ -51,16 +51,16 @@ Weave weave_named(std::string_view name) {
   if (name == "twill") return Weave::twill;
   if (name == "satin") return Weave::satin;
   if (name == "knit") return Weave::knit;
-  throw Error::request("weave = \"" + std::string(name) +
-                       "\" is unknown; allowed: plain, twill, satin, knit");
+  throw Error::invalid_input("weave = \"" + std::string(name) +
+                             "\" is unknown; allowed: plain, twill, satin, knit");
 }
 
 Background background_named(std::string_view name) {
   if (name == "studio") return Background::studio;
   if (name == "white") return Background::white;
   if (name == "transparent") return Background::transparent;
-  throw Error::request("background = \"" + std::string(name) +
-                       "\" is unknown; allowed: studio, white, transparent");
+  throw Error::invalid_input("background = \"" + std::string(name) +
+                             "\" is unknown; allowed: studio, white, transparent");
 }
 
 }  // namespace hysteron::render

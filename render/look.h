@@ -61,12 +61,12 @@ struct Look {
 };
 
 // "cloth", "grid" (with a printed grid of 1 cm), "clay" (smooth and grey: shape alone), "curvature",
-// "friction", "wireframe" or "silhouette" with the colour map and colours that suit it; Error::request for
-// anything else.
+// "friction", "wireframe" or "silhouette" with the colour map and colours that suit it; Error::invalid_input
+// for anything else.
 Look look_named(std::string_view name);
-// "plain", "twill", "satin" or "knit"; Error::request for anything else.
+// "plain", "twill", "satin" or "knit"; Error::invalid_input for anything else.
 Weave weave_named(std::string_view name);
-// "studio", "white" or "transparent"; Error::request for anything else.
+// "studio", "white" or "transparent"; Error::invalid_input for anything else.
 Background background_named(std::string_view name);
 
 }  // namespace hysteron::render

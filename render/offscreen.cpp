@@ -39,7 +39,8 @@ Renderer renderer_named(std::string_view name) {
   if (name == "auto") return Renderer::automatic;
   if (name == "egl") return Renderer::egl;
   if (name == "osmesa") return Renderer::osmesa;
-  throw Error::request("renderer = \"" + std::string(name) + "\" is unknown; allowed: auto, egl, osmesa");
+  throw Error::invalid_input("renderer = \"" + std::string(name) +
+                             "\" is unknown; allowed: auto, egl, osmesa");
 }
 
 std::string Candidate::name() const {
@@ -73,8 +74,8 @@ std::unique_ptr<Offscreen> Offscreen::create(Renderer renderer, int preferred_cu
   std::string tried = has_egl || renderer == Renderer::osmesa ? "" : "EGL (" + egl_unavailable() + ")";
   for (const Candidate& candidate : list)
     if (auto context = create_or_explain(candidate, tried)) return context;
-  throw Error::machine("creating an OpenGL 3.3 context without a display: tried " + tried +
-                       "; install libegl1 with libgl1-mesa-dri, or libosmesa6");
+  throw Error::system("creating an OpenGL 3.3 context without a display: tried " + tried +
+                      "; install libegl1 with libgl1-mesa-dri, or libosmesa6");
 }
 
 void Offscreen::describe(GlLoader loader) {
@@ -84,8 +85,8 @@ void Offscreen::describe(GlLoader loader) {
   gl_.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl_.GetIntegerv(GL_MINOR_VERSION, &minor);
   if (major * 10 + minor < 33)
-    throw Error::machine(renderer + " offers OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
-                         ", 3.3 is needed");
+    throw Error::system(renderer + " offers OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
+                        ", 3.3 is needed");
   gl_.GetIntegerv(GL_MAX_SAMPLES, &max_samples_);
   hardware_ = candidate_.hardware && !draws_in_software(renderer);
   description_ = candidate_.name() + ": " + renderer + ", " + gl_string(gl_, GL_VENDOR) + ", GL " +

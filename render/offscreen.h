@@ -13,7 +13,7 @@ namespace hysteron::render {
 
 enum class Renderer { automatic, egl, osmesa };
 
-// "auto", "egl" or "osmesa"; Error::request for anything else.
+// "auto", "egl" or "osmesa"; Error::invalid_input for anything else.
 Renderer renderer_named(std::string_view name);
 
 // One way to get a context, before it is tried.
@@ -31,7 +31,7 @@ class Offscreen {
  public:
   // The first candidate that gives a context; each failing one is tried twice, because GPU drivers fail now
   // and then while another process starts.  `preferred_cuda_device` is tried first, so that positions need
-  // not leave it. Error::machine lists in one line what was tried.  The new context is current.
+  // not leave it. Error::system lists in one line what was tried.  The new context is current.
   static std::unique_ptr<Offscreen> create(Renderer renderer, int preferred_cuda_device = -1);
   static std::unique_ptr<Offscreen> create(const Candidate& candidate);
 

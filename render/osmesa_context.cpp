@@ -41,7 +41,7 @@ class OSMesaContext : public Offscreen {
     const int attributes[] = {kFormat,       GL_RGBA, kProfile, kCoreProfile, kMajorVersion, 3,
                               kMinorVersion, 3,       0};
     context_ = osmesa().CreateContextAttribs(attributes, nullptr);
-    if (context_ == nullptr) throw Error::machine("OSMesa refuses an OpenGL 3.3 core context");
+    if (context_ == nullptr) throw Error::system("OSMesa refuses an OpenGL 3.3 core context");
     try {
       make_current();
       describe(osmesa().GetProcAddress);
@@ -57,7 +57,7 @@ class OSMesaContext : public Offscreen {
 
   void make_current() override {
     if (!osmesa().MakeCurrent(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSide, kSide))
-      throw Error::machine("OSMesaMakeCurrent fails");
+      throw Error::system("OSMesaMakeCurrent fails");
   }
 
  private:

@@ -26,7 +26,7 @@ struct Panels {
 };
 
 // Writes BASE.png and BASE.svg, each whole or not at all.  What lies beyond a given range is cut off.
-// Error::machine and Error::request as write_plot().
+// Error::system and Error::invalid_input as write_plot().
 void write_panels(const std::filesystem::path& base, const Panels& grid);
 
 }  // namespace hysteron::render

@@ -41,7 +41,7 @@ Plane filtered(const Plane& plane, const Kernel& x, const Kernel& y);
 //
 // Borders: only windows that lie inside the picture count, as in the authors' program; where a side has fewer
 // than 11 pixels, the window has the largest odd number of pixels that fits.
-// Error::request if the sizes differ.  Alpha is ignored.
+// Error::invalid_input if the sizes differ.  Alpha is ignored.
 double ssim(const Image& a, const Image& b);
 
 }  // namespace hysteron::render

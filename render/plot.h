@@ -52,8 +52,8 @@ struct SiPrefix {
 SiPrefix si_prefix(double value);
 
 // Two columns of a CSV file, chosen by their names in the first line (the part before " [unit]" suffices).
-// Error::request if the file or a column is missing or a cell is no number (the line is named); empty cells
-// are gaps.
+// Error::invalid_input if the file or a column is missing or a cell is no number (the line is named); empty
+// cells are gaps.
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label);
 
@@ -65,8 +65,8 @@ std::vector<Series> grouped_bars(const std::vector<std::string>& labels,
 // Writes BASE.png, BASE.svg and, where gnuplot can, BASE.pdf, each whole or not at all.  Numbers that are not
 // finite make gaps.  Several series have their labels at the right, in their colours, each at the height at
 // which its line ends; one alone has none.  Axes in N, J, m, s, Pa and their products take a prefix where all
-// their numbers are small. Error::machine if gnuplot is missing (install gnuplot-nox) or fails;
-// Error::request if there is nothing to draw or x and y differ in length.
+// their numbers are small. Error::system if gnuplot is missing (install gnuplot-nox) or fails;
+// Error::invalid_input if there is nothing to draw or x and y differ in length.
 void write_plot(const std::filesystem::path& base, const Plot& plot);
 
 }  // namespace hysteron::render

@@ -21,7 +21,8 @@ struct PlotPage {
   int plot_width = 480, plot_height = 350;  // [pixels], without titles and axes
 };
 
-// Writes BASE.png and BASE.svg, each whole or not at all.  Error::machine and Error::request as write_plot().
+// Writes BASE.png and BASE.svg, each whole or not at all.  Error::system and Error::invalid_input as
+// write_plot().
 void write_plot_page(const std::filesystem::path& base, const PlotPage& page);
 
 }  // namespace hysteron::render

@@ -22,7 +22,7 @@ constexpr int kRimBands = 4;
 
 void require_positive(const char* what, float length) {
   if (!(length > 0) || !std::isfinite(length))
-    throw Error::request(std::string(what) + " = " + std::to_string(length) + " m must be > 0");
+    throw Error::invalid_input(std::string(what) + " = " + std::to_string(length) + " m must be > 0");
 }
 
 // Point of an outline in the (distance from the axis, z) half plane, with its outward normal.
@@ -227,7 +227,8 @@ void split(std::vector<Index>& triangles, std::array<Index, 3> corner, std::arra
 
 TriangleMesh refined(TriangleMesh mesh, float longest) {
   if (!(longest > 0))
-    throw Error::request("refining a mesh: longest side = " + std::to_string(longest) + " m must be > 0");
+    throw Error::invalid_input("refining a mesh: longest side = " + std::to_string(longest) +
+                               " m must be > 0");
   for (bool changed = true; changed;) {
     Halving halving(mesh, longest);
     std::vector<Index> triangles;

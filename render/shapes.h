@@ -21,7 +21,7 @@ struct TriangleMesh {
   size_t triangle_count() const { return triangles.size() / 3; }
 };
 
-// All are centred at the origin; axes along z.  Error::request if a length is not positive.
+// All are centred at the origin; axes along z.  Error::invalid_input if a length is not positive.
 TriangleMesh sphere_mesh(float radius);
 // `rim`: radius of the rounded edge, at most radius and height / 2 [m].
 TriangleMesh cylinder_mesh(float radius, float height, float rim);
@@ -39,7 +39,7 @@ Eigen::Matrix4f placed(const Eigen::Vector3f& center, const Eigen::Vector3f& axi
 
 // The same surface with no side longer than `longest` [m]: longer ones are halved until none is left, on both
 // sides of a side alike, so that nothing gapes.  Normals of new vertices lie between those of a side's ends.
-// Error::request if `longest` is not positive.
+// Error::invalid_input if `longest` is not positive.
 TriangleMesh refined(TriangleMesh mesh, float longest);
 
 }  // namespace hysteron::render

@@ -25,7 +25,7 @@ const stbtt_fontinfo& font() {
     const auto bytes = embedded_file("DejaVuSans.ttf");
     stbtt_fontinfo result;
     if (!stbtt_InitFont(&result, bytes.data(), stbtt_GetFontOffsetForIndex(bytes.data(), 0)))
-      throw Error::machine("reading DejaVuSans.ttf: not a TrueType font; set HYSTERON_FONT and build again");
+      throw Error::system("reading DejaVuSans.ttf: not a TrueType font; set HYSTERON_FONT and build again");
     return result;
   }();
   return record;

@@ -71,7 +71,7 @@ std::vector<Problem> problems_of(const F& flags) {
     if (found == all.end()) {
       std::string known;
       for (const Problem& problem : all) known += (known.empty() ? "" : ", ") + problem.name;
-      throw Error::request("problem = " + name + " is not one of: " + known)
+      throw Error::invalid_input("problem = " + name + " is not one of: " + known)
           .of("problem", name)
           .in("accuracy");
     }

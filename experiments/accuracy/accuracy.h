@@ -54,8 +54,9 @@ struct Problem {
   std::string error;      // what `error` is
   std::string reference;  // where the reference comes from
   std::vector<Setting> settings;
-  std::function<Found(const Setting&)> solve;  // may throw Error::request, Error::run: noted as failed
-  std::string load = "load";                   // what Setting::load is
+  std::function<Found(const Setting&)>
+      solve;                        // may throw Error::invalid_input, Error::simulation: noted as failed
+  std::string load = "load";        // what Setting::load is
   bool reference_per_mesh = false;  // errors on different meshes, or sizes, say nothing about each other
 };
 

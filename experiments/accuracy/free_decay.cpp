@@ -188,8 +188,9 @@ MeasuredDecay measure_decay(Simulation& simulation, const CantileverStrip& flat,
   MeasuredDecay decay{{at}, 0};
   for (long step = 0; static_cast<int>(decay.peaks.size()) <= cycles; ++step) {
     if (simulation.time() > latest)
-      throw Error::run("decay: after " + std::to_string(latest) + " s the strip has come back " +
-                       std::to_string(decay.peaks.size() - 1) + " times, not " + std::to_string(cycles));
+      throw Error::simulation("decay: after " + std::to_string(latest) + " s the strip has come back " +
+                              std::to_string(decay.peaks.size() - 1) + " times, not " +
+                              std::to_string(cycles));
     simulation.advance(1);
     const double after = deflection();
     if (step > 0 && at > 0 && at >= before && at > after) {

@@ -65,8 +65,8 @@ struct MeasuredDecay {
   double loss() const { return 1 - peaks.back() / peaks.front(); }  // over the first amplitude
 };
 
-// Runs the simulation of a strip that starts as above until it has come back `cycles` times.  Error::run if
-// that takes much longer than the strip's period.
+// Runs the simulation of a strip that starts as above until it has come back `cycles` times.
+// Error::simulation if that takes much longer than the strip's period.
 MeasuredDecay measure_decay(Simulation& simulation, const CantileverStrip& flat, int cycles);
 
 }  // namespace hysteron::experiments

@@ -79,7 +79,7 @@ void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
 }
 
 // Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.
-constexpr double kLeastDrawn = 1e-6;
+constexpr double kMinDrawn = 1e-6;
 
 render::Plot plot_of(const Solution& solution) {
   render::Plot plot{solution.problem.title, {"computing [s]", true}, {solution.problem.error, true}};
@@ -91,12 +91,12 @@ render::Plot plot_of(const Solution& solution) {
     if (at == plot.series.end())
       at = plot.series.insert(plot.series.end(), {label, {}, {}, render::Series::Style::points});
     at->x.push_back(found.seconds);
-    at->y.push_back(std::max(found.error, kLeastDrawn));
+    at->y.push_back(std::max(found.error, kMinDrawn));
   }
   render::Series front{"front", {}, {}, render::Series::Style::dashed, "#222222"};
   for (std::size_t i : pareto_front(solution)) {
     front.x.push_back(solution.solved[i].found.seconds);
-    front.y.push_back(std::max(solution.solved[i].found.error, kLeastDrawn));
+    front.y.push_back(std::max(solution.solved[i].found.error, kMinDrawn));
   }
   plot.series.push_back(front);
   return plot;

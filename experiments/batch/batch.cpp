@@ -39,7 +39,7 @@ class Reports {
   Reports() : out_(::dup(STDOUT_FILENO)) {
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (out_ < 0 || nowhere < 0 || ::dup2(nowhere, STDOUT_FILENO) < 0)
-      throw Error::machine(std::string("cannot set standard output apart: ") + std::strerror(errno));
+      throw Error::system(std::string("cannot set standard output apart: ") + std::strerror(errno));
     ::fcntl(out_, F_SETFD, FD_CLOEXEC);
     ::close(nowhere);
   }
@@ -55,7 +55,7 @@ class Reports {
     const std::string line = report.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     for (std::size_t done = 0; done < line.size();) {
       const ssize_t written = ::write(out_, line.data() + done, line.size() - done);
-      if (written < 0 && errno != EINTR) throw Error::machine("cannot write to standard output");
+      if (written < 0 && errno != EINTR) throw Error::system("cannot write to standard output");
       done += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
     }
   }
@@ -91,7 +91,8 @@ std::vector<Member> members_in(std::istream& lines) {
     const Json words = Json::parse(line, nullptr, false);
     const auto is_text = [](const Json& word) { return word.is_string(); };
     if (!words.is_array() || !std::all_of(words.begin(), words.end(), is_text))
-      throw Error::request("line " + std::to_string(members.size() + 1) + " of stdin is no list of words");
+      throw Error::invalid_input("line " + std::to_string(members.size() + 1) +
+                                 " of stdin is no list of words");
     members.push_back(parsed(words.get<std::vector<std::string>>()));
   }
   return members;

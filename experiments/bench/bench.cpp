@@ -153,9 +153,9 @@ int run_bench(const CommandLine& line) {
     own.sizes_triangles = {200, 800};
   });
   if (setup.options.checkpoint > 0 || setup.options.resume)
-    throw Error::request("--checkpoint and --resume: bench measures runs from their start");
-  if (own.sizes && own.profile) throw Error::request("--sizes and --profile: bench does one at a time");
-  refuse_flags(line, left_out_by(own));
+    throw Error::invalid_input("--checkpoint and --resume: bench measures runs from their start");
+  if (own.sizes && own.profile) throw Error::invalid_input("--sizes and --profile: bench does one at a time");
+  throw_if_flags(line, left_out_by(own));
   const Request request{line, setup, own};
   if (own.profile)
     bench_kernels(request);

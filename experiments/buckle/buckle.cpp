@@ -86,7 +86,7 @@ Southwell measure(const Scene& scene, Buckling kind, double length, Session& ses
 void picture(Session& session, const BucklingStrip& strip, double reference) {
   const Scene& scene = session.scene();
   double last = 0;
-  Question question;
+  RunPlan question;
   question.bounds = bounds_of(strip.kind, strip.length, scene.cloth.width);
   question.columns = {"gamma [1]", "deflection [1]"};
   const auto gamma = [&](double time) { return reference * time; };  // the reference's weight acts after 1 s

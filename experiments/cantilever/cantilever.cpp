@@ -106,7 +106,7 @@ int run_cantilever(const CommandLine& line) {
     return 0.0;
   };
   Drops drops;
-  Question question;
+  RunPlan question;
   const float l = static_cast<float>(length), width = static_cast<float>(scene.cloth.width);
   question.bounds = {{0, 0, -l}, {1.05f * l, width, 0.1f * l}};
   question.columns = {"load [1]", "drop [1]", "elastica [1]"};

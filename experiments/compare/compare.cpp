@@ -45,12 +45,12 @@ const KeyRow<CompareChoice> kRows[] = {
 // clang-format on
 
 // "Swing: cotton-broad, bdf2": what all columns share.
-std::string title_of(const CommandLine& line, const std::vector<SweepColumn>& columns) {
+std::string title_of(const CommandLine& line, const std::vector<ChildRun>& columns) {
   std::string title = line.names[0];
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   const auto shared = [&](const auto& read) {
     std::string text;
-    for (const SweepColumn& c : columns) {
+    for (const ChildRun& c : columns) {
       if (!c.manifest) continue;
       const std::string own = read(c.manifest->scene);
       if (!text.empty() && own != text) return std::string();
@@ -135,7 +135,7 @@ int run_compare(const CommandLine& line) {
     std::string known;
     for (const Experiment& experiment : experiments())
       if (experiment.compared) known += std::string(experiment.name) + ", ";
-    throw Error::request("needs what to compare: " + known + "or a scene");
+    throw Error::invalid_input("needs what to compare: " + known + "or a scene");
   }
   CompareChoice choice;
   Options options;

@@ -155,25 +155,25 @@ Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, con
     plan.scales.push_back(scale);
   }
   if (!choice.to.empty() && plan.to < 0)
-    throw Error::request("compare.to = " + choice.to + " is no column (--compare.to)")
+    throw Error::invalid_input("compare.to = " + choice.to + " is no column (--compare.to)")
         .of("compare.to", choice.to);
   return plan;
 }
 
-void check_times(const std::vector<double>& times, const std::vector<SweepColumn>& columns) {
+void check_times(const std::vector<double>& times, const std::vector<ChildRun>& columns) {
   if (times.empty()) return;
   const double last = *std::max_element(times.begin(), times.end());
   double end = 0;
   for (auto column = columns.begin(); column != columns.end() && end < last; ++column) {
     const std::optional<Scene> scene = planned_scene(column->line);
     if (!scene)
-      throw Error::request("compare.times: " + column->name +
-                           " simulates no cloth to picture (--compare.times)")
+      throw Error::invalid_input("compare.times: " + column->name +
+                                 " simulates no cloth to picture (--compare.times)")
           .of("compare.times", "");
     end = std::max(end, scene->seconds);
   }
   if (last <= end) return;
-  throw Error::request(
+  throw Error::invalid_input(
       fmt::format("compare.times = {:g} s must be in [0, {:g}] s, the time of the run (--compare.times)",
                   last, end))
       .of("compare.times", fmt::format("{:g}", last));

@@ -29,7 +29,7 @@ struct CompareChoice {
 CommandLine line_of_columns(const CommandLine& line, const CompareChoice& choice);
 
 struct Plan {
-  std::vector<SweepColumn> columns;
+  std::vector<ChildRun> columns;
   std::vector<double> scales;
   std::string reference;  // law that stiffness is matched to
   std::size_t laws = 0;   // different ones
@@ -37,13 +37,13 @@ struct Plan {
   std::string varied;     // "law", where columns differ by it alone
 };
 
-// A column for each variant of that line, in OUT/<name>/.  Throws Error::request if the column to subtract is
-// none of them.
+// A column for each variant of that line, in OUT/<name>/.  Throws Error::invalid_input if the column to
+// subtract is none of them.
 Plan plan_of(const CommandLine& inner, const std::vector<Variant>& variants, const CompareChoice& choice,
              const std::filesystem::path& out);
 
-// Throws Error::request for a time [s] after the end of the longest run of the columns, as their scenes have
-// it.
-void check_times(const std::vector<double>& times, const std::vector<SweepColumn>& columns);
+// Throws Error::invalid_input for a time [s] after the end of the longest run of the columns, as their scenes
+// have it.
+void check_times(const std::vector<double>& times, const std::vector<ChildRun>& columns);
 
 }  // namespace hysteron::experiments

@@ -24,12 +24,13 @@ Variant with_key(Variant variant, const std::string& key, const std::string& num
   return variant;
 }
 
-double metric_in(const SweepColumn& column, const std::string& metric) {
-  if (!column.stopped.empty()) throw Error::run("compare.tune: " + column.name + ": " + column.stopped);
+double metric_in(const ChildRun& column, const std::string& metric) {
+  if (!column.stopped.empty())
+    throw Error::simulation("compare.tune: " + column.name + ": " + column.stopped);
   const double value = column.metrics().number(metric);
   if (std::isnan(value))
-    throw Error::request(column.name + " has no metric " + metric +
-                         " that is a number (--compare.tune-metric)")
+    throw Error::invalid_input(column.name + " has no metric " + metric +
+                               " that is a number (--compare.tune-metric)")
         .of("compare.tune-metric", metric);
   return value;
 }
@@ -38,7 +39,8 @@ double metric_in(const SweepColumn& column, const std::string& metric) {
 
 Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics) {
   const auto refuse = [&](const std::string& must) {
-    return Error::request("compare.tune = " + key_and_bracket + " must be " + must + " (--compare.tune)")
+    return Error::invalid_input("compare.tune = " + key_and_bracket + " must be " + must +
+                                " (--compare.tune)")
         .of("compare.tune", key_and_bracket);
   };
   const std::size_t equals = key_and_bracket.find('='), colon = key_and_bracket.find(':', equals);
@@ -52,7 +54,7 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
   if (!low || !high || !(*low > 0 && *low < *high && std::isfinite(*high)))
     throw refuse("a bracket with 0 < LOW < HIGH");
   if (metrics.empty())
-    throw Error::request(
+    throw Error::invalid_input(
         "compare.tune needs what is to be equal: --compare.tune-metric METRIC, or METRIC=METRIC of the "
         "second "
         "column")
@@ -66,9 +68,10 @@ Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics)
 std::string tuned(const Tuning& tuning, const Excess& excess) {
   const double at_low = excess(tuning.low), at_high = excess(tuning.high);
   if ((at_low < 0) == (at_high < 0))
-    throw Error::request(tuning.metric + " is " + (at_low < 0 ? "below" : "not below") +
-                         " the second column's " + tuning.target + " at both ends of " + tuning.key + " = " +
-                         tuning.low + ":" + tuning.high + ": widen the bracket (--compare.tune)")
+    throw Error::invalid_input(tuning.metric + " is " + (at_low < 0 ? "below" : "not below") +
+                               " the second column's " + tuning.target + " at both ends of " + tuning.key +
+                               " = " + tuning.low + ":" + tuning.high +
+                               ": widen the bracket (--compare.tune)")
         .of("compare.tune", tuning.key + "=" + tuning.low + ":" + tuning.high);
   std::string low = tuning.low, high = tuning.high, middle;
   for (int i = 0; i < kBisections; ++i) {
@@ -82,7 +85,8 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
                        SweepJobs jobs, const Options& options) {
   const Tuning tuning = tuning_of(choice.tune, choice.tune_metric);
   if (variants.size() < 2)
-    throw Error::request("compare.tune needs two columns, the one to tune and its target (--compare.tune)")
+    throw Error::invalid_input(
+        "compare.tune needs two columns, the one to tune and its target (--compare.tune)")
         .of("compare.tune", choice.tune);
   const auto say = [&](const std::string& line) {
     if (!options.quiet) std::cerr << line << std::endl;
@@ -94,7 +98,7 @@ Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants,
     Plan plan = plan_of(line, {with_key(variants[0], tuning.key, number), variants[1]}, choice,
                         std::filesystem::path(options.out) / "tries");
     run_columns(
-        plan.columns, jobs, [](const SweepColumn&) {}, say);
+        plan.columns, jobs, [](const ChildRun&) {}, say);
     jobs.resume = true;  // the second column is the same in every try
     const double own = metric_in(plan.columns[0], tuning.metric),
                  target = metric_in(plan.columns[1], tuning.target);

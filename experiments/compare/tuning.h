@@ -18,21 +18,22 @@ struct Tuning {
 };
 
 // From "fabric.damping=1e-5:1e-1" (compare.tune) and "viscous_J=bending_friction_J" (compare.tune-metric; one
-// name is the same metric of both).  Throws Error::request.
+// name is the same metric of both).  Throws Error::invalid_input.
 Tuning tuning_of(const std::string& key_and_bracket, const std::string& metrics);
 
 // By how much the metric exceeds the target, with that number.
 using Excess = std::function<double(const std::string& number)>;
 
 // Bisects the bracket in the logarithm kBisections times, to numbers of four significant digits, and returns
-// the last of them, as it was tried.  Throws Error::request if the excess has the same sign at both ends.
+// the last of them, as it was tried.  Throws Error::invalid_input if the excess has the same sign at both
+// ends.
 inline constexpr int kBisections = 9;  // four decades to 1.8 %
 std::string tuned(const Tuning& tuning, const Excess& excess);
 
 // Does so for the choice's compare.tune: the first two columns run without pictures in OUT/tries with each
 // number, then the first variant gets the last number, which goes to stdout, "fabric.damping=0.004839".
-// Returns what the manifest keeps.  Throws Error::request, Error::run where a try could not go on, and what
-// running throws.
+// Returns what the manifest keeps.  Throws Error::invalid_input, Error::simulation where a try could not go
+// on, and what running throws.
 Json tune_first_column(const CommandLine& inner, std::vector<Variant>& variants, CompareChoice choice,
                        SweepJobs jobs, const Options& options);
 

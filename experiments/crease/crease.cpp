@@ -103,9 +103,9 @@ void keep_largest(Simulation& simulation, std::vector<double>& largest) {
     if (std::abs(curvature[d * e]) > std::abs(largest[e])) largest[e] = curvature[d * e];
 }
 
-Question question_of(Session& session, const Crease& crease, std::vector<double>& largest,
-                     Recovered& recovered) {
-  Question question;
+RunPlan question_of(Session& session, const Crease& crease, std::vector<double>& largest,
+                    Recovered& recovered) {
+  RunPlan question;
   const float length = static_cast<float>(crease.scene.cloth.length),
               width = static_cast<float>(crease.scene.cloth.width);
   // A specimen that is pressed lies on the ground; a soft fold swings freely, below its clamp as well.
@@ -113,7 +113,7 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
   const float low = (pressed ? 0 : -0.35f) * length;
   question.bounds = {{-0.05f * length, 0, low}, {length, width, (pressed ? 0.65f : 0.85f) * length}};
   question.floor = low;
-  question.step_lengths = crease.step_lengths;
+  question.time_steps = crease.time_steps;
   question.columns = {"opening [degree]", "plate_force [N]"};
   question.measure = [&](const Snapshot& m) -> std::vector<double> {
     const bool plate =
@@ -145,11 +145,11 @@ Question question_of(Session& session, const Crease& crease, std::vector<double>
 // 13 (sums of both directions there; quoted second-hand).
 std::vector<render::Series> published(double end) {
   using Style = render::Series::Style;
-  constexpr double kPlain = 155.0 / 2, kLeastResin = 199.0 / 2, kMostResin = 236.0 / 2;  // [degree]
+  constexpr double kPlain = 155.0 / 2, kMinResin = 199.0 / 2, kMaxResin = 236.0 / 2;  // [degree]
   const char* grey = "#777777";
   return {{"cotton, plain (published)", {0, end}, {kPlain, kPlain}, Style::dashed, grey, 1.2},
-          {"cotton, resin-finished", {0, end}, {kLeastResin, kLeastResin}, Style::dashed, "#B0A070", 1.2},
-          {"", {0, end}, {kMostResin, kMostResin}, Style::dashed, "#B0A070", 1.2}};
+          {"cotton, resin-finished", {0, end}, {kMinResin, kMinResin}, Style::dashed, "#B0A070", 1.2},
+          {"", {0, end}, {kMaxResin, kMaxResin}, Style::dashed, "#B0A070", 1.2}};
 }
 
 // The opening after release, and where a plate was on it what is in print.
@@ -204,7 +204,7 @@ Setup set_up_crease(const CommandLine& line, C& choice) {
     setup = set_up(line, defaults(), bind(kRows, choice), limit_to_quick);
   }
   if (choice.release == "quick" && choice.grow_after > 0)
-    throw Error::request(
+    throw Error::invalid_input(
         "crease.release = quick moves, and its steps cannot grow: crease.grow-after = 0, or "
         "crease.release = slow")
         .of("crease.grow-after", "");
@@ -223,7 +223,7 @@ void crease_once(const CommandLine& line) {
                   : choice.fold == "rod" ? wrapped(setup.scene, choice)
                                          : pleated(setup.scene, choice);
   if (choice.grow_after > 0)
-    crease.step_lengths = growing_steps(crease.times, crease.scene.step, choice.grow_after);
+    crease.time_steps = growing_steps(crease.times, crease.scene.step, choice.grow_after);
   setup.scene = crease.scene;
   if (choice.fold != "pleat")  // whose cloth is not flat at rest
     probe_unless_told(setup.options, {setup.scene.cloth.length / 2, setup.scene.cloth.width / 2});

@@ -35,7 +35,7 @@ double kept_in_time(const LawRequest& law, double size, const Crease& crease) {
   LawWalk walk(law);
   for (int k = 1; k <= kSteps; ++k) walk.to({size * k / kSteps, crease.times.folded / kSteps});
   double time = 0;
-  for (const double length : crease.step_lengths) {
+  for (const double length : crease.time_steps) {
     time += length;
     if (time <= crease.times.folded + kRounding) continue;
     if (time <= crease.times.released + kRounding) {
@@ -81,7 +81,7 @@ double Crease::opening_of_law(const std::vector<double>& largest) const {
     const double size = std::abs(largest[f]);
     if (size == 0) continue;
     const double kept =
-        step_lengths.empty() ? kept_at_once(law, size, times.released) : kept_in_time(law, size, *this);
+        time_steps.empty() ? kept_at_once(law, size, times.released) : kept_in_time(law, size, *this);
     bent += std::copysign(cloth.mesh.face_area[f], largest[f]) * kept;
   }
   return 180 - rest_turn - bent / scene.cloth.width * 180 / std::numbers::pi;

@@ -173,8 +173,8 @@ double loaded_plate(const Scene& scene, const CreaseChoice& choice) {
       return above + (underside - above) * (choice.force - before) / (force - before);
     before = force, above = underside;
   }
-  throw Error::run("the plate reaches the plane before it bears " + std::to_string(choice.force) +
-                   " N: take a smaller force")
+  throw Error::simulation("the plate reaches the plane before it bears " + std::to_string(choice.force) +
+                          " N: take a smaller force")
       .in("crease");
 }
 

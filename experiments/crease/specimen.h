@@ -37,8 +37,8 @@ struct Crease {
   Scene scene;
   Cloth cloth;
   CreaseTimes times;
-  double rest_turn = 0;                   // of a pleat [degree]
-  std::vector<double> step_lengths = {};  // [s]; empty: the scene's
+  double rest_turn = 0;                 // of a pleat [degree]
+  std::vector<double> time_steps = {};  // [s]; empty: the scene's
   double grip = 0.2;  // share of the length at either end of which the limbs' directions are taken
 
   // Force of the plate on the cloth at these positions [N]; 0 without a plate.

@@ -92,8 +92,8 @@ render::Box box_of_motion(const Scene& scene, const Cloth& cloth) {
   return box;
 }
 
-Question question_of(Session& session, const C& choice, RidgeMetrics& last) {
-  Question question;
+RunPlan question_of(Session& session, const C& choice, RidgeMetrics& last) {
+  RunPlan question;
   question.bounds = box_of_motion(session.scene(), session.cloth());
   question.wanders = true;
   question.columns = {"ridge_length [m]", "curvature_rms [1/m]", "residual_curvature_rms [1/m]"};

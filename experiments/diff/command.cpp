@@ -43,7 +43,7 @@ Json json_of(const Measures& measures) {
 std::string text_of(double value) { return std::isinf(value) ? "inf" : number_field(value); }
 
 // One line on stderr for a pair beyond its limits.
-void complain(const fs::path& a, const fs::path& b, const std::vector<std::string>& broken) {
+void report_error(const fs::path& a, const fs::path& b, const std::vector<std::string>& broken) {
   if (!broken.empty())
     std::cerr << "hysteron diff: " << a.string() << " against " << b.string() << ": " << join(broken, "; ")
               << std::endl;
@@ -63,16 +63,15 @@ TestCase case_not_compared(const std::string& name, const std::string& why) {
 void make_folder_of(const fs::path& file) {
   std::error_code failure;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), failure);
-  if (failure)
-    throw Error::machine("cannot create the folder of " + file.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot create the folder of " + file.string() + ": " + failure.message());
 }
 
 // Inputs are not written onto.
 void require_other(const fs::path& out, const fs::path& input) {
   std::error_code missing;
   if (fs::equivalent(out, input, missing))
-    throw Error::request("--out " + out.string() + " is " + input.string() +
-                         ", which is compared: give another name")
+    throw Error::invalid_input("--out " + out.string() + " is " + input.string() +
+                               ", which is compared: give another name")
         .of("out", out.string());
 }
 
@@ -90,7 +89,7 @@ Comparison compared_files(const fs::path& a, const fs::path& b, const DiffFlags&
 
 int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   if (!flags.out.empty() && (fs::path(flags.out).extension() != ".png" || fs::is_directory(flags.out)))
-    throw Error::request("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
+    throw Error::invalid_input("--out " + flags.out + " must be a file *.png: the heat map of two pictures")
         .of("out", flags.out);
   for (const fs::path& picture : {a, b}) require_other(flags.out, picture);
   const std::string name = a.filename().string();
@@ -109,7 +108,7 @@ int diff_pictures(const fs::path& a, const fs::path& b, const DiffFlags& flags) 
     for (const Measure& m : all_measures())
       std::cout << m.name << " " << text_of(comparison.measures.*m.value) << "\n";
   }
-  complain(a, b, broken);
+  report_error(a, b, broken);
   if (!flags.junit.empty()) write_junit(flags.junit, "diff", suite_of(a, b), {case_of(name, broken)});
   return broken.empty() ? 0 : kDiffers;
 }
@@ -119,8 +118,8 @@ void require_outside(const fs::path& out, const fs::path& folder) {
   const fs::path inner = fs::weakly_canonical(out), outer = fs::weakly_canonical(folder);
   const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   if (end == outer.end())
-    throw Error::request("--out " + out.string() + " must not be in " + folder.string() +
-                         ", whose pictures are compared")
+    throw Error::invalid_input("--out " + out.string() + " must not be in " + folder.string() +
+                               ", whose pictures are compared")
         .of("out", out.string());
 }
 
@@ -155,7 +154,7 @@ FolderDiff compare_folders(const fs::path& a, const fs::path& b, const DiffFlags
       render::write_png(file, heat);
     }
     if (!flags.json) print_row(name, width, compared ? cells(row.measures) : no_cells());
-    complain(a / name, b / name, compared ? row.broken : std::vector{row.error});
+    report_error(a / name, b / name, compared ? row.broken : std::vector{row.error});
   }
   return diff;
 }
@@ -232,17 +231,17 @@ int run_diff(const CommandLine& line) {
   DiffFlags flags;
   set_keys(line, bind_diff(flags));
   if (line.names.size() != 2)
-    throw Error::request("needs two pictures or two folders: hysteron diff A.png B.png; " +
-                         std::to_string(line.names.size()) + " given");
+    throw Error::invalid_input("needs two pictures or two folders: hysteron diff A.png B.png; " +
+                               std::to_string(line.names.size()) + " given");
   const fs::path a = line.names[0], b = line.names[1];
   if (!flags.limits_file.empty()) flags.from_file = read_limits(flags.limits_file);
   if (!fs::is_directory(a) && !fs::is_directory(b)) return diff_pictures(a, b, flags);
   for (const fs::path& path : {a, b})
-    if (!fs::exists(path)) throw Error::request("there is no file or folder " + path.string());
+    if (!fs::exists(path)) throw Error::invalid_input("there is no file or folder " + path.string());
   if (fs::is_directory(a) != fs::is_directory(b))
-    throw Error::request((fs::is_directory(a) ? a : b).string() + " is a folder and " +
-                         (fs::is_directory(a) ? b : a).string() +
-                         " is not: give two pictures or two folders");
+    throw Error::invalid_input((fs::is_directory(a) ? a : b).string() + " is a folder and " +
+                               (fs::is_directory(a) ? b : a).string() +
+                               " is not: give two pictures or two folders");
   return diff_folders(a, b, flags);
 }
 

@@ -23,7 +23,7 @@ std::set<std::string> pictures_under(const fs::path& folder) {
     if (i->path().extension() == ".png" && !i->is_directory())
       names.insert(i->path().lexically_relative(folder).generic_string());
   }
-  if (failure) throw Error::machine("cannot list the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot list the folder " + folder.string() + ": " + failure.message());
   return names;
 }
 
@@ -86,8 +86,8 @@ PictureLimits DiffFlags::limits_of(const std::string& name) const {
 Comparison compare_files(const fs::path& a, const fs::path& b, const DiffFlags& flags) {
   render::Image of_a = render::read_png(a), of_b = render::read_png(b);
   if (of_a.width() != of_b.width() || of_a.height() != of_b.height())
-    throw Error::request("pictures must have one size: " + a.string() + " has " + size_text(of_a) +
-                         " pixels, " + b.string() + " " + size_text(of_b));
+    throw Error::invalid_input("pictures must have one size: " + a.string() + " has " + size_text(of_a) +
+                               " pixels, " + b.string() + " " + size_text(of_b));
   return compare_pictures(std::move(of_a), std::move(of_b), flags);
 }
 
@@ -113,7 +113,7 @@ std::ptrdiff_t FolderDiff::compared() const {
 std::vector<std::string> pictures_in_either(const fs::path& a, const fs::path& b) {
   std::set<std::string> names = pictures_under(a);
   names.merge(pictures_under(b));
-  if (names.empty()) throw Error::request("no *.png in " + a.string() + " and " + b.string());
+  if (names.empty()) throw Error::invalid_input("no *.png in " + a.string() + " and " + b.string());
   return {names.begin(), names.end()};
 }
 
@@ -123,7 +123,7 @@ FolderDiff::Row compare_in_folders(const fs::path& a, const fs::path& b, const s
   try {
     std::error_code ignored;
     for (const fs::path& folder : {a, b})
-      if (!fs::exists(folder / name, ignored)) throw Error::request("missing in " + folder.string());
+      if (!fs::exists(folder / name, ignored)) throw Error::invalid_input("missing in " + folder.string());
     Comparison comparison = compare_files(a / name, b / name, flags);
     row.measures = comparison.measures;
     row.broken = broken_limits(row.measures, flags.limits_of(name));

@@ -34,9 +34,9 @@ struct Comparison {
   Measures measures;
 };
 // Pictures that let something show through are compared as they look on black and on white, the worse of
-// both counting in each measure.  Error::request if the sizes differ.
+// both counting in each measure.  Error::invalid_input if the sizes differ.
 Comparison compare_pictures(render::Image a, render::Image b, const DiffFlags& flags);
-// Throws Error::request, naming the file or both, if one cannot be read or the sizes differ.
+// Throws Error::invalid_input, naming the file or both, if one cannot be read or the sizes differ.
 Comparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b,
                          const DiffFlags& flags);
 
@@ -56,7 +56,7 @@ struct FolderDiff {
   std::ptrdiff_t compared() const;
 };
 
-// Names of all PNG files under either folder, sorted.  Throws Error::request if there is none.
+// Names of all PNG files under either folder, sorted.  Throws Error::invalid_input if there is none.
 std::vector<std::string> pictures_in_either(const std::filesystem::path& a, const std::filesystem::path& b);
 // One that is missing, broken or of another size has its reason in the row.
 FolderDiff::Row compare_in_folders(const std::filesystem::path& a, const std::filesystem::path& b,

@@ -57,7 +57,7 @@ class LimitsFile {
  private:
   const std::vector<TomlNode>& tables(const TomlNode& node) const {
     if (node.kind != TomlNode::Kind::array)
-      throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]]")
+      throw Error::invalid_input(node.key + " must be an array of tables, [[" + node.key + "]]")
           .from(place(file_, node));
     return node.children;
   }
@@ -66,7 +66,7 @@ class LimitsFile {
     const std::string origin = place(file_, node);
     const BoundKey& key = find_key(keys, node.key, origin);
     if (node.kind != TomlNode::Kind::value)
-      throw Error::request(node.key + " must be one value").from(origin);
+      throw Error::invalid_input(node.key + " must be one value").from(origin);
     assign(key, node.value, origin);
   }
 
@@ -87,7 +87,7 @@ class LimitsFile {
     const Keys keys = bind(kMetricRows, limit);
     for (const TomlNode& node : table.children) set(keys, node);
     if (!table.find("max-difference"))
-      throw Error::request("the limit of a metric needs max-difference").from(place(file_, table));
+      throw Error::invalid_input("the limit of a metric needs max-difference").from(place(file_, table));
     return {name_of(table), limit.max_difference};
   }
 
@@ -95,7 +95,7 @@ class LimitsFile {
     const TomlNode* node = table.find("name");
     const auto* name = node ? std::get_if<std::string>(&node->value) : nullptr;
     if (!name || name->empty())
-      throw Error::request("a limit needs a name, in which * stands for any text")
+      throw Error::invalid_input("a limit needs a name, in which * stands for any text")
           .from(place(file_, node ? *node : table));
     return *name;
   }

@@ -43,7 +43,7 @@ struct Limits {
   std::optional<double> of_metric(const std::string& name) const;
 };
 
-// Of a file, or of assets/limits by its name.  Throws Error::machine, Error::request with file and line.
+// Of a file, or of assets/limits by its name.  Throws Error::system, Error::invalid_input with file and line.
 Limits read_limits(const std::string& name_or_file);
 
 }  // namespace hysteron::experiments

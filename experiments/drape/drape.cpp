@@ -74,7 +74,7 @@ void check_disc(const Scene& scene, const DrapeChoice& choice, const Specimen& s
   const std::string file = rest_file(scene);
   const std::string of = file.empty() ? "cloth.radius = " + number_text(specimen.radius) + " m"
                                       : fmt::format("{:.4g} m, the radius of mesh {}", specimen.radius, file);
-  throw Error::request("drape.disc = " + number_text(choice.disc) + " m must be < " + of)
+  throw Error::invalid_input("drape.disc = " + number_text(choice.disc) + " m must be < " + of)
       .of("drape.disc", number_text(choice.disc));
 }
 
@@ -91,7 +91,7 @@ Specimen lay_on_pedestal(Scene& scene, const DrapeChoice& choice, Cloth& cloth) 
 // A number beyond what a shadow can cover says that the specimen has slipped off or burst, not how it drapes.
 void check_coefficient(double percent) {
   if (is_drape_coefficient(percent)) return;
-  throw Error::run(
+  throw Error::simulation(
       fmt::format("the shadow covers {:.4g} % of the ring, which must be 0 to 101: the specimen has left "
                   "the pedestal or was torn apart by its motion (a shorter step may keep it together)",
                   percent));
@@ -102,7 +102,7 @@ double shadow_coefficient(Session& session, const DrapeChoice& choice, double ra
   double metres = 0;
   render::Image shadow = session.pictures()->silhouette(1.08 * radius, kShadowPixels, metres);
   const double found = drape_coefficient(render::covered_area(shadow, metres), choice.disc, radius);
-  const std::string unrest = unrest_words(session.run().metrics());
+  const std::string unrest = not_at_rest_warning(session.run().metrics());
   const std::string text =
       fmt::format("{}, law {}\nshadow from above: drape coefficient {:.1f} %{}", session.scene().fabric.name,
                   session.scene().law, found, unrest.empty() ? "" : "\n" + unrest);
@@ -200,7 +200,7 @@ int run_drape(const CommandLine& line) {
   session.run().note("specimen_radius_m", radius);
 
   const float r = static_cast<float>(radius);
-  Question question;
+  RunPlan question;
   question.bounds = {{-r, -r, -0.6f * r}, {r, r, 0.02f}};
   question.floor = -static_cast<float>(kPedestalHeight);
   question.columns = {"drape_coefficient [%]", "node_count"};

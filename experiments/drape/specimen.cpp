@@ -79,13 +79,13 @@ std::string name_of_cloth(const Scene& scene) {
 
 Specimen specimen_of(const Scene& scene, const Cloth& cloth) {
   const Points rim = rim_of(cloth);
-  if (rim.empty()) throw Error::request(name_of_cloth(scene) + " is no disc: it has no edge");
+  if (rim.empty()) throw Error::invalid_input(name_of_cloth(scene) + " is no disc: it has no edge");
   const Specimen found = circle_through(rim);
   const std::string fault = fault_of(cloth, found);
   if (!fault.empty()) {
     // What is wrong with a mesh says why.
     const std::string doubt = cloth.warnings.empty() ? "" : "; " + cloth.warnings.front();
-    throw Error::request(name_of_cloth(scene) + " is no disc: " + fault + doubt);
+    throw Error::invalid_input(name_of_cloth(scene) + " is no disc: " + fault + doubt);
   }
   return rest_file(scene).empty() ? Specimen{scene.cloth.radius, scene.cloth.position} : found;
 }

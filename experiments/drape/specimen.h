@@ -10,7 +10,7 @@ struct Specimen {
   Eigen::Vector3d middle = {0, 0, 0};  // [m]
 };
 
-// Measured where the cloth starts; that of a cloth that is built is its scene's.  Throws Error::request
+// Measured where the cloth starts; that of a cloth that is built is its scene's.  Throws Error::invalid_input
 // unless it is a disc that lies flat.
 Specimen specimen_of(const Scene& scene, const Cloth& cloth);
 

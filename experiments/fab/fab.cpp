@@ -50,7 +50,8 @@ std::vector<double> numbers_of(const std::string& text, const std::string& key) 
   for (const std::string& word : split(text)) {
     const auto number = number_in(word);
     if (!number)
-      throw Error::request(key + " = " + text + " must be numbers [m] separated by commas").of(key, text);
+      throw Error::invalid_input(key + " = " + text + " must be numbers [m] separated by commas")
+          .of(key, text);
     numbers.push_back(*number);
   }
   return numbers;
@@ -61,9 +62,10 @@ FabLoops loops_without_data(const TestFlags& flags) {
   const bool bends = flags.test.empty() || flags.test.front() != 'S';
   for (const double amplitude : amplitudes)
     if (!(amplitude > (bends ? flags.slack : 0) && (!bends || amplitude < 0.8 * flags.gauge)))
-      throw Error::request(fmt::format("a compression of {:g} m must be > fab.slack = {:g} m and < 0.8 of "
-                                       "fab.gauge = {:g} m",
-                                       amplitude, flags.slack, flags.gauge))
+      throw Error::invalid_input(
+          fmt::format("a compression of {:g} m must be > fab.slack = {:g} m and < 0.8 of "
+                      "fab.gauge = {:g} m",
+                      amplitude, flags.slack, flags.gauge))
           .of("fab.compressions", flags.compressions);
   FabLoops loops = made_up_loops(flags.test, flags.gauge, flags.slack, amplitudes, flags.steps);
   loops.direction = flags.direction;
@@ -74,7 +76,8 @@ FabLoops loops_without_data(const TestFlags& flags) {
 
 void check_test(const std::string& test) {
   if (test.empty() || std::string("UDS").find(test.front()) == std::string::npos)
-    throw Error::request("fab.test = " + test + " must be U.. (bends up) | D.. (down) | S.. (stretches)")
+    throw Error::invalid_input("fab.test = " + test +
+                               " must be U.. (bends up) | D.. (down) | S.. (stretches)")
         .of("fab.test", test);
 }
 

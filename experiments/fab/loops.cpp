@@ -65,7 +65,8 @@ BranchForces ComparedLoops::measured_forces() const {
 TesterUnits tester_units(const std::string& name) {
   if (name == "si") return TesterUnits::si;
   if (name == "fab") return TesterUnits::fab;
-  throw Error::request("units = " + name + " must be si (m, N) | fab (cm, gf) for loops of a FAB tester")
+  throw Error::invalid_input("units = " + name +
+                             " must be si (m, N) | fab (cm, gf) for loops of a FAB tester")
       .of("units", name);
 }
 

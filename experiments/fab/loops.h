@@ -20,7 +20,7 @@ struct ComparedLoops {
   BranchForces measured_forces() const;  // from that zero [N/m]
 };
 
-// `si` | `fab`; Error::request for others.
+// `si` | `fab`; Error::invalid_input for others.
 TesterUnits tester_units(const std::string& name);
 
 struct CycleReading {

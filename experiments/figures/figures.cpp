@@ -304,8 +304,8 @@ Figure figure_4_4d(const Chapter& c) {
 std::vector<Figure> chapter_figures(const Fabric& fabric) {
   const VirginCurve curve = fabric.virgin_curve();
   if (!(curve.b1 > curve.b2 && curve.b2 > 0 && curve.k0 > 0)) {
-    throw Error::request(fabric.name + " has no hysteresis loop to draw; it needs b1 > b2 > 0 " +
-                         "and k0 > 0")
+    throw Error::invalid_input(fabric.name + " has no hysteresis loop to draw; it needs b1 > b2 > 0 " +
+                               "and k0 > 0")
         .in("figures");
   }
   const double m0 = curve.friction_moment();

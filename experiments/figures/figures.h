@@ -15,8 +15,8 @@ struct Figure {
   render::Plot plot;    // series' labels name the curves; marks carry the chapter's letters
 };
 
-// Figures 4.2(b), 4.3, 4.4(a), (b), (c), (d).  Moments in mN, curvatures in 1/m.  Throws Error::request for
-// a fabric without friction (b1 = b2) or without b2: it has no loop, or no residual curvature to draw.
+// Figures 4.2(b), 4.3, 4.4(a), (b), (c), (d).  Moments in mN, curvatures in 1/m.  Throws Error::invalid_input
+// for a fabric without friction (b1 = b2) or without b2: it has no loop, or no residual curvature to draw.
 std::vector<Figure> chapter_figures(const Fabric& fabric);
 
 }  // namespace hysteron::experiments

@@ -46,7 +46,7 @@ const KeyRow<FitFlags> kRows[] = {
     {"loop", at<&F::loop>, "", any(), "", "measured curve: CSV with `curvature [1/m]`, `moment [N]`, optional `time [s]`"},
     {"law", at<&F::law>, "", any(), "", "of the loop: a name, names separated by commas, or all, to compare"},
     {"param", at<&F::param>, "", any(), "", "parameters of that law"},
-    {"stops", at<&F::stops>, "", between(1, kMostFittedStops), "", "instead of a law: this many friction elements with free thresholds"},
+    {"stops", at<&F::stops>, "", between(1, kMaxFittedStops), "", "instead of a law: this many friction elements with free thresholds"},
     {"offset", at<&F::offset>, "", any(), "", "find the zero of the measured moments, too"},
     {"ripple", at<&F::ripple>, "", between(0, 0.5), "", "curvature that comes back by less than this share of its range is noise"},
     {"profile", at<&F::profile>, "", any(), "", "sagging cantilever: CSV with `x [m]`, `y [m]`, from the clamp; needs fabric.density"},
@@ -95,7 +95,7 @@ std::vector<std::string> laws_of(const std::string& text) {
   std::vector<std::string> laws;
   for (const std::string& word : listed(text, law_names()))
     if (!word.empty() && !std::count(laws.begin(), laws.end(), word)) laws.push_back(word);
-  if (laws.empty()) throw Error::request("law = \"\" must name a law (--law)").of("law", "");
+  if (laws.empty()) throw Error::invalid_input("law = \"\" must name a law (--law)").of("law", "");
   return laws;
 }
 
@@ -152,44 +152,46 @@ Answer from_loop(const FitFlags& flags) {
 Answer from_virgin(const FitFlags& flags) {
   if (!flags.virgin_file.empty()) {
     if (flags.virgin.b1.given() || flags.virgin.c1.given())
-      throw Error::request("takes virgin.file or virgin.b1 with virgin.c1, not both")
+      throw Error::invalid_input("takes virgin.file or virgin.b1 with virgin.c1, not both")
           .of("virgin.file", flags.virgin_file);
     return {{identify_virgin(read_virgin(flags.virgin_file, "fit"), flags.assume)},
             {},
             file_name(flags.virgin_file)};
   }
   if (!flags.virgin.b1.given() || !flags.virgin.c1.given())
-    throw Error::request("a virgin curve needs both --virgin.b1 and --virgin.c1").of("virgin.b1", "");
+    throw Error::invalid_input("a virgin curve needs both --virgin.b1 and --virgin.c1").of("virgin.b1", "");
   return {{identify_virgin(flags.virgin, flags.assume)}, {}, "b1 and c1 of its virgin curve"};
 }
 
 Answer from_kes(const FitFlags& flags) {
   if (!flags.kes.b.given() || !flags.kes.two_hb.given())
-    throw Error::request("KES-FB2 needs both --kes.b and --kes.2hb").of("kes.b", "");
+    throw Error::invalid_input("KES-FB2 needs both --kes.b and --kes.2hb").of("kes.b", "");
   return {{identify_kes(flags.kes, flags.assume)}, {}, "B and 2HB of KES-FB2"};
 }
 
 Answer from_profile(const FitFlags& flags) {
   if (std::isnan(flags.density))
-    throw Error::request("a profile needs --fabric.density: the moments are those of the strip's weight")
+    throw Error::invalid_input(
+        "a profile needs --fabric.density: the moments are those of the strip's weight")
         .of("fabric.density", "");
   return {{identify_profile(read_profile(flags.profile, "fit"), flags.density, flags.assume)},
           {},
           file_name(flags.profile)};
 }
 
-void refuse_without_loop(const FitFlags& flags) {
+void throw_if_without_loop(const FitFlags& flags) {
   if (!flags.loop.empty()) return;
   if (flags.law != "prandtl" || !flags.param.empty() || flags.stops > 0 || flags.offset)
-    throw Error::request("--law, --param, --stops and --offset go with --loop: only a loop tells laws apart")
+    throw Error::invalid_input(
+        "--law, --param, --stops and --offset go with --loop: only a loop tells laws apart")
         .of("loop", "");
 }
 
 // Of what is not of a FAB tester.
 void check_units(const FitFlags& flags) {
   if (flags.units == "si" || (flags.units == "kes" && !flags.loop.empty())) return;
-  throw Error::request("units = " + flags.units +
-                       " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
+  throw Error::invalid_input("units = " + flags.units +
+                             " must be si; kes goes with --loop (1/cm, gf cm/cm), fab with --fab (cm, gf)")
       .of("units", flags.units);
 }
 
@@ -208,12 +210,12 @@ Answer identify(const FitFlags& flags) {
   const auto asked =
       std::count_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; });
   if (asked != 1) {
-    throw Error::request(
+    throw Error::invalid_input(
         "needs one of --loop FILE.csv, --virgin.b1 with --virgin.c1, --kes.b with --kes.2hb, "
         "--profile FILE.csv, --fab FILE.csv, --decay FILE.csv" +
         std::string(asked > 1 ? ", not several" : ""));
   }
-  refuse_without_loop(flags);
+  throw_if_without_loop(flags);
   return std::find_if(std::begin(ways), std::end(ways), [](const Way& way) { return way.asked; })->go(flags);
 }
 
@@ -236,7 +238,7 @@ void finish(Run& run, const FitFlags& flags, const std::string& summary, const F
 
 void fit_loops_of_fab(const CommandLine& line, const FitFlags& flags, const Keys& keys) {
   if (std::isnan(flags.density))
-    throw Error::request("--fab needs --fabric.density: the strip's weight bears on it")
+    throw Error::invalid_input("--fab needs --fabric.density: the strip's weight bears on it")
         .of("fabric.density", "");
   const FabAnswer answer = fit_fab(flags.fab, flags.units, flags.density);
   Run run(line, flags.options, resolved(keys));
@@ -250,7 +252,8 @@ void fit_decay(const CommandLine& line, const FitFlags& flags, const Keys& keys)
                           flags.kes.b.value};
   const char* const names[] = {"decay.length", "fabric.density", "kes.b"};
   for (int i = 0; i < 3; ++i)
-    if (!(given[i] > 0)) throw Error::request(std::string("--decay needs --") + names[i]).of(names[i], "");
+    if (!(given[i] > 0))
+      throw Error::invalid_input(std::string("--decay needs --") + names[i]).of(names[i], "");
   Run run(line, flags.options, resolved(keys));
   const FabricNotes notes{flags.name, "a free vibration in " + file_name(flags.decay.file),
                           if_given(flags.density), if_given(flags.thickness)};
@@ -267,7 +270,8 @@ int run_fit(const CommandLine& line) {
     const BoundKey& key = find_key(keys, flag.path, "--" + flag.path);
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
   }
-  if (flags.name.empty()) throw Error::request("name = \"\" must be the fabric's (--name)").of("name", "");
+  if (flags.name.empty())
+    throw Error::invalid_input("name = \"\" must be the fabric's (--name)").of("name", "");
   if (!flags.fab.file.empty()) {
     fit_loops_of_fab(line, flags, keys);
     return 0;

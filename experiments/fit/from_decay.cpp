@@ -35,7 +35,7 @@ std::string report_decay(Run& run, const DecayFlags& flags, double density, doub
   const FabBending& b = answer.found.bending[0];
   if (!b.converged) run.warn("the fit did not converge");
   if (!(b.law.spring > 0))
-    throw Error::request(
+    throw Error::invalid_input(
         "decay: the friction that is found is steeper than kes.b = " + number_text(rigidity) +
         " N m where a tester reads it: check kes.b, fabric.density and decay.length")
         .of("kes.b", number_text(rigidity));

@@ -22,18 +22,19 @@ constexpr int kThreads = 2;
 
 // Farther from the data, what was fitted is not what was measured: rms over the noise of bending, and over
 // the largest force of stretch, which no law of stops follows to less than some percent.
-constexpr double kMostOverNoise = 3, kMostOfStretch = 0.1;
+constexpr double kMaxOverNoise = 3, kMaxOfStretch = 0.1;
 
 std::vector<double> numbers_of(const std::string& text, const std::string& key) {
   std::vector<double> numbers;
   for (const std::string& word : split(text)) {
     const auto number = number_in(word);
     if (!number || !(*number > 0) || !std::isfinite(*number))
-      throw Error::request(key + " = " + text + " must be numbers > 0 separated by commas").of(key, text);
+      throw Error::invalid_input(key + " = " + text + " must be numbers > 0 separated by commas")
+          .of(key, text);
     numbers.push_back(*number);
   }
   if (numbers.empty() || !std::is_sorted(numbers.begin(), numbers.end(), std::less_equal<>()))
-    throw Error::request(key + " = " + text + " must be numbers that rise").of(key, text);
+    throw Error::invalid_input(key + " = " + text + " must be numbers that rise").of(key, text);
   return numbers;
 }
 
@@ -41,7 +42,7 @@ std::vector<int> cycles_of(const std::string& text) {
   std::vector<int> cycles;
   for (const double cycle : numbers_of(text, "fab.cycles")) {
     if (cycle != std::floor(cycle))
-      throw Error::request("fab.cycles = " + text + " must be whole numbers, the first cycle being 1")
+      throw Error::invalid_input("fab.cycles = " + text + " must be whole numbers, the first cycle being 1")
           .of("fab.cycles", text);
     cycles.push_back(static_cast<int>(cycle));
   }
@@ -55,7 +56,7 @@ bool is_bias(const std::string& direction) { return strip_direction(direction) =
 std::vector<std::string> directions_of(const std::string& text, const std::vector<FabLoops>& loops) {
   std::vector<std::string> directions = split(text);
   if (directions.size() > 1 && (is_bias(directions[0]) || is_bias(directions[1])))
-    throw Error::request(
+    throw Error::invalid_input(
         "fab.directions = " + text +
         " must begin with warp and weft, L,W, or name the bias alone, B: it stands for neither")
         .of("fab.directions", text);
@@ -71,7 +72,7 @@ std::vector<std::string> directions_of(const std::string& text, const std::vecto
 }
 
 Error misfit(const std::string& direction, const std::string& by, double noise) {
-  return Error::request(
+  return Error::invalid_input(
              fmt::format("along {} the fit misses the forces by {}: check gauge, width, density, tests and "
                          "cycles; data that scatter so are fitted with --fab.noise {:.2g} [N]",
                          direction, by, noise))
@@ -80,25 +81,25 @@ Error misfit(const std::string& direction, const std::string& by, double noise) 
 
 void check_fit(const FabBending& b, double noise) {
   for (const auto& [name, rigidity] : {std::pair{"b1", b.law.initial_stiffness()}, {"b2", b.law.spring}})
-    if (!(rigidity >= kLeastRigidity && rigidity <= kGreatestRigidity))
-      throw Error::request(
+    if (!(rigidity >= kMinRigidity && rigidity <= kGreatestRigidity))
+      throw Error::invalid_input(
           fmt::format("along {} the fit finds {} = {:.3g} N m, must be in [{:g}, {:g}] N m, as "
                       "fabrics are: check the units of forces and lengths, and the width",
-                      b.direction, name, rigidity, kLeastRigidity, kGreatestRigidity));
-  if (!(b.residual_rms <= kMostOverNoise))
+                      b.direction, name, rigidity, kMinRigidity, kGreatestRigidity));
+  if (!(b.residual_rms <= kMaxOverNoise))
     throw misfit(
         b.direction,
         fmt::format("{:.2g} times their noise of {:g} N (rms), at most {:g} times is taken for noise",
-                    b.residual_rms, noise, kMostOverNoise),
+                    b.residual_rms, noise, kMaxOverNoise),
         noise * b.residual_rms);
 }
 
 void check_fit(const FabTension& t, double width, double noise) {
-  const double most = std::max(kMostOfStretch * t.largest_force, kMostOverNoise * noise / width);
+  const double most = std::max(kMaxOfStretch * t.largest_force, kMaxOverNoise * noise / width);
   if (!(t.residual_rms <= most))
     throw misfit(t.direction,
                  fmt::format("{:.2g} % of the largest in stretch (rms), at most {:g} % is taken for noise",
-                             100 * t.residual_rms / t.largest_force, 100 * kMostOfStretch),
+                             100 * t.residual_rms / t.largest_force, 100 * kMaxOfStretch),
                  t.residual_rms * width);
 }
 
@@ -240,7 +241,7 @@ FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double densit
     if (stretched[i].rows > 0) answer.found.tension.push_back(stretched[i]);
   }
   if (answer.found.bending.empty())
-    throw Error::request("needs a test that bends (U.., D..) among --fab.tests for b1, b2 and k0")
+    throw Error::invalid_input("needs a test that bends (U.., D..) among --fab.tests for b1, b2 and k0")
         .of("fab.tests", flags.tests);
   return answer;
 }

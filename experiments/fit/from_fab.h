@@ -25,7 +25,7 @@ struct FabAnswer {
   std::vector<int> cycles;
 };
 
-// Throws Error::request for what the file does not have.
+// Throws Error::invalid_input for what the file does not have.
 FabAnswer fit_fab(const FabFlags& flags, const std::string& units, double density);
 
 // fabric.toml, one_stop.toml (what a constant 2HB makes of the same data), spectrum.csv, forms.csv,

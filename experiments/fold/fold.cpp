@@ -1,6 +1,6 @@
-// Repeated folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after many
-// folds, and what they leave in the cloth; with `--law all`, or several laws separated by commas, each on one
-// page.
+// ErrorRunResult folding (De Mattia flexing, ISO 7854): what is left of a fabric's bending friction after
+// many folds, and what they leave in the cloth; with `--law all`, or several laws separated by commas, each
+// on one page.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -130,10 +130,10 @@ std::vector<TablePlot> plots_of(bool law_alone, const std::string& name) {
           over_cycles("plot_2HB", width, "material.csv", "2HB", 1e3)};
 }
 
-Question question_of(const Fold& fold, FlexingMachine& folding) {
+RunPlan question_of(const Fold& fold, FlexingMachine& folding) {
   const float width = static_cast<float>(fold.scene.cloth.width), free = static_cast<float>(fold.free_length),
               grip = (static_cast<float>(fold.scene.cloth.length) - free) / 2;
-  Question question;
+  RunPlan question;
   question.bounds = {{-grip, 0, -free}, {free + grip, width, grip / 2}};
   question.columns = FlexingMachine::columns();
   question.measure = [&](const Snapshot& m) { return folding.measure(m); };
@@ -206,12 +206,14 @@ void fold_law(const CommandLine& line, const Request& request) {
     return;
   }
   if (request.setup.options.errors)
-    throw Error::request("--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
+    throw Error::invalid_input(
+        "--errors: fold.law-alone has neither a mesh nor a step; only the cloth has errors")
         .of("errors", "true");
   if (!request.setup.options.probe.empty())
-    throw Error::request("--probe: fold.law-alone has no cloth").of("probe", request.setup.options.probe);
+    throw Error::invalid_input("--probe: fold.law-alone has no cloth")
+        .of("probe", request.setup.options.probe);
   if (request.setup.options.checkpoint > 0 || request.setup.options.resume)
-    throw Error::request(
+    throw Error::invalid_input(
         "--checkpoint and --resume: fold.law-alone takes no checkpoints; only the cloth does");
   Json keys = to_json(scene);
   keys.update(request.keys);

@@ -30,7 +30,7 @@ struct BendingCycle {
 };
 
 // The law alone, bent from 0 to choice.curvature and back choice.cycles times: the chosen cycles.  Throws
-// Error::request as run_law() does.
+// Error::invalid_input as run_law() does.
 std::vector<BendingCycle> bend_repeatedly(const Scene& scene, const FoldChoice& choice);
 
 }  // namespace hysteron::experiments

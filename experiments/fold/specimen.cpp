@@ -82,8 +82,8 @@ bool is_pictured(int cycle, int last) { return cycle == last || cycle == decade_
 
 Fold folded(const Scene& given, const FoldChoice& choice, double fps) {
   if (given.element != BendingElement::shape)
-    throw Error::request("element = " + name_of(given.element) +
-                         " must be shape: recovery is read from the curvature tensors of faces")
+    throw Error::invalid_input("element = " + name_of(given.element) +
+                               " must be shape: recovery is read from the curvature tensors of faces")
         .of("element", name_of(given.element))
         .in("fold");
   Fold fold{given, {}};

@@ -34,7 +34,7 @@ struct Fold {
 // A specimen of scene.cloth.length by scene.cloth.width, a tenth of which is in either clamp.  The clamps
 // never return quite to the length of the cloth between them: it is not stretched, and sags.  After the last
 // return the moving clamp lets go.  The step and `fps` [1/s] are changed so that half a cycle has a whole
-// number of either.  Error::request for element `hinge`: recovery is read from the tensors of faces.
+// number of either.  Error::invalid_input for element `hinge`: recovery is read from the tensors of faces.
 Fold folded(const Scene& scene, const FoldChoice& choice, double fps);
 
 // fatigue.dc as chosen, for a law that knows it and has not been given one.

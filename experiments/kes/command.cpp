@@ -75,7 +75,7 @@ std::vector<Fabric> chosen_fabrics(const std::vector<Flag>& flags) {
   std::vector<Fabric> fabrics;
   for (const std::string& name : listed(list, list_assets("fabrics")))
     fabrics.push_back(fabric_of(name, flags));
-  if (fabrics.empty()) throw Error::request("--fabric names none").of("fabric", list);
+  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").of("fabric", list);
   return fabrics;
 }
 
@@ -92,17 +92,17 @@ LawParameters parameters_of(const std::string& law, const std::vector<std::strin
     if (has(law, name)) own[name] = value;
     if (std::none_of(laws.begin(), laws.end(),
                      [&, &name = name](const std::string& other) { return has(other, name); }))
-      throw Error::request("none of the laws has a parameter " + name + " (--param)")
+      throw Error::invalid_input("none of the laws has a parameter " + name + " (--param)")
           .of("param", name + "=" + value);
   }
   return own;
 }
 
-void refuse_strip_keys(const CommandLine& line) {
+void throw_if_strip_keys(const CommandLine& line) {
   for (const Flag& flag : line.flags)
     for (const KeyRow<KesFlags>& row : kStripRows)
       if (flag.path == row.path)
-        throw Error::request("--" + flag.path + " is of strips: it needs --on strip")
+        throw Error::invalid_input("--" + flag.path + " is of strips: it needs --on strip")
             .of(flag.path, flag.text);
 }
 
@@ -144,7 +144,7 @@ void warn_of_failures(const std::vector<KesFabric>& fabrics, Run& run) {
 }
 
 // Not a single strip could be tested.
-void refuse_failures(const std::vector<KesFabric>& fabrics) {
+void throw_if_failures(const std::vector<KesFabric>& fabrics) {
   std::string failure;
   for (const KesFabric& fabric : fabrics)
     for (const KesResult& result : fabric.results)
@@ -152,7 +152,7 @@ void refuse_failures(const std::vector<KesFabric>& fabrics) {
         if (strip.failure.empty()) return;
         failure = strip.failure;
       }
-  if (!failure.empty()) throw Error::run(failure);
+  if (!failure.empty()) throw Error::simulation(failure);
 }
 
 KesFabric tested(const Fabric& fabric, const KesFlags& flags, const std::vector<std::string>& laws,
@@ -191,20 +191,20 @@ Json resolved(KesFlags& flags, const std::vector<std::string>& laws, const std::
 int run_kes(const CommandLine& line) {
   KesFlags flags;
   if (last_text(line.flags, "test", flags.test) != flags.test) return run_in_plane(line);
-  refuse_other_tests(line, keys_of(flags), flags.test);
+  throw_if_other_tests(line, keys_of(flags), flags.test);
   set_keys(line, keys_of(flags), [&] {
     flags.protocol.steps = std::min(flags.protocol.steps, kQuickSteps);
     flags.protocol.minor_loops = false;
     flags.strip.steps = std::min(flags.strip.steps, kQuickStripSteps);
   });
-  if (flags.on == "law") refuse_strip_keys(line);
+  if (flags.on == "law") throw_if_strip_keys(line);
   check_protocol(flags.protocol);
   const std::vector<std::string> laws = chosen_laws(flags.law, flags.on == "strip");
-  if (laws.empty()) throw Error::request("--law names none").of("law", flags.law);
+  if (laws.empty()) throw Error::invalid_input("--law names none").of("law", flags.law);
   const std::vector<Fabric> fabrics = chosen_fabrics(line.flags);
   std::vector<KesFabric> results;
   for (const Fabric& fabric : fabrics) results.push_back(tested(fabric, flags, laws, fabrics.size() > 1));
-  refuse_failures(results);
+  throw_if_failures(results);
 
   Run run(line, flags.options, resolved(flags, laws, fabrics));
   warn_of_failures(results, run);

@@ -87,24 +87,24 @@ Json resolved(InPlaneFlags& flags, const std::vector<InPlaneResult>& results) {
 
 }  // namespace
 
-void refuse_other_tests(const CommandLine& line, const Keys& keys, const std::string& test) {
+void throw_if_other_tests(const CommandLine& line, const Keys& keys, const std::string& test) {
   for (const Flag& flag : line.flags) {
     if (flag.path.starts_with("fabric")) continue;
     const auto is_it = [&](const BoundKey& key) { return key.description.path == flag.path; };
     if (std::none_of(keys.begin(), keys.end(), is_it))
-      throw Error::request("--" + flag.path + " is not of --test " + test).of(flag.path, flag.text);
+      throw Error::invalid_input("--" + flag.path + " is not of --test " + test).of(flag.path, flag.text);
   }
 }
 
 int run_in_plane(const CommandLine& line) {
   InPlaneFlags flags;
-  refuse_other_tests(line, keys_of(flags), last_text(line.flags, "test", flags.test));
+  throw_if_other_tests(line, keys_of(flags), last_text(line.flags, "test", flags.test));
   set_keys(line, keys_of(flags),
            [&] { flags.specimen.triangles = std::min(flags.specimen.triangles, kQuickTriangles); });
   const auto test = value_named<InPlaneTest>(flags.test);
   const std::string list = last_text(line.flags, "fabric", Fabric{}.name);
   const std::vector<std::string> fabrics = listed(list, list_assets("fabrics"));
-  if (fabrics.empty()) throw Error::request("--fabric names none").of("fabric", list);
+  if (fabrics.empty()) throw Error::invalid_input("--fabric names none").of("fabric", list);
   std::vector<InPlaneResult> results;
   for (const std::string& name : fabrics) {
     results.push_back(tested(fabric_of(name, line.flags), test, flags));

@@ -25,7 +25,7 @@ struct InPlaneCloth {
   double seconds = 0;  // wall clock
 };
 
-// `along`: the direction from clamp to clamp.  Throws Error::run where no equilibrium is found.
+// `along`: the direction from clamp to clamp.  Throws Error::simulation where no equilibrium is found.
 InPlaneCloth<ShearTest> shear_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,
                                     InPlaneProtocol protocol);
 InPlaneCloth<TensionTest> stretch_cloth(const Fabric& fabric, Along along, const InPlaneSpecimen& specimen,

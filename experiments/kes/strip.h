@@ -47,8 +47,8 @@ struct ClampedStrip {
   bool is_free(int face) const;
 };
 
-// Throws Error::request for meshes and elements that do not exist, for bends of a whole turn, and for laws
-// that need orders on the way.
+// Throws Error::invalid_input for meshes and elements that do not exist, for bends of a whole turn, and for
+// laws that need orders on the way.
 ClampedStrip clamped_strip(const StripShape& shape, const LawRequest& law, const Fabric& fabric,
                            const KesProtocol& protocol);
 
@@ -69,7 +69,7 @@ struct StripTest {
 // Called after each row, with the state at hand.
 using StripWatch = std::function<void(std::size_t row, Simulation& simulation)>;
 
-// Throws Error::run where no equilibrium is found.
+// Throws Error::simulation where no equilibrium is found.
 StripTest test_strip(const ClampedStrip& strip, const LawRequest& law, const KesProtocol& protocol,
                      const StripWatch& watch = {});
 

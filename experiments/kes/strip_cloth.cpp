@@ -53,18 +53,18 @@ Scene scene_of(const StripShape& shape, const LawRequest& law, const Fabric& fab
 void check_strip(const StripShape& shape, const LawRequest& law, const KesProtocol& protocol) {
   const auto& meshes = strip_meshes();
   if (std::find(meshes.begin(), meshes.end(), shape.mesh) == meshes.end())
-    throw Error::request("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
+    throw Error::invalid_input("mesh = " + shape.mesh + " of a strip is not one of: " + join(meshes, ", "))
         .of("mesh", shape.mesh)
         .in("kes");
   if (law.name == "grinspun-edit")
-    throw Error::request(
+    throw Error::invalid_input(
         "grinspun-edit is tested alone (--on law): no edit is ordered on the strip's way, and without "
         "one it is linear")
         .of("law", law.name)
         .in("kes");
   if (protocol.amplitude * kGauge >= 2 * kPi) {
     const std::string amplitude = fmt::format("{:g}", protocol.amplitude);
-    throw Error::request(
+    throw Error::invalid_input(
         fmt::format("amplitude = {} 1/m bends a strip of {:g} m by a whole turn or more: the "
                     "clamps would meet; it must be < {:g} 1/m",
                     amplitude, kGauge, 2 * kPi / kGauge))

@@ -61,11 +61,12 @@ int run_law(const CommandLine& line) {
   take_fabric(flags, "--fabric");
   for (const Flag& flag : line.flags) apply(flag);
   drop_stops_unless_asked_for(line, flags);
-  if (flags.in.empty() || flags.out.empty()) throw Error::request("needs --in K.csv and --out M.csv");
+  if (flags.in.empty() || flags.out.empty()) throw Error::invalid_input("needs --in K.csv and --out M.csv");
 
   std::error_code missing;
   if (std::filesystem::equivalent(flags.in, flags.out, missing))
-    throw Error::request("--out " + flags.out + " is the input: give another file").of("out", flags.out);
+    throw Error::invalid_input("--out " + flags.out + " is the input: give another file")
+        .of("out", flags.out);
   return run_law_command(
       {flags.law, {flags.b1, flags.b2, flags.k0, flags.parts}, flags.param, flags.in, flags.out});
 }

@@ -21,7 +21,8 @@ std::string with_unit(double value, const char* unit) { return fmt::format("{:g}
 
 void check_curve(const VirginCurve& curve) {
   const auto refuse = [](const char* name, double value, const char* unit, const std::string& allowed) {
-    throw Error::request(std::string("--") + name + " = " + with_unit(value, unit) + " must be " + allowed)
+    throw Error::invalid_input(std::string("--") + name + " = " + with_unit(value, unit) + " must be " +
+                               allowed)
         .of(name, fmt::format("{:g}", value))
         .in("law");
   };

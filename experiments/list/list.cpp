@@ -159,7 +159,8 @@ int run_list(const CommandLine& line) {
     return 0;
   }
   for (const std::string& name : names)
-    if (!is_part(name)) throw Error::request("\"" + name + "\" must be fabrics | laws | scenes | devices");
+    if (!is_part(name))
+      throw Error::invalid_input("\"" + name + "\" must be fabrics | laws | scenes | devices");
   if (flags.json) {
     nlohmann::ordered_json lists;
     for (const auto& [name, print] : parts)

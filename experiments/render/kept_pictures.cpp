@@ -23,7 +23,7 @@ void apply_flags(const CommandLine& line, Options& options) {
   for (const Flag& flag : line.flags) {
     const std::string path = flag.path == "render.range" ? "curvature-range" : flag.path;
     if (path.starts_with("render.") || path == "fps")
-      throw Error::request(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
+      throw Error::invalid_input(flag.path + " is of mesh files, not of kept geometry (--" + flag.path + ")")
           .of(flag.path, flag.text);
     const BoundKey& key = find_key(keys, path, "--" + flag.path);
     assign(key, parse_text(key.description, flag.text), "--" + flag.path);
@@ -84,8 +84,8 @@ std::string looks_of(const ComparisonPage& page, const std::string& asked, const
   return looks;
 }
 
-SweepColumn draw_column(const CommandLine& line, const fs::path& file, const Kept& kept,
-                        const KeptCloth& cloth, const ComparisonPage& page, const fs::path& out) {
+ChildRun draw_column(const CommandLine& line, const fs::path& file, const Kept& kept, const KeptCloth& cloth,
+                     const ComparisonPage& page, const fs::path& out) {
   Setup setup = setup_of(cloth, file.string());
   const std::string recorded = setup.options.look;
   apply_flags(line, setup.options);
@@ -107,7 +107,7 @@ void draw_comparison(const CommandLine& line, const fs::path& file, const Kept& 
   apply_flags(line, options);
   page.look = last_text(line.flags, "look", page.look);
   Run run(line, options, {{"kept", file.string()}});
-  std::vector<SweepColumn> columns;
+  std::vector<ChildRun> columns;
   for (const KeptCloth& cloth : kept.cloths) {
     run.progress(cloth.name + ": " + std::to_string(cloth.instants.size()) + " instants");
     columns.push_back(draw_column(line, file, kept, cloth, page, run.folder()));
@@ -128,11 +128,11 @@ fs::path kept_file_of(const CommandLine& line) {
 
 void draw_kept(const CommandLine& line, const fs::path& file) {
   const Kept kept = read_kept(file);
-  if (kept.cloths.empty()) throw Error::request(file.string() + " keeps no cloth");
+  if (kept.cloths.empty()) throw Error::invalid_input(file.string() + " keeps no cloth");
   try {
     is_page(kept.sheet) ? draw_comparison(line, file, kept) : draw_run(line, file, kept);
   } catch (const Json::exception& e) {
-    throw Error::request(file.string() + ": " + e.what());
+    throw Error::invalid_input(file.string() + ": " + e.what());
   }
 }
 

@@ -11,8 +11,8 @@ namespace hysteron::experiments {
 std::filesystem::path kept_file_of(const CommandLine& line);
 
 // Draws it into the line's folder; flags win over what the run was drawn with.  A comparison's columns are
-// drawn into folders of their own, then its sheet.  Throws Error::request for a damaged file and for looks
-// whose values it does not keep, otherwise what Pictures throws.
+// drawn into folders of their own, then its sheet.  Throws Error::invalid_input for a damaged file and for
+// looks whose values it does not keep, otherwise what Pictures throws.
 void draw_kept(const CommandLine& line, const std::filesystem::path& file);
 
 }  // namespace hysteron::experiments

@@ -78,7 +78,7 @@ Keys keys_of(F& flags) {
 }
 
 Error refusal(const std::string& key, const std::string& value, const std::string& must) {
-  return Error::request(key + " = " + value + " must be " + must + " (--" + key + ")").of(key, value);
+  return Error::invalid_input(key + " = " + value + " must be " + must + " (--" + key + ")").of(key, value);
 }
 
 std::optional<float> ground_of(const F& flags) {
@@ -161,7 +161,7 @@ void choose_instants(std::vector<Column>& columns) {
 
 std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& words) {
   std::vector<Column> columns;
-  if (words.empty()) throw Error::request("needs mesh files or folders: hysteron render FILES...");
+  if (words.empty()) throw Error::invalid_input("needs mesh files or folders: hysteron render FILES...");
   const std::vector<MeshSequence> sequences = mesh_sequences(words);
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     const auto value = [&](const char* key, const std::string& list) {
@@ -178,7 +178,7 @@ std::vector<Column> columns_of(const F& flags, const std::vector<std::string>& w
 
 Surface body_of(const F& flags, const FileAxes& axes) {
   if (!std::filesystem::exists(flags.body))
-    throw Error::request("no such file or folder: " + flags.body).of("render.body", flags.body);
+    throw Error::invalid_input("no such file or folder: " + flags.body).of("render.body", flags.body);
   return read_frame(flags.body, axes);
 }
 
@@ -195,7 +195,7 @@ void check_curvature(const F& flags, const Surface& frame, const std::string& wh
   if (flags.options.look != "curvature") return;
   if (flags.curvature == "file") {
     if (!frame.curvature.empty()) return;
-    throw Error::request(what + ": no property curvature of its vertices (--render.curvature file)")
+    throw Error::invalid_input(what + ": no property curvature of its vertices (--render.curvature file)")
         .of("render.curvature", flags.curvature);
   }
   mesh_of(frame, what);
@@ -232,7 +232,8 @@ render::Box framed(const F& flags, const render::Box& whole) {
   if (flags.low == flags.high) return whole;
   if ((flags.low.array() < flags.high.array()).all())
     return {flags.low.cast<float>(), flags.high.cast<float>()};
-  throw Error::request("render.low must be less than render.high in x, y and z (--render.low, --render.high)")
+  throw Error::invalid_input(
+      "render.low must be less than render.high in x, y and z (--render.low, --render.high)")
       .of("render.low", "");
 }
 
@@ -334,7 +335,7 @@ class FramesAndSheet {
         sheet.columns.back().cells.push_back({crops[r].of(cells_[c * rows + r].image)});
     }
     if (const auto bar = pictures_.color_bar()) sheet.bars.push_back(*bar);
-    sheet.beside = alone() ? 0 : static_cast<int>(std::min<std::size_t>(wide, render::kMostBeside));
+    sheet.beside = alone() ? 0 : static_cast<int>(std::min<std::size_t>(wide, render::kMaxBeside));
     render::write_png(run_.path("sheet.png"), render::draw_comparison(sheet), render::PngEffort::best);
   }
 

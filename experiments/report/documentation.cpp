@@ -17,7 +17,7 @@ std::vector<fs::path> pages_in(const fs::path& folder) {
   std::error_code failure;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(pages.begin(), pages.end());
   return pages;
 }

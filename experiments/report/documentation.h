@@ -10,7 +10,7 @@ bool is_documentation(const std::filesystem::path& folder);
 
 // Its pages and the README.md beside the folder, by name, with tables of keys and exit codes (key_tables.h),
 // tables of recorded files (table_blocks.h) and numbers (linked_numbers.h) as they should be.  Throws
-// Error::machine if a file cannot be read.
+// Error::system if a file cannot be read.
 std::vector<Page> documentation(const std::filesystem::path& folder);
 
 }  // namespace hysteron::experiments

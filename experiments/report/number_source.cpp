@@ -29,14 +29,14 @@ class Words {
       while (quoted && (end = text.find('\'', end)) != text.npos && end + 1 < text.size() &&
              text[end + 1] != ' ' && text[end + 1] != '\n')
         ++end;
-      if (quoted && end == text.npos) throw Error::request("a quote is not closed");
+      if (quoted && end == text.npos) throw Error::invalid_input("a quote is not closed");
       words_.push_back(text.substr(at + quoted, end == text.npos ? end : end - at - quoted));
       at = end == text.npos ? text.size() : end + quoted;
     }
   }
 
   std::string next(const char* what) {
-    if (done()) throw Error::request(std::string("needs ") + what);
+    if (done()) throw Error::invalid_input(std::string("needs ") + what);
     return words_[at_++];
   }
   // The next word, which stays; "" behind the last.
@@ -54,7 +54,7 @@ std::optional<double> as_number(const std::string& text) {
 }
 
 double number_of(const Json& value, const std::string& name) {
-  if (!value.is_number()) throw Error::request(name + " is no number");
+  if (!value.is_number()) throw Error::invalid_input(name + " is no number");
   return value.get<double>();
 }
 
@@ -67,7 +67,7 @@ double at_pointer(const Json& json, const std::string& pointer, const std::strin
   try {
     return number_of(json.at(Json::json_pointer(pointer)), file + " " + pointer);
   } catch (const Json::exception&) {
-    throw Error::request(file + " has no " + pointer);
+    throw Error::invalid_input(file + " has no " + pointer);
   }
 }
 
@@ -87,7 +87,7 @@ Found metric_of(const Json& manifest, const std::string& key, const std::string&
     known.push_back(name);
     if (value.is_number()) found.beside[name] = value.get<double>();
   }
-  if (!metrics.contains(key)) throw Error::request(file + " has no metric " + key + hint(key, known));
+  if (!metrics.contains(key)) throw Error::invalid_input(file + " has no metric " + key + hint(key, known));
   found.value = number_of(metrics[key], "metric " + key + " of " + file);
   found.name = key;
   return found;
@@ -100,7 +100,8 @@ TextTable table_at(const fs::path& path, const std::string& file) {
   if (path.extension() == ".csv") return read_words(path);
   const Json list = read_json(path);
   TextTable table;
-  if (!list.is_array()) throw Error::request(file + " is no list: it needs a JSON pointer such as /steps");
+  if (!list.is_array())
+    throw Error::invalid_input(file + " is no list: it needs a JSON pointer such as /steps");
   for (const Json& object : list)
     for (const auto& [key, value] : object.items())
       if (std::find(table.head.begin(), table.head.end(), key) == table.head.end()) table.head.push_back(key);
@@ -115,7 +116,7 @@ TextTable table_at(const fs::path& path, const std::string& file) {
 std::size_t column_of(const TextTable& table, const std::string& name, const std::string& file) {
   for (std::size_t c = 0; c < table.head.size(); ++c)
     if (table.head[c] == name) return c;
-  throw Error::request(file + " has no column " + name + hint(name, table.head));
+  throw Error::invalid_input(file + " has no column " + name + hint(name, table.head));
 }
 
 // "10" is the row that starts so, "law=wong&element=hinge" the one with these fields.
@@ -128,7 +129,7 @@ std::vector<std::pair<std::size_t, std::string>> conditions(const TextTable& tab
   std::istringstream parts(row);
   for (std::string part; std::getline(parts, part, '&');) {
     const std::size_t equals = std::min(part.find('='), part.size());
-    if (equals == part.size()) throw Error::request("\"" + part + "\" must be column=value");
+    if (equals == part.size()) throw Error::invalid_input("\"" + part + "\" must be column=value");
     wanted.emplace_back(column_of(table, part.substr(0, equals), file), part.substr(equals + 1));
   }
   return wanted;
@@ -147,10 +148,10 @@ Found cell_of(const TextTable& table, const std::string& row, const std::string&
   for (const auto& candidate : table.rows) {
     bool fits = true;
     for (const auto& [c, value] : wanted) fits = fits && same(candidate[c], value);
-    if (fits && found) throw Error::request(file + " has several rows " + row);
+    if (fits && found) throw Error::invalid_input(file + " has several rows " + row);
     if (fits) found = &candidate;
   }
-  if (!found) throw Error::request(file + " has no row " + row);
+  if (!found) throw Error::invalid_input(file + " has no row " + row);
   Found cell{as_number((*found)[at]).value_or(std::nan("")), (*found)[at], column, {}};
   for (std::size_t c = 0; c < table.head.size(); ++c)
     if (const auto value = as_number((*found)[c])) cell.beside[table.head[c]] = *value;
@@ -163,7 +164,7 @@ Found found_in(const std::string& file, const fs::path& folder, Words& words) {
   if (words.ahead().starts_with('/') && path.extension() == ".json")
     return {at_pointer(read_json(path), words.next("a JSON pointer"), file), {}, "", {}};
   if (name == "manifest.json" || name == "errors.csv") {
-    if (!fs::exists(path)) throw Error::request("no file " + file);
+    if (!fs::exists(path)) throw Error::invalid_input("no file " + file);
     return metric_of(read_json(path.parent_path() / "manifest.json"), words.next("a metric"), file);
   }
   const TextTable table = table_at(path, file);
@@ -186,7 +187,7 @@ Format format_of(const std::string& word) {
   if (word.starts_with('+')) format.sign = true, ++at;
   const bool right = at + 2 < word.size() && word[at] == '.' && word[at + 1] >= '0' && word[at + 1] <= '9' &&
                      (word[at + 2] == 'f' || word[at + 2] == 'g');
-  if (!right) throw Error::request("format " + word + " must be like .1f, .2g, +.1f or , for a count");
+  if (!right) throw Error::invalid_input("format " + word + " must be like .1f, .2g, +.1f or , for a count");
   format.digits = word[at + 1] - '0';
   format.kind = word[at + 2];
   format.unit = word.substr(at + 3);
@@ -220,7 +221,7 @@ std::string errors_of(const Found& found, const Format& format, double factor) {
     if (const auto at = found.beside.find(error); !name.empty() && at != found.beside.end())
       text += " ± " + written(std::abs(factor) * at->second, format);
   if (text.empty())
-    throw Error::request((name.empty() ? "this number" : name) + " has no errors: leave +- out");
+    throw Error::invalid_input((name.empty() ? "this number" : name) + " has no errors: leave +- out");
   return text;
 }
 
@@ -254,17 +255,17 @@ std::string number_from(const NumberSource& source, const fs::path& folder) {
   if (word == "times") {
     const std::string number = words.next("a number after times");
     const std::optional<double> read = as_number(number);
-    if (!read) throw Error::request("times " + number + " is no number");
+    if (!read) throw Error::invalid_input("times " + number + " is no number");
     factor = *read;
     word = words.next("a format");
   }
-  if (!std::isfinite(factor * found.value)) throw Error::request("this is no finite number");
+  if (!std::isfinite(factor * found.value)) throw Error::invalid_input("this is no finite number");
   std::string result = written(factor * found.value, format_of(word));
   if (words.done()) return result;
   word = words.next("a format of errors");
   if (word.starts_with("+-") && words.done())
     return result + errors_of(found, format_of(word.substr(2)), factor);
-  throw Error::request("\"" + word + "\" is one word too many");
+  throw Error::invalid_input("\"" + word + "\" is one word too many");
 }
 
 }  // namespace hysteron::experiments

@@ -26,8 +26,8 @@ struct NumberSource {
   std::string target, title;
 };
 
-// What stands there now.  `folder`: that of the page.  Throws Error::request, without file and line of the
-// page, if the title is wrong or there is no such number.
+// What stands there now.  `folder`: that of the page.  Throws Error::invalid_input, without file and line of
+// the page, if the title is wrong or there is no such number.
 std::string number_from(const NumberSource& source, const std::filesystem::path& folder);
 
 // The values of a column of a CSV file or of a list of objects, each once, in their order.  Throws as

@@ -34,19 +34,19 @@ fs::path folder_of(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   const fs::path folder = path.has_filename() || !path.has_parent_path() ? path : path.parent_path();
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) throw Error::request("no folder " + name);
+  if (!fs::is_directory(folder, ignored)) throw Error::invalid_input("no folder " + name);
   return folder;
 }
 
-std::ostream& complain() { return std::cerr << "hysteron report: "; }
+std::ostream& report_error() { return std::cerr << "hysteron report: "; }
 
 bool are_pages_stale(const fs::path& folder) {
   const std::vector<StalePage> stale = stale_pages(folder);
   for (const StalePage& page : stale) {
-    complain() << page.page.string()
-               << (page.missing ? " is missing; write it"
-                                : " is not what its folder says now; write it again")
-               << ": hysteron report " << page.folder.string() << std::endl;
+    report_error() << page.page.string()
+                   << (page.missing ? " is missing; write it"
+                                    : " is not what its folder says now; write it again")
+                   << ": hysteron report " << page.folder.string() << std::endl;
   }
   return !stale.empty();
 }
@@ -56,8 +56,9 @@ bool tell_faults(const Page& page, const fs::path& folder, bool all) {
   bool any = false;
   for (const Fault& fault : page.faults) {
     if (fault.mended && !all) continue;
-    complain() << page.file.string() << ":" << fault.line << ": " << fault.what
-               << (fault.mended ? "; write it again: hysteron report " + folder.string() : "") << std::endl;
+    report_error() << page.file.string() << ":" << fault.line << ": " << fault.what
+                   << (fault.mended ? "; write it again: hysteron report " + folder.string() : "")
+                   << std::endl;
     any = true;
   }
   return any;
@@ -98,9 +99,10 @@ int write(const fs::path& folder, PageForm form) {
 int run_report(const CommandLine& line) {
   ReportFlags flags;
   set_keys(line, bind(kRows, flags));
-  if (line.names.empty()) throw Error::request("needs the folder of a run or of runs: hysteron report DIR");
+  if (line.names.empty())
+    throw Error::invalid_input("needs the folder of a run or of runs: hysteron report DIR");
   if (flags.check && flags.self_contained)
-    throw Error::request("--check is of pages that link their pictures: leave out --self-contained")
+    throw Error::invalid_input("--check is of pages that link their pictures: leave out --self-contained")
         .of("self-contained", "true");
   const PageForm form = flags.self_contained ? PageForm::self_contained : PageForm::linked;
   int exit_code = 0;

@@ -79,12 +79,13 @@ Block block_of(std::string words, const fs::path& folder) {
   std::replace(words.begin(), words.end(), '\n', ' ');
   const std::vector<std::string> parts = split_at(words, " | ");
   if (parts.size() < 3)
-    throw Error::request("a table needs a file, its rows and a column, with | between them");
+    throw Error::invalid_input("a table needs a file, its rows and a column, with | between them");
   Block block;
   std::tie(block.file, block.prefix) = halves(parts[0], " ");
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const auto [head, source] = halves(parts[i], " = ");
-    if (source.empty()) throw Error::request("\"" + parts[i] + "\" must be HEAD = what stands below it");
+    if (source.empty())
+      throw Error::invalid_input("\"" + parts[i] + "\" must be HEAD = what stands below it");
     if (i > 1)
       block.columns.push_back({head, source});
     else
@@ -102,7 +103,7 @@ std::string cell(const Block& block, const Row& row, const Column& column, const
     return number_from({filled(file, row.value), filled(prefix + (own ? rest : column.source), row.value)},
                        folder);
   } catch (const Error& error) {
-    throw Error::request(row.value + ", " + column.head + ": " + error.what());
+    throw Error::invalid_input(row.value + ", " + column.head + ": " + error.what());
   }
 }
 

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr double kMinutes = 60;  // [s]
 constexpr double kSlack = 4;     // of other machines, and of a GPU's work on a CPU
-constexpr int kLeastMinutes = 30;
+constexpr int kMinMinutes = 30;
 constexpr double kMegabyte = 1e6;
-constexpr int kLeastMemory = 1000;  // [MB]
+constexpr int kMinMemory = 1000;  // [MB]
 
 // Manifests below, in the order of their names; of a run's folder its own alone.
 std::vector<fs::path> manifests_below(const fs::path& folder) {
@@ -35,8 +35,8 @@ std::vector<fs::path> manifests_below(const fs::path& folder) {
       found.insert(path);
     }
   }
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
-  if (found.empty()) throw Error::request("there is no manifest in " + folder.string() + " or below");
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (found.empty()) throw Error::invalid_input("there is no manifest in " + folder.string() + " or below");
   return {found.begin(), found.end()};
 }
 
@@ -74,9 +74,9 @@ JobResources resources_of(const RecordedRun& run, const CommandLine& line, const
   resources.gpus = last_text(flags, "device", "").starts_with("cpu") ? 0 : had_gpu(run, line);
   const Manifest& m = run.manifest;
   resources.minutes =
-      std::max(kLeastMinutes, static_cast<int>(std::ceil(kSlack * m.total_seconds() / kMinutes)));
+      std::max(kMinMinutes, static_cast<int>(std::ceil(kSlack * m.total_seconds() / kMinutes)));
   const double bytes = m.bytes_device ? static_cast<double>(*m.bytes_device) : 0;
-  resources.memory = kLeastMemory + static_cast<int>(kSlack * bytes / kMegabyte);
+  resources.memory = kMinMemory + static_cast<int>(kSlack * bytes / kMegabyte);
   return resources;
 }
 

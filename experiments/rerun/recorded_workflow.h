@@ -18,7 +18,7 @@ struct RecordedWorkflow {
 // Of every manifest below `folder`, whatever its file's name; those inside another run's folder belong to it.
 // OUT/NAME is the repetition of FOLDER/NAME, and OUT/index.html the page of all.  Runs ask for as many cores
 // as they had, for a GPU where they had one, unless `flags` (of rerun: threads, device, ...) say otherwise,
-// and for four times as long as they took.  Throws Error::machine, Error::request where there are none.
+// and for four times as long as they took.  Throws Error::system, Error::invalid_input where there are none.
 RecordedWorkflow workflow_of_runs(const std::filesystem::path& folder, const std::filesystem::path& out,
                                   const std::vector<Flag>& flags);
 

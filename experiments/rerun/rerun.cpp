@@ -94,7 +94,7 @@ int write_runs(const CommandLine& line, const std::string& flow) {
 }
 
 int run_rerun(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::request("needs one run: its folder or its manifest.json");
+  if (line.names.size() != 1) throw Error::invalid_input("needs one run: its folder or its manifest.json");
   if (const std::string flow = last_text(line.flags, "snakemake", ""); !flow.empty())
     return write_runs(line, flow);
   const RecordedRun run = recorded_run(line.names.front());

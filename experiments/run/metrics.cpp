@@ -41,7 +41,7 @@ const std::map<std::string, std::pair<const char*, const char*>> kUnits = {
     {"residual-curvature", {"1/m", "_per_m"}}};
 
 Error refusal(const MetricRequest& request, const std::string& what) {
-  return Error::request("metric " + request.name + ": " + what + " (" + request.origin + ")");
+  return Error::invalid_input("metric " + request.name + ": " + what + " (" + request.origin + ")");
 }
 
 void check_names(const std::vector<MetricRequest>& requests) {
@@ -52,8 +52,8 @@ void check_names(const std::vector<MetricRequest>& requests) {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     };
     if (request.name.empty() || !std::all_of(request.name.begin(), request.name.end(), allowed))
-      throw Error::request("metric.name = \"" + request.name + "\" must be small letters, digits and _ (" +
-                           request.origin + ")")
+      throw Error::invalid_input("metric.name = \"" + request.name +
+                                 "\" must be small letters, digits and _ (" + request.origin + ")")
           .of("metric.name", request.name);
     if (!seen.insert(request.name).second) throw refusal(request, "there is a column of this name already");
   }
@@ -68,7 +68,7 @@ MetricRequest request_of(const TomlNode& table, const std::string& file) {
     const std::string origin = place(file, child);
     const BoundKey& key = find_key(keys, "metric." + child.key, origin);
     if (child.kind != TomlNode::Kind::value)
-      throw Error::request("metric." + child.key + " must be one value (" + origin + ")");
+      throw Error::invalid_input("metric." + child.key + " must be one value (" + origin + ")");
     assign(key, child.value, origin);
   }
   return request;
@@ -80,7 +80,8 @@ std::vector<MetricRequest> in_file(const std::string& scene) {
   const TomlNode* tables = root.find("metric");
   if (!tables) return {};
   if (tables->kind != TomlNode::Kind::array)
-    throw Error::request("metric must be an array of tables, [[metric]] (" + place(file, *tables) + ")");
+    throw Error::invalid_input("metric must be an array of tables, [[metric]] (" + place(file, *tables) +
+                               ")");
   std::vector<MetricRequest> requests;
   for (const TomlNode& table : tables->children) requests.push_back(request_of(table, file));
   return requests;

@@ -37,14 +37,14 @@ struct MetricRequest {
 
 Keys bind_metric(MetricRequest& request);
 Json to_json(const std::vector<MetricRequest>& requests);
-// Of a scene file or of a manifest whose run asked for them.  Throws Error::request with file and line.
+// Of a scene file or of a manifest whose run asked for them.  Throws Error::invalid_input with file and line.
 std::vector<MetricRequest> metrics_in(const std::string& scene);
 
 // A request with what it is measured on.
 class RequestedMetric {
  public:
-  // Throws Error::request where it selects nothing, asks for a hand that there is not, or for the force on
-  // one of an integrator that knows none.
+  // Throws Error::invalid_input where it selects nothing, asks for a hand that there is not, or for the force
+  // on one of an integrator that knows none.
   RequestedMetric(const MetricRequest& request, const Scene& scene, const Cloth& cloth, int dimension);
 
   const MetricRequest& request() const { return request_; }

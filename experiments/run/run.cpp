@@ -28,11 +28,11 @@ void limit_to_quick(Setup& setup) {
 // The scene as an argument is that of --scene.
 CommandLine with_scene(CommandLine line) {
   if (line.names.size() > 1)
-    throw Error::request("takes one scene, not " + std::to_string(line.names.size()));
+    throw Error::invalid_input("takes one scene, not " + std::to_string(line.names.size()));
   if (!line.names.empty()) line.flags.push_back({"scene", line.names.front()});
   line.names.clear();
   if (last_text(line.flags, "scene", "").empty())
-    throw Error::request(
+    throw Error::invalid_input(
         "needs a scene: a TOML file, one of `hysteron list scenes`, or the manifest of a run");
   return line;
 }
@@ -48,9 +48,9 @@ render::Box box_at_start(const Scene&, const Cloth& cloth) {
   return render::box_of(flat_points(cloth.start));
 }
 
-Question question_of(Session& session, const std::vector<RequestedMetric>& metrics,
-                     std::vector<double>& last) {
-  Question question;
+RunPlan question_of(Session& session, const std::vector<RequestedMetric>& metrics,
+                    std::vector<double>& last) {
+  RunPlan question;
   question.bounds = box_at_start(session.scene(), session.cloth());
   question.wanders = true;
   for (const RequestedMetric& metric : metrics) question.columns.push_back(metric.request().column());
@@ -88,7 +88,7 @@ int run_scene(const CommandLine& given) {
   if (!requests.empty()) choices["metric"] = to_json(requests);
   for (const MetricRequest& request : requests) setup.asked_metrics.push_back(request.metric());
   if (setup.options.errors && requests.empty())
-    throw Error::request("--errors: " + scene + " has no [[metric]] whose errors could be measured")
+    throw Error::invalid_input("--errors: " + scene + " has no [[metric]] whose errors could be measured")
         .of("errors", "true");
   setup.choices = choices.dump();
 

@@ -17,7 +17,7 @@ constexpr double kUpright = 7.837347, kEdge = 12.853763;
 
 // Twist stretches cloth, bending does not: on edge Newton's method needs the smaller tilt.
 double tilt_of(Buckling kind) { return kind == Buckling::upright ? 1e-3 : 1e-5; }  // [rad]
-constexpr double kMost = 2.5;      // of the reference's weight
+constexpr double kMax = 2.5;       // of the reference's weight
 constexpr double kStep = 0.1;      // likewise
 constexpr double kNear = 0.8;      // of the threshold, for the last state
 constexpr double kAgreed = 0.01;   // of the threshold, between the last two estimates
@@ -38,7 +38,7 @@ double torsion(const Fabric& fabric) { return 4 * fabric.bias_bending - 1 - fabr
 void check_axis(const Scene& scene) {
   const double angle = scene.cloth.warp_angle;
   if (scene.fabric.bends_alike() || std::abs(std::remainder(angle, 90)) < 1e-9) return;
-  throw Error::request(
+  throw Error::invalid_input(
       fmt::format(
           "buckle.kind = edge has no reference for a strip that twists as it bends: cloth.warp-angle = "
           "{:g} degree must be a multiple of 90, or fabric.weft-bending and fabric.bias-bending 1",
@@ -74,7 +74,7 @@ double threshold_of(const Southwell& plot, int power) {
 Buckling buckling_of(const std::string& name) {
   if (name == "upright") return Buckling::upright;
   if (name == "edge") return Buckling::edge;
-  throw Error::request("buckle.kind = " + name + " is unknown; choose upright or edge")
+  throw Error::invalid_input("buckle.kind = " + name + " is unknown; choose upright or edge")
       .of("buckle.kind", name);
 }
 
@@ -120,10 +120,10 @@ BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double t
   scene.ramp = scene.seconds = most;
   scene.unload = 0;
   if (!(scene.fabric.density > 0 && std::isfinite(scene.fabric.density)))
-    throw Error::request("a strip of law " + scene.law +
-                         " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
-                         " N m has no threshold: its weight there would be " +
-                         std::to_string(scene.fabric.density) + " kg/m^2")
+    throw Error::invalid_input("a strip of law " + scene.law +
+                               " with fabric.b2 = " + std::to_string(scene.fabric.b2) +
+                               " N m has no threshold: its weight there would be " +
+                               std::to_string(scene.fabric.density) + " kg/m^2")
         .of("law", scene.law)
         .in("buckle");
   scene.pin = {held_between(-1, clamped.near())};
@@ -146,7 +146,7 @@ BucklingStrip measured_strip(Scene scene, Buckling kind, double length) {
     // Means at nodes would leave a strip of a cell or two too soft to bend in its plane.
     scene.membrane_element = MembraneElement::constant;
   }
-  return buckling_strip(std::move(scene), kind, length, tilt, kMost);
+  return buckling_strip(std::move(scene), kind, length, tilt, kMax);
 }
 
 Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation) {
@@ -163,9 +163,9 @@ Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation)
     const bool near = plot.gamma.back() > kNear * plot.critical_gamma;
     if (near && std::abs(plot.critical_gamma - before) < kAgreed * plot.critical_gamma) return plot;
   }
-  throw Error::run("no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
-                   ", where the free end has moved by " + std::to_string(plot.deflection.back()) +
-                   " of the length")
+  throw Error::simulation("no threshold was found up to Gamma = " + std::to_string(plot.gamma.back()) +
+                          ", where the free end has moved by " + std::to_string(plot.deflection.back()) +
+                          " of the length")
       .in("buckle");
 }
 

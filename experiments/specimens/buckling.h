@@ -13,14 +13,14 @@ namespace hysteron::experiments {
 // upright: it stands on its clamp and falls over (Greenhill 1881).
 // edge: it is clamped level, its width vertical, and turns over sideways (Prandtl 1899).
 enum class Buckling { upright, edge };
-Buckling buckling_of(const std::string& name);  // Error::request for unknown ones
+Buckling buckling_of(const std::string& name);  // Error::invalid_input for unknown ones
 
 // Heaviness Gamma, weight per area times L^3/b2, at which a strip of this law and fabric buckles that is
 // narrow, b << L, and bends far more easily out of its plane than in it.  Its bending rigidity is EI = B b
 // and its torsional one GJ = 2 B b (W = B |S|^2/2 with a twist S_xy alone), B the law's slope at rest; a
 // fabric that bends differently along warp, weft and bias has EI = q B b, q = rigidity_along(), and GJ =
 // (4 bias - 1 - weft) B b for a strip along warp or weft; between them strips twist as they bend, and on edge
-// they are refused (Error::request).
+// they are refused (Error::invalid_input).
 //   upright: weight L^3/B = 7.8373 (Timoshenko & Gere 1961, 2.12)
 //   edge: q L^3/sqrt(EI GJ) = 12.8538 with q = weight b (the same, 6.3)
 double reference_gamma(Buckling kind, const Scene& scene);
@@ -44,7 +44,7 @@ struct BucklingStrip {
 // Makes the scene's cloth a strip of its family of `length`, scene.cloth.width wide, of about scene.triangles
 // triangles, clamps it as `kind` asks, and has gravity pull it `tilt` [rad] to the side.  Its density becomes
 // such that the weight grows to `most` times that of the reference in scene.ramp = `most` seconds; pins of
-// the scene are replaced.  Error::request for impossible meshes.
+// the scene are replaced.  Error::invalid_input for impossible meshes.
 BucklingStrip buckling_strip(Scene scene, Buckling kind, double length, double tilt, double most);
 
 // For measuring thresholds: a tilt under which the strip deflects in proportion to it, a weight that reaches
@@ -63,8 +63,8 @@ struct Southwell {
 // 1/(1 - x/critical), the others hardly (Southwell 1932; for beams on edge, Mandal & Calladine 2002), with x
 // the load (upright) or its square (on edge, where the load acts twice: by its moment and by the twist).  So
 // deflection/load = (a + b x)/(1 - x/critical), with three unknowns, through the last three states.
-// `simulation` is that of the strip, not advanced yet.  Error::run if no threshold is found below the full
-// weight.
+// `simulation` is that of the strip, not advanced yet.  Error::simulation if no threshold is found below the
+// full weight.
 Southwell approach_threshold(const BucklingStrip& strip, Simulation& simulation);
 
 // By which power of the load the threshold is extrapolated: 1 or 2.

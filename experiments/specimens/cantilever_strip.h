@@ -17,8 +17,8 @@ struct CantileverStrip {
 };
 
 // Makes the scene's cloth a strip of its family that hangs over by `length`, scene.cloth.width wide, of about
-// scene.triangles triangles, and clamps it; pins of the scene are replaced.  Error::request for impossible
-// meshes.
+// scene.triangles triangles, and clamps it; pins of the scene are replaced.  Error::invalid_input for
+// impossible meshes.
 CantileverStrip overhang(Scene scene, double length);
 
 // Bending rigidity of the scene's strip, which lies along x, over that along warp.

@@ -83,8 +83,8 @@ Pin held_between(double from, double to) {
 Cloth clamp_at(Scene& scene, double line) {
   const ClothShape& shape = scene.cloth;
   if (!(shape.length > line))
-    throw Error::request("cloth.length = " + std::to_string(shape.length) + " m must be more than the " +
-                         std::to_string(line) + " m that are clamped")
+    throw Error::invalid_input("cloth.length = " + std::to_string(shape.length) +
+                               " m must be more than the " + std::to_string(line) + " m that are clamped")
         .of("cloth.length", std::to_string(shape.length));
   const double width = shape.shape == "square" ? shape.length : shape.width;
   ClampedMesh clamped = clamped_mesh(scene.mesh, shape.length - line, width, scene.triangles, 1, scene.seed);

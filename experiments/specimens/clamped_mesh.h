@@ -20,7 +20,7 @@ struct ClampedMesh {
 };
 
 // `free_length` is that of the cloth that bends: between the clamps' middles, or from the clamp's middle to
-// the free end [m].  About `triangles` triangles on it.  Error::request for impossible meshes.
+// the free end [m].  About `triangles` triangles on it.  Error::invalid_input for impossible meshes.
 ClampedMesh clamped_mesh(const std::string& family, double free_length, double width, int triangles,
                          int clamps, unsigned seed);
 
@@ -34,7 +34,7 @@ Pin held_between(double from, double to);
 
 // A rectangle of the scene's family, scene.cloth.length long, whose clamp ends at the line x = `line` [m]:
 // the clamp becomes the scene's only pin.  The mesh keeps one column of cells of what is clamped.
-// Error::request for impossible meshes.
+// Error::invalid_input for impossible meshes.
 Cloth clamp_at(Scene& scene, double line);
 
 }  // namespace hysteron::experiments

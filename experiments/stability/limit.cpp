@@ -110,17 +110,17 @@ bool is_bounded(const LimitCase& of, double step, int substeps) {
 MeasuredLimit measure_limit(const LimitCase& of, int substeps) {
   MeasuredLimit result{of, bound_of(of)};
   const double next = of.condition.resonates() ? kFine : kCoarse;
-  double bounded = 0, ratio = kLeastRatio;
-  while (ratio <= kMostRatio && is_bounded(of, ratio * result.bound, substeps)) {
+  double bounded = 0, ratio = kMinRatio;
+  while (ratio <= kMaxRatio && is_bounded(of, ratio * result.bound, substeps)) {
     bounded = ratio;
     ratio *= next;
   }
-  const bool bracketed = bounded > 0 && ratio <= kMostRatio;
+  const bool bracketed = bounded > 0 && ratio <= kMaxRatio;
   while (bracketed && ratio / bounded > kResolution) {
     const double middle = std::sqrt(ratio * bounded);
     (is_bounded(of, middle * result.bound, substeps) ? bounded : ratio) = middle;
   }
-  result.measured = (ratio > kMostRatio ? kMostRatio : bounded) * result.bound;
+  result.measured = (ratio > kMaxRatio ? kMaxRatio : bounded) * result.bound;
   return result;
 }
 

@@ -41,10 +41,10 @@ struct MeasuredLimit {
 // twice as large in their second half as in the first.
 bool is_bounded(const LimitCase& of, double step, int substeps);
 
-// Tries steps from kLeastRatio of the bound upwards (by 8 % where waves may resonate), then halves between
-// the last bounded one and the next one, to 1 %.  A limit below kLeastRatio is given as 0, one above
-// kMostRatio as that.
-inline constexpr double kLeastRatio = 0.3, kMostRatio = 3;
+// Tries steps from kMinRatio of the bound upwards (by 8 % where waves may resonate), then halves between
+// the last bounded one and the next one, to 1 %.  A limit below kMinRatio is given as 0, one above
+// kMaxRatio as that.
+inline constexpr double kMinRatio = 0.3, kMaxRatio = 3;
 MeasuredLimit measure_limit(const LimitCase& of, int substeps);
 
 // All mesh families and both elements, condition by condition, the first two of these also held; only the

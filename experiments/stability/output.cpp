@@ -94,7 +94,7 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   CsvFile file(
       run.path("limit.csv"),
       "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound");
-  double least = kMostRatio, most = 0, least_resonant = kMostRatio;
+  double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
     file.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law, of.condition.damping,
@@ -108,7 +108,7 @@ void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
   file.commit();
   run.metric("limit_smallest_ratio", least);
   run.metric("limit_largest_ratio", most);
-  if (least_resonant < kMostRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
+  if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
 }
 
 }  // namespace hysteron::experiments

@@ -280,7 +280,8 @@ std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const Swee
     const auto found = std::find_if(std::begin(kSweeps), std::end(kSweeps),
                                     [&](const NamedSweep& sweep) { return name == sweep.name; });
     if (found == std::end(kSweeps))
-      throw Error::request("--sweep " + name + " must be of " + join(sweep_names(), ", ")).of("sweep", name);
+      throw Error::invalid_input("--sweep " + name + " must be of " + join(sweep_names(), ", "))
+          .of("sweep", name);
     sweeps.push_back(found->make(choice));
   }
   return sweeps;

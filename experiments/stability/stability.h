@@ -56,7 +56,7 @@ struct Finding {
 // (sim/solve/simulation.cpp) and by much less where all modes share it.
 inline constexpr double kLargestGrowth = 1.1;
 
-// Tries it.  What the program refuses or breaks off is a finding; Error::machine is thrown.
+// Tries it.  What the program refuses or breaks off is a finding; Error::system is thrown.
 Finding find_out(const Attempt& attempt, const CellEffort& effort);
 
 // An axis of a map.
@@ -105,7 +105,7 @@ struct SweepChoice {
   std::vector<std::string> few_laws() const;  // those named, or those of maps
 };
 std::vector<std::string> sweep_names();
-// Those named, in this order; Error::request for an unknown name.
+// Those named, in this order; Error::invalid_input for an unknown name.
 std::vector<Sweep> make_sweeps(const std::vector<std::string>& names, const SweepChoice& choice);
 
 // Parts of make_sweeps(): of numbers (maps.cpp), of scenes and meshes (scenes.cpp), and of contact

@@ -19,7 +19,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr std::size_t kMostPanels = 24;
+constexpr std::size_t kMaxPanels = 24;
 const char* const kColorNames[render::kMethodColors] = {"blue",     "vermilion", "green", "pink",
                                                         "sky blue", "orange",    "black"};
 
@@ -130,7 +130,7 @@ class StudyPlots {
       if (a != x && !axis(a).sampled && !std::count(color.begin(), color.end(), a)) others.push_back(a);
     const Groups panels = grouped(all(), others);
     const std::string name = "plot_" + metric.name + "-" + axis(x).key;
-    if (panels.size() > kMostPanels) {
+    if (panels.size() > kMaxPanels) {
       run_.warn(fmt::format("{}: {} panels are too many to be drawn", name, panels.size()));
       return;
     }
@@ -211,7 +211,7 @@ class StudyPlots {
     const std::size_t x = grid[0], y = grid[1];
     const Groups maps = grouped(all(), {grid.begin() + 2, grid.end()});
     const std::string name = "plot_" + metric.name + "-map";
-    if (maps.size() > kMostPanels) {
+    if (maps.size() > kMaxPanels) {
       run_.warn(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
       return;
     }
@@ -285,7 +285,7 @@ class StudyPlots {
 
 }  // namespace
 
-void plot_study(Run& run, const Study& study, const std::vector<SweepColumn>& runs,
+void plot_study(Run& run, const Study& study, const std::vector<ChildRun>& runs,
                 const std::vector<std::string>& metrics) {
   StudyPlots plots(run, study);
   for (const std::string& name : metrics) {

@@ -64,7 +64,7 @@ TomlNode recorded_study(const Manifest& manifest, const std::string& file) {
     if (manifest.experiment == "sweep" && manifest.keys) return study_node(*manifest.keys);
   } catch (const Json::exception&) {  // other keys, or others than texts
   }
-  throw Error::request(file + " is not the manifest of a sweep").of("study", file);
+  throw Error::invalid_input(file + " is not the manifest of a sweep").of("study", file);
 }
 
 }  // namespace hysteron::experiments

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 Json keys_of(const Study& study);
 
 // Those as a study file would have them, beside what it cannot say: "scale" and "sampled" of an axis whose
-// values stand there.  Throws Error::request, naming `file`, where the manifest is not of a sweep.
+// values stand there.  Throws Error::invalid_input, naming `file`, where the manifest is not of a sweep.
 TomlNode recorded_study(const Manifest& manifest, const std::string& file);
 
 }  // namespace hysteron::experiments

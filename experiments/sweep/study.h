@@ -43,8 +43,8 @@ struct Study {
 };
 
 // Of a file, of assets/studies, or, by its manifest, of a sweep: all but its [resources].  Throws
-// Error::machine if it cannot be read, Error::request with file, line, key and what is allowed for everything
-// that a run would refuse of a single key.
+// Error::system if it cannot be read, Error::invalid_input with file, line, key and what is allowed for
+// everything that a run would refuse of a single key.
 Study read_study(const std::string& name_or_file);
 
 // Every combination of the axes' values, the last axis first; sampled axes go together.  Names are those of

@@ -21,7 +21,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double kMostValues = 100000, kMostRuns = 1e6;
+constexpr double kMaxValues = 100000, kMaxRuns = 1e6;
 constexpr int kDigits = 6;  // of values that a range or a sample gives: they stand in names and tables
 
 // Of those that a study leaves to `sweep` itself.
@@ -86,7 +86,7 @@ class StudyFile {
   }
 
   Study read(const TomlNode& root) {
-    refuse_unknown(root, {"experiment", "scene", "axis", "sample", "seeds", "metrics", "resources"}, "");
+    throw_if_unknown(root, {"experiment", "scene", "axis", "sample", "seeds", "metrics", "resources"}, "");
     choose_experiment(root);
     if (const TomlNode* scene = root.find("scene")) read_scene("", table(*scene));
     if (const TomlNode* axes = root.find("axis")) read_axes(*axes);
@@ -98,7 +98,7 @@ class StudyFile {
     }
     if (const TomlNode* resources = root.find("resources")) read_resources(table(*resources));
     if (study_.axes.empty())
-      throw Error::request("a study needs an [[axis]] or seeds (" + file_ + ")").of("axis", "");
+      throw Error::invalid_input("a study needs an [[axis]] or seeds (" + file_ + ")").of("axis", "");
     check_number_of_runs();
     study_.runs = runs_of(study_.axes);
     return std::move(study_);
@@ -108,11 +108,11 @@ class StudyFile {
   std::string at(const TomlNode& node) const { return place(file_, node); }
 
   Error refusal(const TomlNode& node, const std::string& what) const {
-    return Error::request(what).from(at(node));
+    return Error::invalid_input(what).from(at(node));
   }
 
-  void refuse_unknown(const TomlNode& of, const std::vector<std::string>& known,
-                      const std::string& prefix) const {
+  void throw_if_unknown(const TomlNode& of, const std::vector<std::string>& known,
+                        const std::string& prefix) const {
     for (const TomlNode& child : of.children) {
       if (std::count(known.begin(), known.end(), child.key)) continue;
       const std::string nearest = nearest_name(child.key, known);
@@ -225,7 +225,7 @@ class StudyFile {
     if (axes.kind != TomlNode::Kind::array) throw refusal(axes, "axis must be an array of tables, [[axis]]");
     for (const TomlNode& node : axes.children) {
       table(node);
-      if (!recorded_) refuse_unknown(node, {"key", "values", "linear", "log"}, "axis.");
+      if (!recorded_) throw_if_unknown(node, {"key", "values", "linear", "log"}, "axis.");
       read_axis(flag_of(text(node, "key", "axis.key")), node);
       if (!recorded_) continue;
       study_.axes.back().logarithmic = node.find("scale");
@@ -273,9 +273,9 @@ class StudyFile {
       return;
     }
     const double n = (*range)[2];
-    if (!(n >= 2 && n <= kMostValues) || n != std::floor(n))
+    if (!(n >= 2 && n <= kMaxValues) || n != std::floor(n))
       throw refusal(given,
-                    fmt::format("{}: n = {:g} must be an integer in [2, {:.0f}]", name, n, kMostValues));
+                    fmt::format("{}: n = {:g} must be an integer in [2, {:.0f}]", name, n, kMaxValues));
     for (int i = 0; i < n; ++i) axis.values.push_back(between_ends(axis, from, to, i / (n - 1)));
   }
 
@@ -297,17 +297,18 @@ class StudyFile {
     const auto sampled = std::count_if(study_.axes.begin(), study_.axes.end(), is_sampled);
     if (!node && sampled == 0) return;
     if (!node)
-      throw Error::request(std::find_if(study_.axes.begin(), study_.axes.end(), is_sampled)->key +
-                           " has a range without n, which needs [sample] with method and n (" + file_ + ")");
+      throw Error::invalid_input(std::find_if(study_.axes.begin(), study_.axes.end(), is_sampled)->key +
+                                 " has a range without n, which needs [sample] with method and n (" + file_ +
+                                 ")");
     table(*node);
-    refuse_unknown(*node, {"method", "n", "seed"}, "sample.");
+    throw_if_unknown(*node, {"method", "n", "seed"}, "sample.");
     if (const std::string method = text(*node, "method", "sample.method"); method != "latin")
       throw refusal(*node->find("method"), "sample.method = " + method + " must be latin")
           .of("method", method);
     if (!node->find("n")) throw refusal(*node, "sample.n must be given: how often is drawn");
     if (sampled == 0)
       throw refusal(*node, "[sample] needs an axis with a range without n: linear = [from, to]");
-    const int n = integer(*node->find("n"), "sample.n", 1, kMostValues);
+    const int n = integer(*node->find("n"), "sample.n", 1, kMaxValues);
     const TomlNode* seed = node->find("seed");
     draw(static_cast<std::size_t>(sampled), static_cast<std::size_t>(n),
          seed ? integer(*seed, "sample.seed", 0, std::numeric_limits<int>::max()) : 1);
@@ -329,7 +330,7 @@ class StudyFile {
   }
 
   void add_seeds(const TomlNode& node) {
-    const int n = integer(node, "seeds", 1, kMostValues);
+    const int n = integer(node, "seeds", 1, kMaxValues);
     known_key(kSeedKey, node);
     if (set_.contains(kSeedKey))
       throw refusal(node, "seeds repeats runs with seed = 1, 2, ...: seed is set already");
@@ -339,13 +340,13 @@ class StudyFile {
   }
 
   void read_resources(const TomlNode& node) {
-    refuse_unknown(node, {"runs", "cores", "memory", "gpus", "minutes"}, "resources.");
+    throw_if_unknown(node, {"runs", "cores", "memory", "gpus", "minutes"}, "resources.");
     JobResources& r = study_.resources;
     const auto read = [&](const char* key, int& number, double low, double high) {
       if (const TomlNode* given = node.find(key))
         number = integer(*given, std::string("resources.") + key, low, high);
     };
-    read("runs", study_.runs_a_job, 1, kMostValues);
+    read("runs", study_.runs_a_job, 1, kMaxValues);
     read("cores", r.cores, 1, 1024);
     read("memory", r.memory, 1, 1e8);
     read("gpus", r.gpus, 0, 64);
@@ -359,8 +360,8 @@ class StudyFile {
       if (!axis.sampled || !sample) runs *= static_cast<double>(axis.values.size());
       sample = sample || axis.sampled;
     }
-    if (runs > kMostRuns)
-      throw Error::request(fmt::format("{:g} runs must be <= {:.0f} ({})", runs, kMostRuns, file_));
+    if (runs > kMaxRuns)
+      throw Error::invalid_input(fmt::format("{:g} runs must be <= {:.0f} ({})", runs, kMaxRuns, file_));
   }
 
   std::string file_;

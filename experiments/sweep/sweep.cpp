@@ -63,23 +63,22 @@ std::vector<KeyDescription> own_keys() {
   return descriptions(keys_of(choice, options));
 }
 
-std::vector<SweepColumn> columns_of(const Study& study, const std::filesystem::path& out) {
-  std::vector<SweepColumn> columns;
+std::vector<ChildRun> columns_of(const Study& study, const std::filesystem::path& out) {
+  std::vector<ChildRun> columns;
   columns.reserve(study.runs.size());
   for (const StudyRun& run : study.runs)
     columns.push_back(column_of(run.name, line_of(study, run), {}, out / "runs"));
   return columns;
 }
 
-SweepJobs jobs_of(const SweepChoice& choice, const std::vector<SweepColumn>& runs) {
+SweepJobs jobs_of(const SweepChoice& choice, const std::vector<ChildRun>& runs) {
   SweepJobs jobs;
   jobs.at_once = choice.jobs;
   jobs.threads = choice.threads;
   jobs.batch = choice.batch;
   jobs.resume = choice.resume || !choice.only.empty() || !choice.part.empty();
   jobs.checkpoints = jobs.resume;
-  jobs.gpu =
-      std::any_of(runs.begin(), runs.end(), [](const SweepColumn& run) { return may_use_gpu(run.line); });
+  jobs.gpu = std::any_of(runs.begin(), runs.end(), [](const ChildRun& run) { return may_use_gpu(run.line); });
   jobs.go_on = true;
   jobs.keep_reasons = true;
   return jobs;
@@ -114,7 +113,7 @@ class Progress {
  public:
   Progress(const Run& run, std::size_t all) : run_(run), all_(all) {}
 
-  void ended(const SweepColumn& column) {
+  void ended(const ChildRun& column) {
     ++(column.kept ? kept_ : done_);
     if (column.kept) return;
     if (!column.stopped.empty()) ++failed_;
@@ -152,7 +151,7 @@ class Progress {
 };
 
 // A table needs no more of a manifest than what it found: a hundred thousand of them have to fit.
-void forget_the_scene(SweepColumn& column) {
+void drop_scene(ChildRun& column) {
   if (!column.manifest) return;
   column.manifest->keys.reset();
   column.manifest->scene = {};
@@ -160,34 +159,34 @@ void forget_the_scene(SweepColumn& column) {
 }
 
 // As soon as a run has found something.  Others may find more: only in the end it is refused.
-void warn_of_unknown_metric(Run& run, const Study& study, const SweepColumn& first) {
+void warn_of_unknown_metric(Run& run, const Study& study, const ChildRun& first) {
   const std::string unknown = unknown_metric(study, {&first, 1});
   if (!unknown.empty())
     run.warn("metrics: the first run has found no " + unknown + " (" + study.metrics_place + ")");
 }
 
-void refuse_unknown_metric(const Study& study, const std::vector<SweepColumn>& runs) {
+void throw_if_unknown_metric(const Study& study, const std::vector<ChildRun>& runs) {
   const std::string unknown = unknown_metric(study, runs);
   if (!unknown.empty())
-    throw Error::request("metrics: no run has found " + unknown +
-                         "; the runs are kept, and --collect tabulates them again")
+    throw Error::invalid_input("metrics: no run has found " + unknown +
+                               "; the runs are kept, and --collect tabulates them again")
         .from(study.metrics_place)
         .of("metrics", "");
 }
 
-void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const SweepJobs& jobs) {
+void run_all(Run& run, const Study& study, std::vector<ChildRun>& runs, const SweepJobs& jobs) {
   const auto stage = run.stage("runs");
   Progress progress(run, runs.size());
   bool none_complete = true;
   ColumnWarnings warnings;
   run_columns(
       runs, jobs,
-      [&](SweepColumn& column) {
+      [&](ChildRun& column) {
         progress.ended(column);
         if (column.stopped.empty() && std::exchange(none_complete, false))
           warn_of_unknown_metric(run, study, column);
         warnings.hear(column);
-        forget_the_scene(column);
+        drop_scene(column);
       },
       [&](const std::string& line) { progress.running(line); });
   warnings.say(run);
@@ -195,13 +194,13 @@ void run_all(Run& run, const Study& study, std::vector<SweepColumn>& runs, const
   progress.note(run, processes_at_once(runs, jobs));
 }
 
-void collect(Run& run, std::vector<SweepColumn>& runs) {
+void collect(Run& run, std::vector<ChildRun>& runs) {
   std::size_t failed = 0;
   ColumnWarnings warnings;
-  for (SweepColumn& column : runs) {
+  for (ChildRun& column : runs) {
     recall_outcome(column);
     warnings.hear(column);
-    forget_the_scene(column);
+    drop_scene(column);
     if (!column.stopped.empty()) ++failed;
   }
   warnings.say(run);
@@ -209,7 +208,7 @@ void collect(Run& run, std::vector<SweepColumn>& runs) {
   run.metric("failed_count", failed);
 }
 
-void write_results(Run& run, const Study& study, const std::vector<SweepColumn>& runs, bool with_plots) {
+void write_results(Run& run, const Study& study, const std::vector<ChildRun>& runs, bool with_plots) {
   write_table(run.path("table.csv"), table_of_runs(study, runs));
   const std::vector<std::string> metrics = metrics_shown(study, runs);
   const bool repeated = std::any_of(study.axes.begin(), study.axes.end(), is_seed);
@@ -221,23 +220,24 @@ void write_results(Run& run, const Study& study, const std::vector<SweepColumn>&
 }
 
 // The study cannot be said to be done where runs are missing: exit code 3, with the first reason.
-void refuse_failed(const Run& run, const std::vector<SweepColumn>& runs) {
-  const auto failed = [](const SweepColumn& column) { return !column.stopped.empty(); };
+void throw_if_failed(const Run& run, const std::vector<ChildRun>& runs) {
+  const auto failed = [](const ChildRun& column) { return !column.stopped.empty(); };
   const auto count = std::count_if(runs.begin(), runs.end(), failed);
   if (count == 0) return;
-  const SweepColumn& first = *std::find_if(runs.begin(), runs.end(), failed);
-  throw Error::run(fmt::format("{} of {} runs are not complete ({}), the first {}: {}", count, runs.size(),
-                               (run.folder() / "table.csv").string(), first.name, first.stopped));
+  const ChildRun& first = *std::find_if(runs.begin(), runs.end(), failed);
+  throw Error::simulation(fmt::format("{} of {} runs are not complete ({}), the first {}: {}", count,
+                                      runs.size(), (run.folder() / "table.csv").string(), first.name,
+                                      first.stopped));
 }
 
 // The runs that --only or --part names.
-std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const SweepChoice& choice) {
-  std::vector<SweepColumn> some;
+std::vector<ChildRun> chosen(const std::vector<ChildRun>& runs, const SweepChoice& choice) {
+  std::vector<ChildRun> some;
   if (!choice.only.empty()) {
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(some),
-                 [&](const SweepColumn& column) { return column.name == choice.only; });
+                 [&](const ChildRun& column) { return column.name == choice.only; });
     if (some.empty())
-      throw Error::request("no run is called " + choice.only + " (--only)").of("only", choice.only);
+      throw Error::invalid_input("no run is called " + choice.only + " (--only)").of("only", choice.only);
     return some;
   }
   const std::size_t slash = std::min(choice.part.find('/'), choice.part.size());
@@ -245,8 +245,8 @@ std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const Swee
   const double n = number_in(choice.part.substr(std::min(slash + 1, choice.part.size()))).value_or(0);
   const auto all = static_cast<double>(runs.size());
   if (!(k >= 1 && k <= n && n <= all) || k != std::floor(k) || n != std::floor(n))
-    throw Error::request(fmt::format("part = {} must be K/N with integers 1 <= K <= N <= {} (--part)",
-                                     choice.part, runs.size()))
+    throw Error::invalid_input(fmt::format("part = {} must be K/N with integers 1 <= K <= N <= {} (--part)",
+                                           choice.part, runs.size()))
         .of("part", choice.part);
   const auto end = [&](double part) {
     return runs.begin() + static_cast<std::ptrdiff_t>(std::ceil(all * part / n));
@@ -256,30 +256,31 @@ std::vector<SweepColumn> chosen(const std::vector<SweepColumn>& runs, const Swee
 
 // Without the study's own files, beside others that do so.  A run that is refused or cannot go on would end
 // so in another attempt, too; one whose machine fails ends this.
-int run_some(std::vector<SweepColumn> runs, const SweepChoice& choice, bool quiet) {
-  for (const SweepColumn& column : runs)
+int run_some(std::vector<ChildRun> runs, const SweepChoice& choice, bool quiet) {
+  for (const ChildRun& column : runs)
     if (std::filesystem::is_directory(column.folder)) const FolderLock free(column.folder);
   run_columns(
       runs, jobs_of(choice, runs),
-      [&](const SweepColumn& column) {
+      [&](const ChildRun& column) {
         if (!quiet) std::cerr << column.name << ": " << outcome_of(column) << std::endl;
       },
       [](const std::string&) {});
-  const auto failed = std::find_if(runs.begin(), runs.end(), [](const SweepColumn& column) {
+  const auto failed = std::find_if(runs.begin(), runs.end(), [](const ChildRun& column) {
     return !column.stopped.empty() && column.exit_code != 2 && column.exit_code != kCouldNotGoOn;
   });
-  if (failed != runs.end()) throw Error::machine(failed->name + ": " + failed->stopped);
+  if (failed != runs.end()) throw Error::system(failed->name + ": " + failed->stopped);
   return 0;
 }
 
 int run_sweep(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::request("needs one study: a file, or a name in assets/studies");
+  if (line.names.size() != 1)
+    throw Error::invalid_input("needs one study: a file, or a name in assets/studies");
   SweepChoice choice;
   Options options;
   set_keys(line, keys_of(choice, options));
   const Study study = read_study(line.names[0]);
   if (options.out.empty()) options.out = "out/sweep-" + std::filesystem::path(line.names[0]).stem().string();
-  std::vector<SweepColumn> runs = columns_of(study, options.out);
+  std::vector<ChildRun> runs = columns_of(study, options.out);
   check_batch(runs, choice.batch);
   if (!choice.snakemake.empty()) return write_study(choice, study, options.out), 0;
   if (!choice.only.empty() || !choice.part.empty())
@@ -292,8 +293,8 @@ int run_sweep(const CommandLine& line) {
   else
     run_all(run, study, runs, jobs_of(choice, runs));
   write_results(run, study, runs, !options.no_images);
-  refuse_failed(run, runs);
-  refuse_unknown_metric(study, runs);
+  throw_if_failed(run, runs);
+  throw_if_unknown_metric(study, runs);
   return 0;
 }
 

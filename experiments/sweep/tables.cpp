@@ -20,15 +20,15 @@ std::string field_of(const MetricValue& value) {
 bool has_field(const MetricValue& value) { return !field_of(value).empty(); }
 
 // By the runs' scenes.
-std::vector<std::string> asked_of_any(const std::vector<SweepColumn>& runs) {
+std::vector<std::string> asked_of_any(const std::vector<ChildRun>& runs) {
   std::vector<std::string> names;
-  for (const SweepColumn& run : runs)
+  for (const ChildRun& run : runs)
     for (const std::string& name : run.manifest ? run.manifest->asked_metrics : std::vector<std::string>{})
       if (!std::count(names.begin(), names.end(), name)) names.push_back(name);
   return names;
 }
 
-bool differs(const std::vector<SweepColumn>& runs, const std::string& metric) {
+bool differs(const std::vector<ChildRun>& runs, const std::string& metric) {
   std::vector<double> known = numbers_of(runs, metric);
   std::erase_if(known, [](double x) { return std::isnan(x); });
   return !known.empty() && std::any_of(known.begin(), known.end(), [&](double x) { return x != known[0]; });
@@ -71,13 +71,13 @@ std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>> point
 
 }  // namespace
 
-std::vector<double> numbers_of(const std::vector<SweepColumn>& runs, const std::string& metric) {
+std::vector<double> numbers_of(const std::vector<ChildRun>& runs, const std::string& metric) {
   std::vector<double> numbers;
-  for (const SweepColumn& run : runs) numbers.push_back(run.metrics().number(metric));
+  for (const ChildRun& run : runs) numbers.push_back(run.metrics().number(metric));
   return numbers;
 }
 
-std::vector<std::string> metrics_shown(const Study& study, const std::vector<SweepColumn>& runs) {
+std::vector<std::string> metrics_shown(const Study& study, const std::vector<ChildRun>& runs) {
   constexpr std::size_t kFew = 4;
   const std::vector<std::string> known = metrics_in(runs, has_field);
   std::vector<std::string> wanted = study.metrics;
@@ -91,9 +91,9 @@ std::vector<std::string> metrics_shown(const Study& study, const std::vector<Swe
   return wanted;
 }
 
-std::string unknown_metric(const Study& study, std::span<const SweepColumn> runs) {
+std::string unknown_metric(const Study& study, std::span<const ChildRun> runs) {
   std::vector<std::string> known;
-  for (const SweepColumn& run : runs)
+  for (const ChildRun& run : runs)
     for (const auto& [name, value] : run.metrics()) known.push_back(name);
   if (known.empty()) return "";
   for (const std::string& name : study.metrics) {
@@ -105,7 +105,7 @@ std::string unknown_metric(const Study& study, std::span<const SweepColumn> runs
   return "";
 }
 
-TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs) {
+TextTable table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
   const std::vector<std::string> metrics = metrics_in(runs, has_field);
   TextTable table;
   table.head = {"run"};
@@ -127,7 +127,7 @@ TextTable table_of_runs(const Study& study, const std::vector<SweepColumn>& runs
   return table;
 }
 
-TextTable table_of_means(const Study& study, const std::vector<SweepColumn>& runs,
+TextTable table_of_means(const Study& study, const std::vector<ChildRun>& runs,
                          const std::vector<std::string>& metrics) {
   TextTable table;
   for (const StudyAxis& axis : study.axes)

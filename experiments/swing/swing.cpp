@@ -38,7 +38,7 @@ Setup defaults() {
   return setup;
 }
 
-constexpr double kLeastTurn = 0.01;  // of the length: smaller ones are not counted
+constexpr double kMinTurn = 0.01;  // of the length: smaller ones are not counted
 // Of the free length: with viscosity alone, whose decay is exponential when small, larger amplitudes fall
 // with exponents of 1.5 and more; below, with 1.1.
 constexpr double kSmallSwing = 0.5;
@@ -80,7 +80,7 @@ double line_departure(const std::vector<Amplitude>& amplitudes, const Decay& dec
 void note_decay(Run& run, const std::vector<Amplitude>& amplitudes, const Decay& decay) {
   run.metric("decay_shape", name_of(decay.shape));
   run.metric("decay_amplitudes_count", decay.used);
-  if (decay.used >= kLeastAmplitudes) run.metric("decay_per_turn_percent", 100 * decay.per_turn);
+  if (decay.used >= kMinAmplitudes) run.metric("decay_per_turn_percent", 100 * decay.per_turn);
   if (decay.fits.empty()) return;
   run.metric("decay_margin", decay.margin);
   const double first = amplitudes[decay.first].value;
@@ -192,7 +192,7 @@ int run_swing(const CommandLine& line) {
     if (rest[i].x() - std::abs(rest[i].y() - width / 2) > rest[tip].x() - std::abs(rest[tip].y() - width / 2))
       tip = static_cast<int>(i);
   std::vector<double> times, swing;
-  Question question;
+  RunPlan question;
   const float low = -length;
   question.bounds = {{-0.7f * length, 0, low}, {length, width, 0.15f * length}};
   question.columns = {"tip_x [m]", "tip_height [m]"};
@@ -211,9 +211,9 @@ int run_swing(const CommandLine& line) {
   session.simulate(question);
   const Ledger ledger = session.simulation().ledger();
   Run& run = session.run();
-  const auto turns = turning_points(times, swing, kLeastTurn * sides.x());
+  const auto turns = turning_points(times, swing, kMinTurn * sides.x());
   const std::vector<Amplitude> amplitudes =
-      amplitudes_of(turning_points(times, swing, kLeastTurn * sides.x(), kSwingRipple));
+      amplitudes_of(turning_points(times, swing, kMinTurn * sides.x(), kSwingRipple));
   const Decay decay = decay_of(amplitudes, kSmallSwing * (sides.x() - kClamp));
   run.metric("turns", turns.size());
   note_decay(run, amplitudes, decay);

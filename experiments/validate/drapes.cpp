@@ -18,12 +18,12 @@ std::vector<Manifest> results_of(const std::string& experiment, const std::vecto
                                  const ValidateFlags& flags, Run& run) {
   CommandLine line{experiment, "", {}, {}};
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
-  std::vector<SweepColumn> columns;
+  std::vector<ChildRun> columns;
   for (const Variant& one : runs) columns.push_back(column_of(one.name, line, one.flags, run.folder()));
   run_columns(run, columns, {.gpu = flags.device != "cpu"});
   std::vector<Manifest> manifests;
-  for (SweepColumn& column : columns) {
-    if (!column.stopped.empty()) throw Error::run(column.name + ": " + column.stopped);
+  for (ChildRun& column : columns) {
+    if (!column.stopped.empty()) throw Error::simulation(column.name + ": " + column.stopped);
     manifests.push_back(std::move(column.manifest.value()));
   }
   return manifests;

@@ -30,7 +30,7 @@ struct Drape {
 };
 
 // Runs of another subcommand, each in a folder of this one, side by side; their manifests.  What they warn of
-// this one does, too.  Throws Error::run where one of them cannot go on.
+// this one does, too.  Throws Error::simulation where one of them cannot go on.
 std::vector<Manifest> results_of(const std::string& experiment, const std::vector<Variant>& runs,
                                  const ValidateFlags& flags, Run& run);
 

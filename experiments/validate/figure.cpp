@@ -59,8 +59,8 @@ std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
     amplitudes.push_back({static_cast<int>(turns.columns[0].values[r]), turns.columns[1].values[r],
                           turns.columns[2].values[r] / 1e3});
   const double used = read_manifest(swing / "manifest.json").metrics.number("decay_amplitudes_count");
-  if (!(used >= kLeastAmplitudes))
-    throw Error::request("validate: " + swing.string() + " has too few amplitudes for two lines");
+  if (!(used >= kMinAmplitudes))
+    throw Error::invalid_input("validate: " + swing.string() + " has too few amplitudes for two lines");
   const auto count = std::min(amplitudes.size(), static_cast<std::size_t>(used));
   return {amplitudes.end() - static_cast<std::ptrdiff_t>(count), amplitudes.end()};
 }
@@ -76,7 +76,8 @@ render::PagePlot decay_plot(const fs::path& swing) {
   constexpr double kFifth = 0.2;
   const std::vector<Amplitude> amplitudes = read_amplitudes(swing);
   const Decay decay = decay_of(amplitudes, INFINITY);
-  if (decay.fits.empty()) throw Error::request("validate: the swing in " + swing.string() + " does not fall");
+  if (decay.fits.empty())
+    throw Error::invalid_input("validate: the swing in " + swing.string() + " does not fall");
   const DecayFit two = decay.of(DecayShape::two_step);
   render::Plot plot{"Decay of a swing, cotton broad", {"time [s]"}, {"amplitude of the free end [mm]"}};
   render::Series points{"amplitudes", {}, {}, Style::points, kMeasuredColor};
@@ -153,7 +154,7 @@ std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& s
     if (at == drapes.end()) {
       const NamedTable known(spread / fabric / "predictions.csv");  // the coefficient first, then folds
       if (known.size() == 0)
-        throw Error::request("validate: " + (spread / fabric).string() + " has no drape");
+        throw Error::invalid_input("validate: " + (spread / fabric).string() + " has no drape");
       at = drapes.insert(drapes.end(), {.fabric = fabric,
                                         .measured = known.number(0, "measured"),
                                         .low = known.number(0, "low"),

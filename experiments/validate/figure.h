@@ -21,8 +21,8 @@ struct PredictedDrape {
 std::vector<PredictedDrape> read_drapes(const std::filesystem::path& means,
                                         const std::filesystem::path& spread);
 
-// Loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::machine, Error::request
-// where one of their files is missing or another than it was.
+// Loops, decay, drapes and folds, from the folders below `recorded`.  Throws Error::system,
+// Error::invalid_input where one of their files is missing or another than it was.
 render::PlotPage validation_page(const std::filesystem::path& recorded);
 
 // plot_validation; plot_folds and plot_budget_<fabric>, as the parts `draws` and `budget` draw them.

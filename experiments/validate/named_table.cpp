@@ -12,7 +12,7 @@ NamedTable::NamedTable(const std::filesystem::path& csv) : file_(csv), table_(re
 const std::string& NamedTable::word(std::size_t row, const std::string& column) const {
   const auto found = std::find(table_.head.begin(), table_.head.end(), column);
   if (found == table_.head.end())
-    throw Error::request("validate: " + file_.string() + " has no column \"" + column + "\"");
+    throw Error::invalid_input("validate: " + file_.string() + " has no column \"" + column + "\"");
   return table_.rows[row][found - table_.head.begin()];
 }
 

@@ -14,7 +14,7 @@ class NamedTable {
   explicit NamedTable(const std::filesystem::path& csv);
 
   std::size_t size() const { return table_.rows.size(); }
-  // Both throw Error::request, naming the file, where there is no such column.
+  // Both throw Error::invalid_input, naming the file, where there is no such column.
   const std::string& word(std::size_t row, const std::string& column) const;
   double number(std::size_t row, const std::string& column) const;  // NaN of a cell that is none
 

@@ -77,8 +77,8 @@ std::vector<Prediction> predict_loops(const std::string& folder) {
   const auto column = [&](const std::string& name) {
     const auto found = std::find(table.head.begin(), table.head.end(), name);
     if (found == table.head.end())
-      throw Error::request("loops: " + file.string() + " has no column \"" + name +
-                           "\": give a folder of fit --fab")
+      throw Error::invalid_input("loops: " + file.string() + " has no column \"" + name +
+                                 "\": give a folder of fit --fab")
           .of("loops", folder);
     return static_cast<std::size_t>(found - table.head.begin());
   };

@@ -32,7 +32,7 @@ void write_predictions(Run& run, const std::vector<Prediction>& predictions);
 std::vector<Prediction> predict_pairs(Run& run);
 
 // Areas and ranges of force of the loops in `folder`, where `fit --fab` has predicted them: with its stops,
-// and with the one stop that describes the fitted cycle best.  Throws Error::request where it has none.
+// and with the one stop that describes the fitted cycle best.  Throws Error::invalid_input where it has none.
 std::vector<Prediction> predict_loops(const std::string& folder);
 
 }  // namespace hysteron::experiments

@@ -138,7 +138,7 @@ std::vector<Sample> samples_of(const FabricFile& file, int count, unsigned seed)
   Uniform uniform(seed);
   for (const auto& [key, range] : file.range) {
     if (!(range.low > 0))
-      throw Error::request("validate: the range of " + key + " in " + file.fabric.name + " must be > 0")
+      throw Error::invalid_input("validate: the range of " + key + " in " + file.fabric.name + " must be > 0")
           .of("fabrics", file.fabric.name);
     const double decades = std::log(range.high / range.low);
     const std::vector<int> part = shuffled(count, uniform);

@@ -69,7 +69,7 @@ void check_parts(const F& flags) {
                                                   "draws", "budget", "figure"};
   for (const std::string& part : split(flags.parts))
     if (!std::count(kParts.begin(), kParts.end(), part))
-      throw Error::request("parts = " + part + " must be " + join(kParts, " | ")).of("parts", part);
+      throw Error::invalid_input("parts = " + part + " must be " + join(kParts, " | ")).of("parts", part);
 }
 
 int run_validate(const CommandLine& line) {

@@ -14,7 +14,7 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double kLeastRoundOff = 1e-6;
+constexpr double kMinRoundOff = 1e-6;
 constexpr double kOfSolver = 0.1;  // times its tolerance
 
 bool has_part(const std::string& name, const char* part) { return name.find(part) != name.npos; }
@@ -107,11 +107,11 @@ Agreement Repetition::agreement() const {
 
 double round_off_of(const Manifest& run) {
   const std::string& integrator = run.scene.integrator;
-  if (integrator.empty() || integrator == "explicit" || !run.keys) return kLeastRoundOff;
+  if (integrator.empty() || integrator == "explicit" || !run.keys) return kMinRoundOff;
   const auto tolerance =
       run.keys->find(integrator == "semi-implicit" ? "solver-tolerance" : "newton-residual");
-  if (tolerance == run.keys->end() || !tolerance->is_number()) return kLeastRoundOff;
-  return std::max(kLeastRoundOff, kOfSolver * tolerance->get<double>());
+  if (tolerance == run.keys->end() || !tolerance->is_number()) return kMinRoundOff;
+  return std::max(kMinRoundOff, kOfSolver * tolerance->get<double>());
 }
 
 double size_of(const std::string& name, double number) {

@@ -65,8 +65,9 @@ std::vector<fs::path> folders_below(const fs::path& folder) {
   std::error_code failure;
   for (const auto& entry : fs::recursive_directory_iterator(folder, failure))
     if (entry.path().filename() == "manifest.json") found.insert(entry.path().parent_path());
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
-  if (found.empty()) throw Error::request("there is no manifest.json in " + folder.string() + " or below");
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (found.empty())
+    throw Error::invalid_input("there is no manifest.json in " + folder.string() + " or below");
   return {found.begin(), found.end()};
 }
 
@@ -115,7 +116,7 @@ Outcome outcome_of(Agreement agreement) {
 }
 
 // A folder's run, and what has come of its repetition.
-struct Repeated {
+struct ErrorRunResult {
   std::string name;
   RecordedRun recorded;
   std::vector<std::string> pictures;
@@ -123,7 +124,8 @@ struct Repeated {
   double seconds = 0;
 };
 
-Line compared(const Repeated& run, const SweepColumn& now, const VerifyChoice& choice, const Limits& limits) {
+Line compared(const ErrorRunResult& run, const ChildRun& now, const VerifyChoice& choice,
+              const Limits& limits) {
   if (!now.stopped.empty()) return {Outcome::failed, "could not be repeated: " + now.stopped};
   const Manifest& before = run.recorded.manifest;
   Repetition repetition = compare_runs(before, now.manifest.value(), limits, choice.exact);
@@ -134,10 +136,10 @@ Line compared(const Repeated& run, const SweepColumn& now, const VerifyChoice& c
 }
 
 // The runs that are repeated as columns below OUT; of the others it is said why they are not.
-std::vector<SweepColumn> columns_of(std::vector<Repeated>& runs, const VerifyChoice& choice,
-                                    const Options& options) {
-  std::vector<SweepColumn> columns;
-  for (Repeated& run : runs) {
+std::vector<ChildRun> columns_of(std::vector<ErrorRunResult>& runs, const VerifyChoice& choice,
+                                 const Options& options) {
+  std::vector<ChildRun> columns;
+  for (ErrorRunResult& run : runs) {
     const fs::path folder = run.recorded.file.parent_path();
     if (const std::string why = why_skipped(run.recorded.manifest, folder, choice); !why.empty()) {
       run.said = {Outcome::skipped, "skipped: " + why};
@@ -168,14 +170,14 @@ TestCase case_of(const std::string& name, const Line& said, double seconds) {
 }
 
 int run_verify(const CommandLine& line) {
-  if (line.names.size() != 1) throw Error::request("needs a run's folder, or a folder of many runs");
+  if (line.names.size() != 1) throw Error::invalid_input("needs a run's folder, or a folder of many runs");
   VerifyChoice choice;
   Options options;
   options.out = "out/verify";
   set_keys(line, bind_verify(choice, options), [&] { choice.at_most = kQuickSeconds; });
   const fs::path root = line.names.front();
   const Limits limits = read_limits(choice.limits);
-  std::vector<Repeated> runs;
+  std::vector<ErrorRunResult> runs;
   for (const fs::path& folder : folders_below(root))
     runs.push_back({fs::relative(folder, root).string(), recorded_run(folder.string()), {}});
   int count[5] = {};
@@ -189,14 +191,15 @@ int run_verify(const CommandLine& line) {
       std::cout << fmt::format("{:<8}{:<36} {}", word_of(outcome), runs[next].name, words) << std::endl;
     }
   };
-  std::vector<SweepColumn> columns = columns_of(runs, choice, options);
+  std::vector<ChildRun> columns = columns_of(runs, choice, options);
   say();
   if (!columns.empty())
     run_columns(
         columns, {.threads = choice.threads, .gpu = choice.device != "cpu", .go_on = true},
-        [&](const SweepColumn& column) {
-          Repeated& run = *std::find_if(runs.begin(), runs.end(),
-                                        [&](const Repeated& other) { return other.name == column.name; });
+        [&](const ChildRun& column) {
+          ErrorRunResult& run = *std::find_if(runs.begin(), runs.end(), [&](const ErrorRunResult& other) {
+            return other.name == column.name;
+          });
           run.said = compared(run, column, choice, limits);
           run.seconds = column.seconds;
           say();
@@ -211,7 +214,7 @@ int run_verify(const CommandLine& line) {
   if (!choice.junit.empty()) write_junit(choice.junit, "verify", root.string(), cases);
   if (differs > 0) return kDiffers;
   if (same + within == 0)
-    throw Error::request("nothing was compared: no run in " + root.string() + " could be repeated");
+    throw Error::invalid_input("nothing was compared: no run in " + root.string() + " could be repeated");
   return 0;
 }
 

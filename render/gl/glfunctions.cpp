@@ -11,7 +11,7 @@ template <class Pointer>
 void load(GlLoader loader, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(loader(name));
   if (pointer == nullptr)
-    throw Error::machine(std::string("loading OpenGL: the driver has no ") + name + "; OpenGL 3.3 is needed");
+    throw Error::system(std::string("loading OpenGL: the driver has no ") + name + "; OpenGL 3.3 is needed");
 }
 
 const char* error_name(GLenum error) {
@@ -44,7 +44,7 @@ GlFunctions load_gl_functions(GlLoader loader) {
 void check_gl(const GlFunctions& gl, const char* attempted) {
   const GLenum error = gl.GetError();
   if (error != GL_NO_ERROR)
-    throw Error::machine(std::string(attempted) + ": OpenGL reports " + error_name(error));
+    throw Error::system(std::string(attempted) + ": OpenGL reports " + error_name(error));
 }
 
 }  // namespace hysteron::render

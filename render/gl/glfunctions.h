@@ -107,11 +107,11 @@ struct GlFunctions {
 
 using GlLoader = void (*(*)(const char*))();
 
-// Fills the table through eglGetProcAddress or OSMesaGetProcAddress.  Error::machine names the first call
+// Fills the table through eglGetProcAddress or OSMesaGetProcAddress.  Error::system names the first call
 // missing.
 GlFunctions load_gl_functions(GlLoader loader);
 
-// Error::machine if GL reports an error since the last call; `attempted` says what was being done.
+// Error::system if GL reports an error since the last call; `attempted` says what was being done.
 void check_gl(const GlFunctions& gl, const char* attempted);
 
 }  // namespace hysteron::render

@@ -41,7 +41,7 @@ GLuint compile(const GlFunctions& gl, GLenum stage, std::string_view file, std::
   std::vector<char> log(4096, '\0');
   gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
   gl.DeleteShader(shader);
-  throw Error::machine("compiling " + std::string(file) + ": " + first_line(log.data()));
+  throw Error::system("compiling " + std::string(file) + ": " + first_line(log.data()));
 }
 
 void attach(const GlFunctions& gl, GLuint program, GLenum stage, std::string_view file,
@@ -68,8 +68,8 @@ Program::Program(const GlFunctions& gl, const ProgramFiles& files) : gl_(&gl), p
   if (linked) return;
   std::vector<char> log(4096, '\0');
   gl.GetProgramInfoLog(name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw Error::machine("linking " + std::string(files.vertex) + " and " + std::string(files.fragment) + ": " +
-                       first_line(log.data()));
+  throw Error::system("linking " + std::string(files.vertex) + " and " + std::string(files.fragment) + ": " +
+                      first_line(log.data()));
 }
 
 GLint Program::location(const char* name) const {

@@ -22,7 +22,7 @@ struct ProgramFiles {
 
 class Program {
  public:
-  // Compiles and links; Error::machine names the file and the first line of the driver's log.
+  // Compiles and links; Error::system names the file and the first line of the driver's log.
   Program(const GlFunctions& gl, const ProgramFiles& files);
 
   void use() const { gl_->UseProgram(program_.name()); }

@@ -30,7 +30,7 @@ class Archive {
       saved_.append(static_cast<const char*>(memory), count);
       return;
     }
-    if (count > loaded_.size()) throw Error::request("ends too early");
+    if (count > loaded_.size()) throw Error::invalid_input("ends too early");
     if (count) std::memcpy(memory, loaded_.data(), count);
     loaded_.remove_prefix(count);
   }
@@ -45,7 +45,7 @@ class Archive {
   std::size_t size(std::size_t count) {
     std::uint64_t number = count;
     (*this)(number);
-    if (loads_ && number > loaded_.size()) throw Error::request("ends too early");
+    if (loads_ && number > loaded_.size()) throw Error::invalid_input("ends too early");
     return static_cast<std::size_t>(number);
   }
   void operator()(std::string& text) {

@@ -17,17 +17,17 @@ namespace fs = std::filesystem;
 // What is to be replaced: a link keeps its name, and devices and pipes are not for replacing; neither is what
 // /dev/stdout leads to, though it may be a file.
 std::string plain_file(const std::string& target) {
-  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  constexpr int kMaxLinks = 40;  // as many as the kernel follows
   std::error_code failure;
   bool plain = true;
   fs::path file = target;
-  for (int links = 0; links < kMostLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links) {
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(fs::symlink_status(file, failure)); ++links) {
     plain = plain && !fs::weakly_canonical(file.parent_path(), failure).string().starts_with("/proc/");
     file = file.parent_path() / fs::read_symlink(file, failure);
   }
   const fs::file_status status = fs::symlink_status(file, failure);
   if (!plain || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)))
-    throw Error::request("cannot write " + target + ": it is no plain file; give another name");
+    throw Error::invalid_input("cannot write " + target + ": it is no plain file; give another name");
   return file.string();
 }
 
@@ -39,7 +39,7 @@ std::string temporary_name(const std::string& target) {
 
 Error failure(const std::string& attempt, const std::string& file, int code) {
   const std::string reason = code ? std::strerror(code) : "the stream failed (disk full?)";
-  return Error::machine(attempt + " " + file + ": " + reason);
+  return Error::system(attempt + " " + file + ": " + reason);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace hysteron {
 // file is removed on destruction.  Of a link the file is replaced that it leads to.
 class AtomicFile {
  public:
-  // Opens the temporary file (binary).  Throws Error::machine with the file's name and the system's reason,
-  // Error::request for a device or a pipe.
+  // Opens the temporary file (binary).  Throws Error::system with the file's name and the system's reason,
+  // Error::invalid_input for a device or a pipe.
   explicit AtomicFile(const std::string& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -22,7 +22,7 @@ class AtomicFile {
   std::ostream& stream() { return stream_; }
   // For writers that open a file by name themselves (plot programs, image libraries).
   const std::string& temporary() const { return temporary_; }
-  // Flushes, closes, checks and renames.  Throws Error::machine; the target is then as it was before.
+  // Flushes, closes, checks and renames.  Throws Error::system; the target is then as it was before.
   void commit();
 
  private:

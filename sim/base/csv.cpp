@@ -44,7 +44,7 @@ std::string with_decimal_point(std::string field) {
 }
 
 Error error_at(const std::string& file, int line, const std::string& what) {
-  return Error::request(fmt::format("{}:{}: {}", file, line, what));
+  return Error::invalid_input(fmt::format("{}:{}: {}", file, line, what));
 }
 
 // Walks through the text of a file, row by row.

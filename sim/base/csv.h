@@ -30,12 +30,12 @@ struct Table {
   std::string file{}, reader{};  // that it was read from, and on whose behalf ("law")
   // The column called `name`, null if there is none.
   const Column* find(const std::string& name) const;
-  // Error::request of a row that was read: "law: loop.csv:3: WHAT".
+  // Error::invalid_input of a row that was read: "law: loop.csv:3: WHAT".
   Error refusal(std::size_t row, const std::string& what) const;
 };
 
 // Reads the columns `required` and, where present, `optional`; others are ignored.  `reader` says on whose
-// behalf ("law"), for errors.  Throws Error::machine if the file cannot be read; Error::request (with
+// behalf ("law"), for errors.  Throws Error::system if the file cannot be read; Error::invalid_input (with
 // file:line) if a column is missing, named twice or in another unit, if a row has another number of fields,
 // if a field is no finite number, or if there are no rows.
 Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
@@ -49,14 +49,14 @@ struct TextTable {
   std::vector<int> lines{};                    // where each row stands in its file
 };
 
-// Throws Error::machine if the file cannot be read, Error::request (with file:line) if a row has another
+// Throws Error::system if the file cannot be read, Error::invalid_input (with file:line) if a row has another
 // number of fields or a quote is not closed.
 TextTable read_words(const std::filesystem::path& file);
 // The same of the text of a file of that name.
 TextTable words_in(const std::string& text, const std::string& file);
 
 // Writes with 17 significant digits, so that reading gives the same doubles, under a temporary name that
-// becomes `file` once it is complete.  Throws Error::machine and leaves nothing if that fails.
+// becomes `file` once it is complete.  Throws Error::system and leaves nothing if that fails.
 void write_csv(const std::filesystem::path& file, const Table& table);
 
 // Six significant digits, empty unless the number is finite.

@@ -21,7 +21,7 @@ std::string name_of(E value) {
   return names(value)[static_cast<std::size_t>(value)];
 }
 
-// The value of that name; Error::request for another, with the names that there are.
+// The value of that name; Error::invalid_input for another, with the names that there are.
 template <Named E>
 E value_named(const std::string& name) {
   std::string all;
@@ -29,7 +29,7 @@ E value_named(const std::string& name) {
     if (name == names(E{})[i]) return static_cast<E>(i);
     all += (i ? ", " : "") + std::string(names(E{})[i]);
   }
-  throw Error::request(name + " is not one of: " + all);
+  throw Error::invalid_input(name + " is not one of: " + all);
 }
 
 }  // namespace hysteron

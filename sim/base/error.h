@@ -15,11 +15,11 @@ namespace hysteron {
 class Error : public std::runtime_error {
  public:
   // The machine failed (file, disk, GPU, renderer): exit code 1.
-  static Error machine(const std::string& message) { return Error(1, message); }
+  static Error system(const std::string& message) { return Error(1, message); }
   // The request is wrong (unknown key, wrong type, out of range, impossible mesh): exit code 2.
-  static Error request(const std::string& message) { return Error(2, message); }
+  static Error invalid_input(const std::string& message) { return Error(2, message); }
   // The run could not go on (no convergence, no feasible state): exit code 3.
-  static Error run(const std::string& message) { return Error(3, message); }
+  static Error simulation(const std::string& message) { return Error(3, message); }
 
   // The same, of a key and the value that it was given: "fabric.b2", "-1".
   Error of(std::string key, std::string value) const {

@@ -29,19 +29,19 @@ class Descriptor {
 };
 
 Error failure(const std::string& attempt, int code) {
-  return Error::machine(attempt + ": " + std::strerror(code ? code : EIO));
+  return Error::system(attempt + ": " + std::strerror(code ? code : EIO));
 }
 
 void check_kind(const struct stat& status, const std::string& attempt) {
   if (S_ISREG(status.st_mode)) return;
-  throw Error::machine(attempt + (S_ISDIR(status.st_mode)
-                                      ? ": it is a folder"
-                                      : ": it is a pipe or a device; write it to a file first"));
+  throw Error::system(attempt + (S_ISDIR(status.st_mode)
+                                     ? ": it is a folder"
+                                     : ": it is a pipe or a device; write it to a file first"));
 }
 
 void check_size(std::size_t bytes, const std::string& attempt, std::size_t most) {
   if (bytes <= most) return;
-  throw Error::request(attempt + ": it is larger than " + std::to_string(most >> 20) + " MiB");
+  throw Error::invalid_input(attempt + ": it is larger than " + std::to_string(most >> 20) + " MiB");
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ std::string file_named(const std::filesystem::path& file, const std::string& att
   try {
     return whole_file(file, attempt);
   } catch (const Error& error) {
-    throw Error::request(error.what());
+    throw Error::invalid_input(error.what());
   }
 }
 

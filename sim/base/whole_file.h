@@ -7,13 +7,13 @@
 
 namespace hysteron {
 
-inline constexpr std::size_t kMostBytes = (std::size_t{1} << 31) - 1;  // what image libraries can count
+inline constexpr std::size_t kMaxBytes = (std::size_t{1} << 31) - 1;  // what image libraries can count
 
 // The bytes of a regular file; pipes and devices, which may never end, are not opened.  Throws
-// Error::machine, "ATTEMPT: reason", if it cannot be read, Error::request if it is larger than `most`.
+// Error::system, "ATTEMPT: reason", if it cannot be read, Error::invalid_input if it is larger than `most`.
 std::string whole_file(const std::filesystem::path& file, const std::string& attempt,
-                       std::size_t most = kMostBytes);
-// The same where the name is part of a request: every failure is Error::request.
+                       std::size_t most = kMaxBytes);
+// The same where the name is part of a request: every failure is Error::invalid_input.
 std::string file_named(const std::filesystem::path& file, const std::string& attempt);
 
 }  // namespace hysteron

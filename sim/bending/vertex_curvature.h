@@ -21,7 +21,7 @@ std::vector<float> vertex_curvature(const ClothMesh& mesh, const std::vector<dou
 // plane needs no rest shape, and cloth hardly stretches, so that this is what a run shows of the same
 // positions; like there, faces at a free edge carry no curvature across it.  1/R on a cylinder, 2/R on a
 // sphere, positive where the front side is concave.  `what` names the surface in messages. Throws
-// Error::request for what build_topology refuses.
+// Error::invalid_input for what build_topology refuses.
 std::vector<float> surface_curvature(const std::vector<Eigen::Vector3d>& position,
                                      const std::vector<Eigen::Vector3i>& face, const std::string& what);
 

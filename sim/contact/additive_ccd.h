@@ -122,14 +122,14 @@ template <class Real>
 HYST_HD Real feasible_step(const Approach<Real>& start, Vec3<Real> (&x)[4], Vec3<Real> (&direction)[4],
                            bool edges, Real least) {
   constexpr Real kKept = Real(0.1);
-  constexpr int kMostAdvances = 1000;
+  constexpr int kMaxAdvances = 1000;
   const Real speed = start.speed;
   Real gap = start.distance - least;
   if (!(speed > 0) || gap > speed) return 1;
   if (!(gap > 0)) return 0;
   const Real kept = kKept * gap;
   Real step_length = 0;
-  for (int k = 0; k < kMostAdvances && gap >= kept; ++k) {
+  for (int k = 0; k < kMaxAdvances && gap >= kept; ++k) {
     const Real advance = (gap - kept / 2) / speed;
     step_length += advance;
     if (step_length >= 1) return 1;

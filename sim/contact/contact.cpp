@@ -196,7 +196,7 @@ void Contact<Real, Device>::add_stiffness(const Vec3<Real>* x, const Vec3<Real>*
 
 // The guess of a step: each vertex by itself, so that one does not hold up the others.
 template <class Real, class Device>
-void Contact<Real, Device>::keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
+void Contact<Real, Device>::clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held) {
   if (!set_.has_thin()) return;
   const ObstacleSet<Real> set = set_;
   const Real rest = static_cast<Real>(1 - kCompressed) * model_.shell.thickness;  // where it is pressed back
@@ -204,7 +204,7 @@ void Contact<Real, Device>::keep_out(const Vec3<Real>* start, Vec3<Real>* end, c
       device_, "contact: guess", vertices_, HYST_KERNEL(int i) {
         if (!held[i]) end[i] = kept_out(set, start[i], end[i], rest);
       });
-  if (faces_) faces_->keep_out(set, start, end, held, rest);
+  if (faces_) faces_->clip_to_obstacles(set, start, end, held, rest);
 }
 
 template <class Real, class Device>

@@ -43,10 +43,10 @@ class Contact {
   bool has_faces() const { return faces_.has_value(); }
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
-  // has another side, nor it through them (sweep.h, face_sweep.cpp).  keep_out() ends each path of
+  // has another side, nor it through them (sweep.h, face_sweep.cpp).  clip_to_obstacles() ends each path of
   // a step from `start` to `end` where it meets an obstacle that bars it, reaches() says whether none is
   // barred, and feasible_step() how long a step along `direction` from x may be, up to `max_step`.
-  void keep_out(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
+  void clip_to_obstacles(const Vec3<Real>* start, Vec3<Real>* end, const char* held);
   bool reaches(const Vec3<Real>* start, const Vec3<Real>* end, const char* held);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step);
 

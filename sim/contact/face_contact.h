@@ -105,8 +105,8 @@ class FaceContact {
   void store_energies(const ObstacleSet<Real>& set, const Vec3<Real>* x, double* energy);
 
   // Paths of triangles (face_sweep.cpp); those with a held corner go where that leads them.
-  void keep_out(const ObstacleSet<Real>& set, const Vec3<Real>* start, Vec3<Real>* end, const char* held,
-                Real rest);
+  void clip_to_obstacles(const ObstacleSet<Real>& set, const Vec3<Real>* start, Vec3<Real>* end,
+                         const char* held, Real rest);
   bool reaches(const ObstacleSet<Real>& set, const Vec3<Real>* start, const Vec3<Real>* end,
                const char* held);
   double feasible_step(const ObstacleSet<Real>& set, const Vec3<Real>* x, const Vec3<Real>* direction,

@@ -70,8 +70,8 @@ HYST_HD inline bool any_held(const Eigen::Vector3i& face, const char* held) {
 // Corners go the least share of their triangles; where some then go farther than others and a triangle is
 // barred again, the same once more, and at last they stay beside the obstacle.
 template <class Real, class Device>
-void FaceContact<Real, Device>::keep_out(const ObstacleSet<Real>& set, const Vec3<Real>* start,
-                                         Vec3<Real>* end, const char* held, Real rest) {
+void FaceContact<Real, Device>::clip_to_obstacles(const ObstacleSet<Real>& set, const Vec3<Real>* start,
+                                                  Vec3<Real>* end, const char* held, Real rest) {
   constexpr int kRounds = 8, kShortened = 4;
   for (int o = 0; o < set.count; ++o) {
     if (!is_sharp(set.item[o])) continue;

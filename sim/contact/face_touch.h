@@ -49,7 +49,7 @@ struct Lowest {
 // Where in [0, 1] a convex function is least: its slope's zero, by regula falsi (Illinois) with bisections.
 template <class Real, class SlopeAt>
 HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
-  constexpr int kMostCuts = 60;
+  constexpr int kMaxCuts = 60;
   constexpr Real kFlat = sizeof(Real) == 8 ? Real(1e-11) : Real(1e-5);  // of the slopes' difference
   constexpr Real kNarrow = sizeof(Real) == 8 ? Real(1e-13) : Real(1e-6);
   Incline<Real> low = slope_at(Real(0));
@@ -59,7 +59,7 @@ HYST_HD Lowest<Real> lowest(const SlopeAt& slope_at) {
   const Real enough = kFlat * (high.slope - low.slope);
   Real a = 0, b = 1, at_a = low.slope, at_b = high.slope;
   int side = 0;
-  for (int k = 0; k < kMostCuts && b - a > kNarrow; ++k) {
+  for (int k = 0; k < kMaxCuts && b - a > kNarrow; ++k) {
     Real next = a - at_a * (b - a) / (at_b - at_a);
     if (k % 3 == 2 || !(next > a && next < b)) next = (a + b) / 2;
     const Incline<Real> here = slope_at(next);

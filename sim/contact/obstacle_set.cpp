@@ -100,7 +100,7 @@ bool is_squeezed(const ObstacleSet<double>& set, const ObstacleShell<double>& sh
   const auto pressure_at = [&](double distance) {
     return distance < shell.thickness ? -shell.at(distance).slope : 0.0;
   };
-  Distance<double> at[kMostObstacles];
+  Distance<double> at[kMaxObstacles];
   for (int o = 0; o < set.count; ++o) {
     at[o] = distance_to<double>(set.item[o], x);
     at[o].normal = set.item[o].rotation * Eigen::Vector3d(at[o].normal);

@@ -11,7 +11,7 @@
 
 namespace hysteron {
 
-inline constexpr int kMostObstacles = 12;  // they travel with each kernel launch by value
+inline constexpr int kMaxObstacles = 12;  // they travel with each kernel launch by value
 
 template <class Real>
 struct Obstacle3 {
@@ -31,7 +31,7 @@ struct Obstacle3 {
 template <class Real>
 struct ObstacleSet {
   int count = 0;
-  Obstacle3<Real> item[kMostObstacles];
+  Obstacle3<Real> item[kMaxObstacles];
 
   bool has_thin() const {  // solids that have another side
     for (int o = 0; o < count; ++o)

@@ -75,7 +75,7 @@ class SelfContact {
   double prepare(const Vec3<Real>* x, const Vec3<Real>* direction, const char* held, double max_step = 1);
   void moved(const Vec3<Real>* x);
   // Vertices that were held are free: the next prepare() looks for their pairs, too.
-  void look_anew() { pending_ = ready_; }
+  void invalidate_pairs() { pending_ = ready_; }
 
   // As in Contact.
   void lag(const Vec3<Real>* x);

@@ -29,11 +29,11 @@ std::string listed(const std::vector<std::pair<int, int>>& pairs) {
   return text;
 }
 
-void refuse_crossing(const Cloth& cloth) {
+void throw_if_crossing(const Cloth& cloth) {
   const auto pairs = intersecting_triangles(cloth.mesh.face, cloth.start);
   if (pairs.empty()) return;
-  throw Error::request("self-contact: the cloth passes through itself at the start: triangles " +
-                       listed(pairs) + "; move its parts apart, or weld what is one (cloth.weld)");
+  throw Error::invalid_input("self-contact: the cloth passes through itself at the start: triangles " +
+                             listed(pairs) + "; move its parts apart, or weld what is one (cloth.weld)");
 }
 
 struct NearPair {
@@ -67,38 +67,38 @@ std::string names(const SelfPair<double>& pair) {
   return "vertex " + std::to_string(pair.v[0]) + " and triangle " + std::to_string(pair.other);
 }
 
-void refuse_near(const Scene& scene, const Cloth& cloth) {
+void throw_if_near(const Scene& scene, const Cloth& cloth) {
   const std::vector<NearPair> found = too_near(scene, cloth);
   if (found.empty()) return;
   const NearPair* nearest = &found[0];
   for (const NearPair& near : found)
     if (near.distance < nearest->distance) nearest = &near;
-  throw Error::request("self-contact: the cloth starts too near to itself: " + names(nearest->pair) +
-                       " are " + millimetres(nearest->distance) + " apart and must be more than " +
-                       millimetres(least_distance(nearest->pair)) + " (fabric.thickness = " +
-                       millimetres(scene.fabric.thickness) + "; " + std::to_string(found.size()) +
-                       " such pairs in all): move its parts apart, or take a thinner fabric");
+  throw Error::invalid_input("self-contact: the cloth starts too near to itself: " + names(nearest->pair) +
+                             " are " + millimetres(nearest->distance) + " apart and must be more than " +
+                             millimetres(least_distance(nearest->pair)) + " (fabric.thickness = " +
+                             millimetres(scene.fabric.thickness) + "; " + std::to_string(found.size()) +
+                             " such pairs in all): move its parts apart, or take a thinner fabric");
 }
 
 // Cloth thicker than it is long has no layers: all of it is near at rest, and looked at in vain.
-void refuse_thick(const Scene& scene, const ClothMesh& mesh) {
+void throw_if_thick(const Scene& scene, const ClothMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : mesh.rest) box.extend(x);
   const double extent = box.diagonal().norm();
   if (scene.fabric.thickness < extent) return;
   const auto origin = scene.origin.find("fabric.thickness");
-  throw Error::request("self-contact: fabric.thickness = " + millimetres(scene.fabric.thickness) + " (" +
-                       (origin == scene.origin.end() ? "default" : origin->second) + ") must be < " +
-                       millimetres(extent) +
-                       ", the cloth's diagonal: take a thinner fabric or a larger cloth");
+  throw Error::invalid_input("self-contact: fabric.thickness = " + millimetres(scene.fabric.thickness) +
+                             " (" + (origin == scene.origin.end() ? "default" : origin->second) +
+                             ") must be < " + millimetres(extent) +
+                             ", the cloth's diagonal: take a thinner fabric or a larger cloth");
 }
 
-void refuse_immersed(const Scene& scene, const Cloth& cloth) {
+void throw_if_immersed(const Scene& scene, const Cloth& cloth) {
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, 0, 0);
   const Immersion found = deepest(set, cloth.start, cloth.held(scene, 0));
   if (found.count == 0) return;
   const auto origin = scene.origin.find("obstacle[" + std::to_string(found.obstacle) + "]");
-  throw Error::request(
+  throw Error::invalid_input(
       "obstacle: at the start " + immersion_text(found, scene.obstacle, cloth.start[found.vertex]) + ", of " +
       std::to_string(found.count) + " such vertices the deepest: move the cloth or the obstacle" +
       (origin == scene.origin.end() ? "" : " (" + origin->second + ")"));
@@ -108,11 +108,11 @@ void refuse_immersed(const Scene& scene, const Cloth& cloth) {
 
 void check_start(const Scene& scene, const Cloth& cloth) {
   if (scene.self_contact) {
-    refuse_thick(scene, cloth.mesh);
-    refuse_crossing(cloth);
-    refuse_near(scene, cloth);
+    throw_if_thick(scene, cloth.mesh);
+    throw_if_crossing(cloth);
+    throw_if_near(scene, cloth);
   }
-  refuse_immersed(scene, cloth);
+  throw_if_immersed(scene, cloth);
 }
 
 }  // namespace hysteron

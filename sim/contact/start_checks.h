@@ -5,7 +5,7 @@
 
 namespace hysteron {
 
-// Error::request, which names triangles, vertices, obstacles and distances, if
+// Error::invalid_input, which names triangles, vertices, obstacles and distances, if
 // - with `self-contact` the cloth is thicker than its diagonal is long, passes through itself, or has parts
 //   that are not held throughout as near as no step may bring them (least_distance(), self_touch.h): no way
 //   would be free;

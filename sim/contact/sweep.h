@@ -12,7 +12,7 @@
 
 namespace hysteron {
 
-inline constexpr int kMostAdvances = 100;  // then the rest of the segment counts as barred
+inline constexpr int kMaxAdvances = 100;  // then the rest of the segment counts as barred
 inline constexpr double kTouching =
     0.02;  // of the distance at the start, or of the thinnest part: this near the path ends
 
@@ -33,7 +33,7 @@ HYST_HD Real share_above(Real length, Real distance, Real depth, Real thinnest,
   if (!(first > 0)) return 0;
   const Real near = static_cast<Real>(kTouching) * (first < thinnest ? first : thinnest);
   Real gone = 0, free = first;
-  for (int k = 0; k < kMostAdvances; ++k) {
+  for (int k = 0; k < kMaxAdvances; ++k) {
     const Real safe = static_cast<Real>(1 - kTouching) * free, next = gone + (safe > near ? safe : near);
     const bool at_end = !(next < length);
     const Real reached = at_end ? length : next;

@@ -16,7 +16,7 @@ inline constexpr int kThreadsPerBlock = 128;
 
 inline void check_cuda(cudaError_t status, const char* name) {
   if (status != cudaSuccess)
-    throw Error::machine(std::string("GPU: ") + name + ": " + cudaGetErrorString(status));
+    throw Error::system(std::string("GPU: ") + name + ": " + cudaGetErrorString(status));
 }
 
 template <>
@@ -90,14 +90,14 @@ class KernelProfile<Cuda> {
 };
 
 // Loops of more blocks fill a GPU by themselves: a copy of 131,072 blocks took 168 us in place of 101.
-inline constexpr unsigned kMostEarlyBlocks = 4096;
+inline constexpr unsigned kMaxEarlyBlocks = 4096;
 
 // Where a GPU can, a loop's blocks come while the last ones of the loop before are at work, so that they are
 // there when it ends (programmatic dependent launch): here they wait for its end, and let the next loop's
 // come.  Every kernel that is launched so calls it first.
 __device__ inline void after_the_last_loop() {
 #if __CUDA_ARCH__ >= 900
-  if (gridDim.x > kMostEarlyBlocks) return;
+  if (gridDim.x > kMaxEarlyBlocks) return;
   asm volatile("griddepcontrol.wait;" ::: "memory");
   asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
 #endif
@@ -126,7 +126,7 @@ void launch_now(Cuda& cuda, const Kernel& kernel, const Loop& loop) {
   config.blockDim = kThreadsPerBlock;
   config.stream = cuda.stream;
   config.attrs = &early;
-  config.numAttrs = cuda.early_blocks && loop.blocks <= kMostEarlyBlocks ? 1 : 0;
+  config.numAttrs = cuda.early_blocks && loop.blocks <= kMaxEarlyBlocks ? 1 : 0;
   check_cuda(cudaLaunchKernelEx(&config, loop_kernel<Loop>, loop), kernel.name);
 }
 

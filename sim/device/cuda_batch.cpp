@@ -53,7 +53,7 @@ void CudaBatch::run(const std::function<void(int)>& job) {
 CudaBatch::Place CudaBatch::room(std::size_t size) {
   size = (size + kAlignment - 1) / kAlignment * kAlignment;
   if (member().used + size > kArena) {
-    if (member().repeats) throw Error::machine("GPU: a batch has no room for a round of a repeated loop");
+    if (member().repeats) throw Error::system("GPU: a batch has no room for a round of a repeated loop");
     wait();
   }
   const std::size_t offset = kArena * fibers_.current() + member().used;

@@ -44,7 +44,7 @@ class Stack {
     if (memory_ != MAP_FAILED && mprotect(memory_, kGuard, PROT_NONE) == 0) return;
     const int reason = errno;
     if (memory_ != MAP_FAILED) munmap(memory_, kGuard + kStack);
-    throw Error::machine(std::string("no memory for another job's stack: ") + std::strerror(reason));
+    throw Error::system(std::string("no memory for another job's stack: ") + std::strerror(reason));
   }
   ~Stack() { munmap(memory_, kGuard + kStack); }
   Stack(const Stack&) = delete;

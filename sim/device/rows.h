@@ -97,7 +97,7 @@ void for_each_row_sum(Cpu& cpu, const Kernel& kernel, int rows, const Body& body
 
 // Blocks of a sum over rows for each of one over elements, at most: rows keep more loads waiting.  An H100
 // runs them all at once if a thread takes no more than 40 registers, and the most if it takes 32.
-inline constexpr int kRowSumBlocksEach = 3, kMostSumBlocksEach = 4;
+inline constexpr int kRowSumBlocksEach = 3, kMaxSumBlocksEach = 4;
 
 #ifdef __CUDACC__
 inline constexpr int kWarpsPerBlock = kThreadsPerBlock / Warp::kCount;

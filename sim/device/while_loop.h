@@ -61,7 +61,7 @@ class WhileLoop<Cuda> {
   }
 
  private:
-  static constexpr std::size_t kMostKept = 8;
+  static constexpr std::size_t kMaxKept = 8;
   struct Kept {
     std::vector<const void*> key;
     const double* partial;  // scratch of sums, which grows
@@ -84,7 +84,7 @@ class WhileLoop<Cuda> {
     if (graph) cudaGraphDestroy(graph);
     cudaGetLastError();  // what is refused here must not be found by the next launch
     if (!works_) return nullptr;
-    if (kept_.size() == kMostKept) forget();
+    if (kept_.size() == kMaxKept) forget();
     kept_.push_back({key, cuda.partial, loop});
     return loop;
   }

@@ -11,7 +11,7 @@ namespace hysteron {
 class MomentModel : public CurveModel {
  public:
   // `law`: its curve is ignored.  `offset`: the instrument's zero over the largest moment is the nuisance.
-  // `cycling`: as law_rows().  Throws Error::request as run_law() does.
+  // `cycling`: as law_rows().  Throws Error::invalid_input as run_law() does.
   MomentModel(const MomentSeries& series, const LawRequest& law, bool offset, bool cycling);
 
   // Moments of the law at the series' rows [N], the offset added; not a number where the law does not take

@@ -130,8 +130,8 @@ DecaySeries read_decay(const std::filesystem::path& file, const std::string& rea
   const Table table = read_csv(file, {"time [s]", "amplitude [m]"}, {}, reader);
   DecaySeries series{table.find("time [s]")->values, table.find("amplitude [m]")->values};
   if (series.time.size() < kFewest)
-    throw Error::request(reader + ": " + file.string() + " has " + std::to_string(series.time.size()) +
-                         " amplitudes and must have at least " + std::to_string(kFewest));
+    throw Error::invalid_input(reader + ": " + file.string() + " has " + std::to_string(series.time.size()) +
+                               " amplitudes and must have at least " + std::to_string(kFewest));
   for (std::size_t i = 0; i < series.time.size(); ++i) {
     if (i > 0 && !(series.time[i] > series.time[i - 1]))
       throw table.refusal(i, "time must rise from turn to turn");

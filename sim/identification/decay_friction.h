@@ -19,8 +19,8 @@ namespace hysteron {
 struct DecaySeries {
   std::vector<double> time, amplitude;  // of each turn, all on one side or on both [s], [m]
 };
-// Columns `time [s]`, `amplitude [m]`.  Throws Error::machine, Error::request: too few rows, times that do
-// not rise, amplitudes <= 0.
+// Columns `time [s]`, `amplitude [m]`.  Throws Error::system, Error::invalid_input: too few rows, times that
+// do not rise, amplitudes <= 0.
 DecaySeries read_decay(const std::filesystem::path& file, const std::string& reader);
 
 struct DecayQuestion {

@@ -202,14 +202,14 @@ Decay decay_of(const std::vector<Amplitude>& all, double largest) {
   const auto take_from = [&](std::size_t first) {
     decay.first = first;
     decay.used = all.size() - first;
-    if (decay.used >= kLeastAmplitudes)
+    if (decay.used >= kMinAmplitudes)
       decay.per_turn =
           1 - std::pow(all.back().value / all[first].value, 1 / static_cast<double>(decay.used - 1));
-    return decay.used >= kLeastAmplitudes;
+    return decay.used >= kMinAmplitudes;
   };
   const std::size_t first = first_of_one_mode(all);
   if (!take_from(first)) return decay;
-  if (decay.per_turn < kPlateau && all.back().value > (1 - kLeastFall) * all[first].value) {
+  if (decay.per_turn < kPlateau && all.back().value > (1 - kMinFall) * all[first].value) {
     decay.shape = DecayShape::plateau;
     return decay;
   }
@@ -230,7 +230,7 @@ Decay decay_of(const std::vector<Amplitude>& all, double largest) {
     return !(one_line && fit.shape == DecayShape::two_step);
   });
   decay.margin = rival->criterion - decay.best().criterion;
-  if (decay.margin >= kLeastMargin && all.back().value <= (1 - kLeastFall) * all[decay.first].value)
+  if (decay.margin >= kMinMargin && all.back().value <= (1 - kMinFall) * all[decay.first].value)
     decay.shape = decay.best().shape;
   return decay;
 }

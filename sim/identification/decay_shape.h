@@ -56,16 +56,16 @@ enum class DecayShape {
   exponential,
   hyperbolic,
   plateau,  // a turn takes less than kPlateau: nothing brakes
-  unknown,  // too few amplitudes, they fall by less than kLeastFall, or two shapes describe them alike
+  unknown,  // too few amplitudes, they fall by less than kMinFall, or two shapes describe them alike
 };
 std::string name_of(DecayShape shape);
 
-constexpr double kPlateau = 0.01;            // of the amplitude, in a turn
-constexpr std::size_t kLeastAmplitudes = 6;  // two lines of three each
-constexpr double kLeastFall = 0.2;           // of the first one by the last: of less, shapes are the same
+constexpr double kPlateau = 0.01;          // of the amplitude, in a turn
+constexpr std::size_t kMinAmplitudes = 6;  // two lines of three each
+constexpr double kMinFall = 0.2;           // of the first one by the last: of less, shapes are the same
 // Of the criterion: less is "not worth more than a bare mention", and less "positive", not "strong" (Kass &
 // Raftery 1995).
-constexpr double kLeastMargin = 2, kClearMargin = 6;
+constexpr double kMinMargin = 2, kClearMargin = 6;
 // Of a swing: what goes back by less is a higher mode's ripple on it.
 constexpr double kSwingRipple = 0.25;
 

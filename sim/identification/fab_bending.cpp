@@ -214,10 +214,10 @@ FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBen
   const LeastSquares best =
       minimize([&](const VectorXd& p) { return model.residuals(p); }, model.start(), low, high);
   if (!best.residuals.allFinite())
-    throw Error::run("along " + loops[0].direction +
-                     " no equilibrium is found of a strip as stiff as its loops' " +
-                     "work suggests, b2 = " + rounded(model.prior_spring()) +
-                     " N m: check gauge, width, density and the units of forces");
+    throw Error::simulation("along " + loops[0].direction +
+                            " no equilibrium is found of a strip as stiff as its loops' " +
+                            "work suggests, b2 = " + rounded(model.prior_spring()) +
+                            " N m: check gauge, width, density and the units of forces");
   FabBending found;
   found.direction = loops[0].direction;
   found.law = model.law(best.parameters);

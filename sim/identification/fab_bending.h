@@ -78,7 +78,7 @@ struct FabBending {
   std::vector<std::string> undetermined() const;  // "b2", "stop 128/m", ...; of a shape "median", "spread"
 };
 
-// From loops of one direction that bend.  Throws Error::request if a cycle is not there.
+// From loops of one direction that bend.  Throws Error::invalid_input if a cycle is not there.
 FabBending identify_fab_bending(const std::vector<FabLoops>& loops, const FabBendingQuestion& question);
 
 // The same in another form of friction: the fit, and how much worse it meets the loops than `best` does.

@@ -11,8 +11,8 @@ void check_cycles(const std::vector<FabLoops>& loops, const std::vector<int>& cy
   for (const FabLoops& one : loops)
     for (const int cycle : cycles)
       if (cycle < 1 || cycle > one.cycles())
-        throw Error::request("cycle " + std::to_string(cycle) + " of " + one.name() + " must be 1 to " +
-                             std::to_string(one.cycles()))
+        throw Error::invalid_input("cycle " + std::to_string(cycle) + " of " + one.name() + " must be 1 to " +
+                                   std::to_string(one.cycles()))
             .of("fab.cycles", std::to_string(cycle));
 }
 

@@ -16,7 +16,7 @@ struct FabRow {
   double force, weight;  // [N/m]; over the noise [m/N]
 };
 
-// Throws Error::request unless all loops have the cycles, the first being 1.
+// Throws Error::invalid_input unless all loops have the cycles, the first being 1.
 void check_cycles(const std::vector<FabLoops>& loops, const std::vector<int>& cycles);
 
 // Of all branches of these cycles, without a weight yet.

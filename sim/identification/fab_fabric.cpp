@@ -168,7 +168,7 @@ StripDirection strip_direction(const std::string& name) {
   if (name == "L" || name == "warp") return StripDirection::warp;
   if (name == "W" || name == "weft") return StripDirection::weft;
   if (name == "B" || name == "bias") return StripDirection::bias;
-  throw Error::request("direction = " + name + " must be L (warp) | W (weft) | B (bias)")
+  throw Error::invalid_input("direction = " + name + " must be L (warp) | W (weft) | B (bias)")
       .of("fab.direction", name);
 }
 

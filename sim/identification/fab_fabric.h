@@ -34,7 +34,7 @@ void write_fab_fabric(const std::filesystem::path& file, const FabIdentification
 // Along which a strip is cut.
 enum class StripDirection { warp, weft, bias };
 
-// Of "L" or "warp", "W" or "weft", "B" or "bias"; Error::request for others.
+// Of "L" or "warp", "W" or "weft", "B" or "bias"; Error::invalid_input for others.
 StripDirection strip_direction(const std::string& name);
 
 // The laws that a strip cut along one of three directions follows.

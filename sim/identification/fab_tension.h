@@ -32,7 +32,7 @@ struct FabTension {
   std::vector<std::string> undetermined() const;  // "warp spring", "stop 0.08"
 };
 
-// From loops of one direction that stretch.  Throws Error::request if a cycle is not there.
+// From loops of one direction that stretch.  Throws Error::invalid_input if a cycle is not there.
 FabTension identify_fab_tension(const std::vector<FabLoops>& loops, const FabTensionQuestion& question);
 
 }  // namespace hysteron

@@ -41,7 +41,7 @@ std::string given_or_default(const std::string& name, const std::optional<double
 }
 
 // What a scene would refuse of the fabric, before it has its name.
-void refuse_unreadable(const std::string& temporary, const std::string& file) {
+void throw_if_unreadable(const std::string& temporary, const std::string& file) {
   Scene scene;
   try {
     scene.fabric = read_fabric(temporary, "fit").fabric;
@@ -50,7 +50,7 @@ void refuse_unreadable(const std::string& temporary, const std::string& file) {
     std::string reason = error.what();
     for (std::size_t at; (at = reason.find(temporary)) != reason.npos;)
       reason.replace(at, temporary.size(), file);
-    throw Error::run("the numbers found are no fabric's, and none is written: " + reason);
+    throw Error::simulation("the numbers found are no fabric's, and none is written: " + reason);
   }
 }
 
@@ -88,7 +88,7 @@ std::string fabric_text(const Identification& found, const FabricNotes& notes) {
 void write_fabric_text(const std::filesystem::path& file, const std::string& text) {
   AtomicFile target(file.string());
   target.stream() << text;
-  if (target.stream().flush()) refuse_unreadable(target.temporary(), file.string());
+  if (target.stream().flush()) throw_if_unreadable(target.temporary(), file.string());
   target.commit();
 }
 

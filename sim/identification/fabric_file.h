@@ -25,7 +25,7 @@ std::vector<std::string> borrowed_warnings(const FabricNotes& notes);
 std::string fabric_text(const Identification& found, const FabricNotes& notes);
 
 // Writes what read_fabric() takes and scenes accept: it is read back before it gets its name.  Throws
-// Error::run where it would be refused, Error::machine.
+// Error::simulation where it would be refused, Error::system.
 void write_fabric_text(const std::filesystem::path& file, const std::string& text);
 void write_fabric(const std::filesystem::path& file, const Identification& found, const FabricNotes& notes);
 

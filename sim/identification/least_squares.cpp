@@ -16,7 +16,7 @@ namespace {
 
 // Of a parameter of order one: central differences then lose about 1e-8 to truncation and 1e-12 to rounding.
 constexpr double kDifference = 1e-4;
-constexpr int kMostIterations = 500;
+constexpr int kMaxIterations = 500;
 
 Eigen::MatrixXd jacobian_of(const Residuals& residuals, const Eigen::VectorXd& at) {
   Eigen::MatrixXd jacobian;
@@ -83,7 +83,7 @@ LeastSquares minimize(const Residuals& residuals, const Eigen::VectorXd& start, 
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = kMostIterations;
+  options.max_num_iterations = kMaxIterations;
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-14;

@@ -32,7 +32,7 @@ Identification identify_table(const MomentTable& table, const std::string& name,
 
 void check_table(const MomentTable& table, const std::string& name) {
   const double bend = *std::max_element(table.curvature.begin(), table.curvature.end());
-  if (!(bend > 0)) throw Error::request(name + ": the strip does not bend down: it has no curvature");
+  if (!(bend > 0)) throw Error::invalid_input(name + ": the strip does not bend down: it has no curvature");
   check_rigidity(table.moment.back() / bend, "moment over curvature at the clamp of " + name);
 }
 
@@ -108,7 +108,7 @@ namespace {
 
 constexpr int kFewestPoints = 12;
 constexpr double kShortest = 5e-3, kLongest = 2;  // [m] of a strip: otherwise other units
-constexpr int kMostTerms = 10;
+constexpr int kMaxTerms = 10;
 constexpr double kBackwards = 0.02;  // noise of x in a strip that hangs straight down, over its span
 constexpr int kNear = 8;             // segments searched to both sides of where a point lies by its chord
 
@@ -130,7 +130,7 @@ void check_order(const Profile& profile, const Table& table) {
 
 void check_profile(const Profile& profile, const Table& table) {
   const auto refused = [&](const std::string& what) {
-    return Error::request(table.file + ": " + what).in(table.reader);
+    return Error::invalid_input(table.file + ": " + what).in(table.reader);
   };
   const auto& p = profile.points;
   if (static_cast<int>(p.size()) < kFewestPoints) {
@@ -266,7 +266,7 @@ SmoothProfile smooth(const Profile& profile) {
   SmoothProfile best, line;
   double least = INFINITY;
   int iterations = 0;
-  for (int terms = 1; terms <= std::min(kMostTerms, rows / 4); ++terms) {
+  for (int terms = 1; terms <= std::min(kMaxTerms, rows / 4); ++terms) {
     Eigen::VectorXd start = start_of(profile, terms);
     if (terms > 1) start.head(line.parameters.size()) = line.parameters;
     line = smooth_with(profile, start);

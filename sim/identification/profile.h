@@ -23,8 +23,8 @@ struct Profile {
   std::vector<Eigen::Vector2d> points;  // centre line from the clamp to the free end [m]
 };
 
-// Columns `x [m]`, `y [m]`.  Throws Error::machine, and Error::request for fewer than 12 points, points that
-// go back (a cantilever under its own weight runs on or down), an end that is not below the clamp, and
+// Columns `x [m]`, `y [m]`.  Throws Error::system, and Error::invalid_input for fewer than 12 points, points
+// that go back (a cantilever under its own weight runs on or down), an end that is not below the clamp, and
 // lengths that no test has.
 Profile read_profile(const std::filesystem::path& file, const std::string& reader);
 
@@ -49,8 +49,8 @@ MomentTable moment_table(const SmoothProfile& line, double weight);
 
 // The virgin curve: first through that table, then, because a smooth line rounds bends off and its errors
 // hang together, so that a strip with this virgin curve hangs nearest to the points.  Data and residuals are
-// the table's.  Throws Error::request if the profile does not bend down, or shows a stiffness that no fabric
-// has.
+// the table's.  Throws Error::invalid_input if the profile does not bend down, or shows a stiffness that no
+// fabric has.
 Identification identify_profile(const Profile& profile, double density, const Assumptions& assumptions);
 
 // Inside of the smooth centre line: shared by its fit and by what is read from it.

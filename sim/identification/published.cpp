@@ -24,7 +24,7 @@ double square(double x) { return x * x; }
 
 void check_c1(double c1, const std::string& where) {
   if (c1 < 0) return;
-  throw Error::request(
+  throw Error::invalid_input(
       where + " = " + number_text(c1) +
       " N m^2 must be < 0: with c1 >= 0 the fabric stiffens as it bends, and k0 = (b2 - b1)/(2 "
       "c1), where friction saturates and stiffness has fallen to b2 <= b1, does not exist")
@@ -87,9 +87,9 @@ Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& 
   const double b1 = numbers.b1.value, c1 = numbers.c1.value, b2 = assumptions.ratio * b1;
   const double k0 = (b2 - b1) / (2 * c1);
   if (!(k0 >= kSmallestK0 && k0 <= kLargestK0))
-    throw Error::request("virgin.c1 = " + number_text(c1) + " N m^2 makes k0 = (b2 - b1)/(2 c1) = " +
-                         rounded(k0) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
-                         number_text(kLargestK0) + "] 1/m; 1 gf cm^3/cm is 9.80665e-07 N m^2")
+    throw Error::invalid_input("virgin.c1 = " + number_text(c1) + " N m^2 makes k0 = (b2 - b1)/(2 c1) = " +
+                               rounded(k0) + " 1/m, must be in [" + number_text(kSmallestK0) + ", " +
+                               number_text(kLargestK0) + "] 1/m; 1 gf cm^3/cm is 9.80665e-07 N m^2")
         .of("virgin.c1", number_text(c1));
   Identification result;
   result.law = "prandtl";
@@ -126,18 +126,18 @@ namespace {
 void check_kes(const KesNumbers& numbers) {
   const double b = numbers.b.value, hb = numbers.two_hb.value / 2;
   if (!(b > 0)) {
-    throw Error::request("kes.b = " + number_text(b) +
-                         " N m must be > 0: a fabric that does not resist bending has no slope")
+    throw Error::invalid_input("kes.b = " + number_text(b) +
+                               " N m must be > 0: a fabric that does not resist bending has no slope")
         .of("kes.b", number_text(b));
   }
   check_rigidity(b, "kes.b");
   if (!(hb >= 0)) {
-    throw Error::request("kes.2hb = " + number_text(2 * hb) +
-                         " N must be >= 0: a loop that gives work back has no width")
+    throw Error::invalid_input("kes.2hb = " + number_text(2 * hb) +
+                               " N must be >= 0: a loop that gives work back has no width")
         .of("kes.2hb", number_text(2 * hb));
   }
   if (hb / b > kLargestHbOverB) {
-    throw Error::request(
+    throw Error::invalid_input(
         "kes.2hb = " + number_text(2 * hb) + " N must be at most " + rounded(2 * kLargestHbOverB * b) +
         " N: HB/B = " + rounded(hb / b) +
         " 1/m would leave folds of a radius below a millimetre; KES prints gf cm/cm, which is "
@@ -185,8 +185,8 @@ Identification identify_kes(const KesNumbers& numbers, const Assumptions& assump
   const double b = numbers.b.value, k0 = known ? numbers.k0.value : assumptions.k0;
   const double b1 = b + numbers.two_hb.value / k0;
   if (b1 > kGreatestRigidity)
-    throw Error::request("k0 = " + number_text(k0) + " 1/m makes b1 = B + 2HB/k0 = " + rounded(b1) +
-                         " N m, must be <= " + number_text(kGreatestRigidity) + " N m, as fabrics are")
+    throw Error::invalid_input("k0 = " + number_text(k0) + " 1/m makes b1 = B + 2HB/k0 = " + rounded(b1) +
+                               " N m, must be <= " + number_text(kGreatestRigidity) + " N m, as fabrics are")
         .of(known ? "kes.k0" : "assume.k0", number_text(k0));
   Identification result;
   result.law = "prandtl";

@@ -21,12 +21,12 @@ struct VirginNumbers {
 };
 
 // Means over the rows of a file, the specimens of one fabric; standard errors of the means from their
-// scatter. Columns `b1 [N m]`, `c1 [N m2]`.  Throws Error::machine, Error::request (a row with c1 >= 0 is
-// named).
+// scatter. Columns `b1 [N m]`, `c1 [N m2]`.  Throws Error::system, Error::invalid_input (a row with c1 >= 0
+// is named).
 VirginNumbers read_virgin(const std::filesystem::path& file, const std::string& reader);
 
-// k0 = (b2 - b1)/(2 c1) with b2 = ratio b1.  Throws Error::request for b1 that no fabric has, and for c1 >=
-// 0.
+// k0 = (b2 - b1)/(2 c1) with b2 = ratio b1.  Throws Error::invalid_input for b1 that no fabric has, and for
+// c1 >= 0.
 Identification identify_virgin(const VirginNumbers& numbers, const Assumptions& assumptions);
 
 // What KES-FB2 (Kawabata 1980) prints of a pure bending test.
@@ -36,7 +36,8 @@ struct KesNumbers {
   Measured k0;      // [1/m]; not printed by KES
 };
 
-// b2 = B, b1 = B + 2HB/k0.  Throws Error::request for B <= 0, 2HB < 0 and for magnitudes that no fabric has.
+// b2 = B, b1 = B + 2HB/k0.  Throws Error::invalid_input for B <= 0, 2HB < 0 and for magnitudes that no fabric
+// has.
 Identification identify_kes(const KesNumbers& numbers, const Assumptions& assumptions);
 
 }  // namespace hysteron

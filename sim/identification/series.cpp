@@ -106,22 +106,22 @@ constexpr double kFewestRowsOfAWay = 2;
 
 void check_order(const MomentSeries& series) {
   if (series.rows() >= kFewestRowsOfAWay * (series.reversals + 1)) return;
-  throw Error::request(series.name + ": the curvature turns " + std::to_string(series.reversals) +
-                       " times in " + std::to_string(series.rows()) +
-                       " rows, which must stand in the order in which they were measured");
+  throw Error::invalid_input(series.name + ": the curvature turns " + std::to_string(series.reversals) +
+                             " times in " + std::to_string(series.rows()) +
+                             " rows, which must stand in the order in which they were measured");
 }
 
 void check_magnitudes(const MomentSeries& series) {
   const double slope = overall_slope(series);
   if (!(slope > 0)) {
-    throw Error::request(series.name + ": moments fall with curvature (slope " + rounded(slope) +
-                         " N m), and must rise: turn the sign of one of the columns");
+    throw Error::invalid_input(series.name + ": moments fall with curvature (slope " + rounded(slope) +
+                               " N m), and must rise: turn the sign of one of the columns");
   }
   check_rigidity(slope, "the slope of " + series.name);
   if (series.reversals > 0 && relative_work(series) < -kWorkOfNoise) {
-    throw Error::request(series.name +
-                         ": along its rows the fabric gives back more work than it takes; the "
-                         "rows run backwards in time");
+    throw Error::invalid_input(series.name +
+                               ": along its rows the fabric gives back more work than it takes; the "
+                               "rows run backwards in time");
   }
 }
 
@@ -150,7 +150,9 @@ class CurveFile {
   }
 
  private:
-  Error refusal(const std::string& what) const { return Error::request(name_ + ": " + what).in(reader_); }
+  Error refusal(const std::string& what) const {
+    return Error::invalid_input(name_ + ": " + what).in(reader_);
+  }
 
   // -1 where no column has that quantity.
   int column(const std::string& quantity) const {
@@ -206,9 +208,9 @@ class CurveFile {
     for (std::size_t i = 0; i < time.size(); ++i) {
       seconds.push_back(i == 0 ? 0 : time[i] - time[i - 1]);
       if (seconds.back() >= 0) continue;
-      throw Error::request(name_ + ":" + std::to_string(table_.lines[i]) +
-                           ": time = " + number_text(time[i]) + " s must be >= " + number_text(time[i - 1]) +
-                           " s, the time of the row before")
+      throw Error::invalid_input(
+          name_ + ":" + std::to_string(table_.lines[i]) + ": time = " + number_text(time[i]) +
+          " s must be >= " + number_text(time[i - 1]) + " s, the time of the row before")
           .in(reader_);
     }
     return seconds;
@@ -227,11 +229,11 @@ double MomentSeries::largest_curvature() const { return largest_magnitude(drive)
 double MomentSeries::largest_moment() const { return largest_magnitude(moment); }
 
 void check_rigidity(double value, const std::string& what) {
-  if (value >= kLeastRigidity && value <= kGreatestRigidity) return;
+  if (value >= kMinRigidity && value <= kGreatestRigidity) return;
   const bool large = value > kGreatestRigidity;
   const double factor = kGramForceSquareCentimetrePerCentimetre;
-  throw Error::request(
-      what + " = " + rounded(value) + " N m must be in [" + number_text(kLeastRigidity) + ", " +
+  throw Error::invalid_input(
+      what + " = " + rounded(value) + " N m must be in [" + number_text(kMinRigidity) + ", " +
       number_text(kGreatestRigidity) + "] N m, as fabrics are; " +
       (large ? "KES prints gf cm^2/cm, which is 9.80665e-05 N m (moments in gf cm/cm: 0.00980665 N, "
                "curvatures in 1/cm: 100/m), and times 9.80665e-05 it is "
@@ -241,17 +243,17 @@ void check_rigidity(double value, const std::string& what) {
 
 void prepare(MomentSeries& series, double ripple) {
   if (series.rows() < kFewestRows) {
-    throw Error::request(series.name + ": " + std::to_string(series.rows()) + " rows, at least " +
-                         std::to_string(kFewestRows) + " are needed");
+    throw Error::invalid_input(series.name + ": " + std::to_string(series.rows()) + " rows, at least " +
+                               std::to_string(kFewestRows) + " are needed");
   }
   const double range = range_of(series.curvature);
   if (!(range > 0)) {
-    throw Error::request(series.name + ": the curvature is " + number_text(series.curvature.front()) +
-                         " 1/m in all rows, and must vary");
+    throw Error::invalid_input(series.name + ": the curvature is " + number_text(series.curvature.front()) +
+                               " 1/m in all rows, and must vary");
   }
   if (!(range_of(series.moment) > 0)) {
-    throw Error::request(series.name + ": the moment is " + number_text(series.moment.front()) +
-                         " N in all rows, and must vary");
+    throw Error::invalid_input(series.name + ": the moment is " + number_text(series.moment.front()) +
+                               " N in all rows, and must vary");
   }
   const std::vector<int> turns = turning_rows(series.curvature, ripple * range);
   series.reversals = static_cast<int>(turns.size()) - 2;

@@ -26,8 +26,8 @@ struct MomentSeries {
 
 // Columns `curvature [1/m]`, `moment [N]`, optional `time [s]`, in a table as testers write it
 // (tester_table.h). `ripple`: curvature that comes back by less than this share of its range is noise. Throws
-// Error::machine, and Error::request for a file that is no moment-curvature curve: other units, which are
-// named with the flag that converts them, few rows, constant curvature or moments, moments that fall with
+// Error::system, and Error::invalid_input for a file that is no moment-curvature curve: other units, which
+// are named with the flag that converts them, few rows, constant curvature or moments, moments that fall with
 // curvature, rows out of order or backwards, magnitudes that no fabric has (other units).
 MomentSeries read_series(const std::filesystem::path& file, double ripple, const std::string& reader);
 
@@ -41,11 +41,11 @@ void prepare(MomentSeries& series, double ripple);
 std::vector<LawRow> law_rows(const MomentSeries& series, bool cycling);
 
 inline constexpr int kFewestRows = 8;              // three parameters, and five to see that they fit
-inline constexpr double kLeastRigidity = 1e-8;     // [N m] no fabric is limper
+inline constexpr double kMinRigidity = 1e-8;       // [N m] no fabric is limper
 inline constexpr double kGreatestRigidity = 1e-3;  // [N m] no fabric is stiffer
 
-// Throws Error::request if `value` [N m] is no rigidity of a fabric, and says by which factor it is one.
-// `what`: "kes.b", "the slope of loop.csv".
+// Throws Error::invalid_input if `value` [N m] is no rigidity of a fabric, and says by which factor it is
+// one. `what`: "kes.b", "the slope of loop.csv".
 void check_rigidity(double value, const std::string& what);
 
 }  // namespace hysteron

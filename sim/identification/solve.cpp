@@ -187,7 +187,7 @@ Solution solve(const CurveModel& model) {
   const CurvePoint start = *std::min_element(
       scan.begin(), scan.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.sum < b.sum; });
   if (!std::isfinite(start.sum))
-    throw Error::run("no b1, b2 and k0 were found with which the law says anything of these data");
+    throw Error::simulation("no b1, b2 and k0 were found with which the law says anything of these data");
   const Eigen::VectorXd first = model.parameters(start);
   const int size = static_cast<int>(first.size());
   const LeastSquares fit = minimize([&](const Eigen::VectorXd& p) { return model.residuals(model.point(p)); },

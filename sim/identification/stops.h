@@ -24,7 +24,7 @@ struct StopsIdentification {
   bool converged = false;
 };
 
-inline constexpr int kMostFittedStops = 16;
+inline constexpr int kMaxFittedStops = 16;
 
 // Moments of the elements along accepted steps [N].
 std::vector<double> stops_moments(double b2, const std::vector<Stop>& stops, const std::vector<LawRow>& rows);

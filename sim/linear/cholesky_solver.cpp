@@ -197,13 +197,13 @@ void SparseCholesky::solve(double* x) const {
 
 namespace {
 
-constexpr int kMostIterations = 20000;
+constexpr int kMaxIterations = 20000;
 constexpr int kWithNew = 2;  // iterations that a new factorisation takes, too
 // What a number of the factor costs in an iteration's two triangular solves, in multiplications of a
 // factorisation, which work on what is in the cache.
 constexpr double kMultiplicationsOfEntry = 12;
 constexpr double kAssembly = 1.5;  // factorisation with assembly over without, at least
-constexpr int kLeastWorth = 6;
+constexpr int kMinWorth = 6;
 
 }  // namespace
 
@@ -290,9 +290,8 @@ void CholeskySolver<Real>::renew(const System& system, const char* held) {
 template <class Real>
 int CholeskySolver<Real>::worth() const {
   const Elimination& plan = factor_->plan();
-  return std::max(kLeastWorth,
-                  static_cast<int>(kAssembly * plan.multiplications /
-                                   (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
+  return std::max(kMinWorth, static_cast<int>(kAssembly * plan.multiplications /
+                                              (kMultiplicationsOfEntry * static_cast<double>(plan.entries))));
 }
 
 template <class Real>
@@ -311,7 +310,7 @@ PcgOutcome CholeskySolver<Real>::solve(const System& system, const char* held, c
     before = outcome.iterations;
   }
   renew(system, held);
-  const PcgOutcome outcome = attempt(kMostIterations);
+  const PcgOutcome outcome = attempt(kMaxIterations);
   return {before + outcome.iterations, outcome.converged};
 }
 

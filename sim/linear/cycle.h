@@ -137,9 +137,9 @@ struct Combination {
 // The loops of a cycle over some levels, for one launch (levels_in_one_launch.h).
 template <class Real>
 struct CycleView {
-  static constexpr int kMost = 4;
+  static constexpr int kMax = 4;
   int levels = 0, swept = 0;  // the last is inverted densely unless it is swept
-  CoarseLevelView<Real> level[kMost] = {};
+  CoarseLevelView<Real> level[kMax] = {};
   DenseRow<Real> dense = {};
   Combination<Real> combination = {};  // of which r, z and scalars are the caller's
 };

@@ -30,7 +30,7 @@ template <class Real>
 class DenseInverse<Real, Cpu> {
  public:
   // A level of so many nodes at most is inverted rather than coarsened; one that cannot be coarsened well, of
-  // kMost.
+  // kMax.
   static int enough(const Cpu&) { return 24; }
   static int most(const Cpu&) { return 96; }
 

@@ -71,7 +71,7 @@ template <class Real>
 __device__ void invert(const Tile& tile, double* inverse) {
   constexpr int kShare = kTile / 4;
   // A direction without stiffness beyond rounding gets that of the rounding; the diagonal was 1.
-  constexpr double kLeast = 2 * std::numeric_limits<Real>::epsilon();
+  constexpr double kMin = 2 * std::numeric_limits<Real>::epsilon();
   __shared__ double shared_column[2][kTile], shared_inverse[2];
   const int row = threadIdx.x / 4, first = threadIdx.x % 4 * kShare;
   double a[kShare];
@@ -83,7 +83,7 @@ __device__ void invert(const Tile& tile, double* inverse) {
       double* column = shared_column[q % 2];
       if (threadIdx.x % 4 == part) {
         column[row] = a[q];
-        if (row == pivot) shared_inverse[q % 2] = 1 / max(a[q], kLeast);
+        if (row == pivot) shared_inverse[q % 2] = 1 / max(a[q], kMin);
       }
       __syncthreads();
       const double inverse_pivot = shared_inverse[q % 2], mine = column[row] * inverse_pivot;

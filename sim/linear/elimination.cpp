@@ -117,7 +117,7 @@ std::vector<int> ranks(const std::vector<int>& order) {
 std::vector<int> minimum_degree_order(const Graph& graph) {
   std::vector<int> order(graph.size());
   if (amd_order(graph.size(), graph.start.data(), graph.neighbour.data(), order.data(), nullptr, nullptr) < 0)
-    throw Error::machine("the linear system is too large to be factorised: linear-solver = multigrid");
+    throw Error::system("the linear system is too large to be factorised: linear-solver = multigrid");
   return order;
 }
 

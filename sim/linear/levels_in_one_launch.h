@@ -8,9 +8,9 @@
 namespace hysteron {
 
 // Rows beyond which launches of their own are faster (an H100: 66,000 rows are not yet, 150,000 are).
-inline constexpr int kMostRowsInOneLaunch = 80000;
+inline constexpr int kMaxRowsInOneLaunch = 80000;
 // Nodes of a level whose eigenvalue is found in one launch: warps take a row each.
-inline constexpr int kMostNodesInOneLaunch = kMostRowsByWarps;
+inline constexpr int kMaxNodesInOneLaunch = kMaxRowsByWarps;
 
 inline bool may_take_one_launch(const Cpu&) { return false; }
 // False: the caller orders the loops, with the same bits.

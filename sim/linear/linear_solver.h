@@ -25,8 +25,8 @@ class BlockJacobiSolver : public LinearSolver<Real, Device> {
   BlockJacobiSolver(Device& device, int rows) : pcg_(device, rows) {}
   PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                    Vec3<Real>* x, double tolerance) override {
-    constexpr int kMostIterations = 20000;
-    return pcg_.solve(system, held, rhs, nullptr, nullptr, x, {tolerance, kMostIterations});
+    constexpr int kMaxIterations = 20000;
+    return pcg_.solve(system, held, rhs, nullptr, nullptr, x, {tolerance, kMaxIterations});
   }
   void visit(Archive& archive) override { pcg_.visit(archive); }
   std::size_t bytes() const override { return pcg_.bytes(); }

@@ -32,7 +32,7 @@ double plate_change(int level) {
 template <class Device, class Body, class Finish>
 void sum_over_vertices(Device& device, const Kernel& kernel, int n, const Body& body, const Finish& finish) {
   if constexpr (Device::kGpu) {
-    if (n > kMostRowsInOneLaunch) return for_each_sum<1>(device, kernel, n, body, finish, kMostSumBlocksEach);
+    if (n > kMaxRowsInOneLaunch) return for_each_sum<1>(device, kernel, n, body, finish, kMaxSumBlocksEach);
   }
   for_each_sum<1>(device, kernel, n, body, finish);
 }
@@ -104,7 +104,7 @@ void Multigrid<Real, Device>::rebuild(BlockRowsView<Real> matrix, const Mat3<Rea
     coarsen(l == 0 ? matrix : level_[l - 1].view().matrix, l == 0 ? held : nullptr,
             static_cast<Real>(plate_change(static_cast<int>(l))) * bending, level_[l]);
   for (int l = 0; l < swept(); ++l) {
-    if (may_take_one_launch(device_) && has_view_from(l) && level_[l].nodes <= kMostNodesInOneLaunch &&
+    if (may_take_one_launch(device_) && has_view_from(l) && level_[l].nodes <= kMaxNodesInOneLaunch &&
         eigenvalues_in_one_launch(device_, view_from(l)))
       break;
     find_eigenvalue(level_[l]);
@@ -169,7 +169,7 @@ Combination<Real> Multigrid<Real, Device>::combination(const Vec3<Real>* r, Vec3
 
 template <class Real, class Device>
 bool Multigrid<Real, Device>::has_view_from(int first) const {
-  return coarse() - first <= CycleView<Real>::kMost;
+  return coarse() - first <= CycleView<Real>::kMax;
 }
 
 template <class Real, class Device>

@@ -17,7 +17,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
 
   PcgOutcome solve(const LinearSystem<Real, Device>& system, const char* held, const Vec3<Real>* rhs,
                    Vec3<Real>* x, double tolerance) override {
-    constexpr int kMostIterations = 20000;
+    constexpr int kMaxIterations = 20000;
     const bool renews = is_stale_;
     if (renews)
       multigrid_.rebuild(system.matrix, system.rest_diagonal, rigidity_, held);
@@ -26,7 +26,7 @@ class MultigridSolver : public LinearSolver<Real, Device> {
     LinearSystem<Real, Device> preconditioned = system;
     preconditioned.preconditioner = &multigrid_;
     const PcgOutcome outcome =
-        pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, kMostIterations});
+        pcg_.solve(preconditioned, held, rhs, nullptr, nullptr, x, {tolerance, kMaxIterations});
     if (renews) iterations_when_new_ = outcome.iterations / decades(tolerance);
     is_stale_ = outcome.iterations > iterations_when_new_ * decades(tolerance) + multigrid_.worth();
     return outcome;

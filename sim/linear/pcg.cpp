@@ -15,7 +15,7 @@ Pcg<Real, Device>::Pcg(Device& device, int rows, bool preconditioned)
       z_(device, rows),
       p_(device, rows),
       q_(device, rows),
-      other_p_(device, Device::kGpu && rows <= kMostRowsInOneLaunch ? rows : 0),
+      other_p_(device, Device::kGpu && rows <= kMaxRowsInOneLaunch ? rows : 0),
       scalars_(device, 1) {}
 
 template <class Real, class Device>
@@ -40,7 +40,7 @@ SystemProduct<Real> product_of(const LinearSystem<Real, Device>& system, const V
 // 32 registers in single precision, 40 in double.  Fewer rows are summed as in one launch.
 template <class Real>
 int blocks_each(int rows) {
-  return sizeof(Real) == 4 && rows > kMostRowsInOneLaunch ? kMostSumBlocksEach : kRowSumBlocksEach;
+  return sizeof(Real) == 4 && rows > kMaxRowsInOneLaunch ? kMaxSumBlocksEach : kRowSumBlocksEach;
 }
 
 // Sent to a GPU between two questions whether they were enough.

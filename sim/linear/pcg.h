@@ -22,8 +22,8 @@ struct PcgOutcome {
 
 // How many times the tolerance makes a tenth of the residual.
 inline double decades(double tolerance) {
-  constexpr double kLeast = 0.5;
-  return std::max(-std::log10(tolerance), kLeast);
+  constexpr double kMin = 0.5;
+  return std::max(-std::log10(tolerance), kMin);
 }
 
 // A stiffness that is applied element by element: what it makes of a displacement [m].

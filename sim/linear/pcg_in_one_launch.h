@@ -157,7 +157,7 @@ struct PcgTeam {
 
 template <class Real>
 bool iterate_in_one_launch(Cuda& cuda, const PcgIterations<Real>& iterations) {
-  if (!may_take_one_launch(cuda) || iterations.rows > kMostRowsInOneLaunch) return false;
+  if (!may_take_one_launch(cuda) || iterations.rows > kMaxRowsInOneLaunch) return false;
   return for_grid_team(cuda, "solve: iterations",
                        PcgTeam<Real>{iterations, iterations.cycle ? *iterations.cycle : CycleView<Real>{}});
 }

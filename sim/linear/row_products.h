@@ -102,14 +102,14 @@ class LaneBlock {
 };
 
 // Rows that are given to a warp each; an H100 runs 8,448 warps at once, half of them in one launch.
-inline constexpr int kMostRowsByWarps = 4096;
+inline constexpr int kMaxRowsByWarps = 4096;
 
 // for_each_row() for a body that takes any lanes: on a GPU nine threads take each of many rows.
 template <class Device, class Body>
 void for_each_block_row(Device& device, const Kernel& kernel, int rows, const Body& body,
                         const int* stop = nullptr) {
   if constexpr (Device::kGpu) {
-    if (rows > kMostRowsByWarps) return for_each_row<NineLanes>(device, kernel, rows, body, stop);
+    if (rows > kMaxRowsByWarps) return for_each_row<NineLanes>(device, kernel, rows, body, stop);
   }
   for_each_row(device, kernel, rows, body, stop);
 }
@@ -117,7 +117,7 @@ template <int K, class Device, class Body, class Finish>
 void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, const Body& body,
                             const Finish& finish, [[maybe_unused]] int blocks_each = kRowSumBlocksEach) {
   if constexpr (Device::kGpu) {
-    if (rows > kMostRowsByWarps)
+    if (rows > kMaxRowsByWarps)
       return for_each_row_sum<K, NineLanes>(device, kernel, rows, body, finish, blocks_each);
   }
   for_each_row_sum<K>(device, kernel, rows, body, finish);
@@ -126,12 +126,12 @@ void for_each_block_row_sum(Device& device, const Kernel& kernel, int rows, cons
 // Team::for_each_row() and row_sum() (sim/device/grid_team.h) likewise.
 template <class Team, class Body>
 __device__ void for_each_block_row(Team& team, int rows, const Body& body) {
-  if (rows > kMostRowsByWarps) return team.template for_each_row<NineLanes>(rows, body);
+  if (rows > kMaxRowsByWarps) return team.template for_each_row<NineLanes>(rows, body);
   team.for_each_row(rows, body);
 }
 template <class Team, class Body>
 __device__ double block_row_sum(Team& team, int rows, const Body& body) {
-  if (rows > kMostRowsByWarps) return team.template row_sum<NineLanes>(rows, body);
+  if (rows > kMaxRowsByWarps) return team.template row_sum<NineLanes>(rows, body);
   return team.template row_sum<Warp>(rows, body);
 }
 #endif

@@ -97,7 +97,7 @@ struct CellShape {
 
 // Numbers of cells for about `triangles` triangles: the pair that best weighs the count against the shape.
 std::pair<int, int> cell_counts(double length, double width, int triangles, const CellShape& shape) {
-  const auto at_least_one = [](double n) { return std::clamp(std::round(n), 1.0, 0.5 * kMostTriangles); };
+  const auto at_least_one = [](double n) { return std::clamp(std::round(n), 1.0, 0.5 * kMaxTriangles); };
   const auto columns = [&](double ny) { return at_least_one(0.5 * (triangles / ny - shape.extra)); };
   const auto rows = [&](double nx) { return at_least_one(triangles / (2 * nx + shape.extra)); };
   std::pair<double, double> best{1, 1};
@@ -129,7 +129,7 @@ MeshFamily mesh_family(const std::string& name) {
     if (name == text) return family;
     allowed += std::string(allowed.empty() ? "" : ", ") + text;
   }
-  throw Error::request("mesh family \"" + name + "\" is unknown; allowed: " + allowed);
+  throw Error::invalid_input("mesh family \"" + name + "\" is unknown; allowed: " + allowed);
 }
 
 double row_height(MeshFamily family) {
@@ -140,20 +140,21 @@ double row_height(MeshFamily family) {
 std::string to_string(MeshFamily family) {
   for (const auto& [known, text] : kFamilies)
     if (known == family) return text;
-  throw Error::request("mesh family number " + std::to_string(static_cast<int>(family)) + " is unknown");
+  throw Error::invalid_input("mesh family number " + std::to_string(static_cast<int>(family)) +
+                             " is unknown");
 }
 
 void check_length(const std::string& what, const std::string& name, double value) {
   if (value > 0 && std::isfinite(value)) return;
   std::ostringstream text;
   text << what << " mesh: " << name << " = " << value << " m must be > 0";
-  throw Error::request(text.str());
+  throw Error::invalid_input(text.str());
 }
 
 void check_triangles(const std::string& what, int triangles) {
-  if (triangles >= 2 && triangles <= kMostTriangles) return;
-  throw Error::request(what + " mesh: triangles = " + std::to_string(triangles) + " must be 2 to " +
-                       std::to_string(kMostTriangles));
+  if (triangles >= 2 && triangles <= kMaxTriangles) return;
+  throw Error::invalid_input(what + " mesh: triangles = " + std::to_string(triangles) + " must be 2 to " +
+                             std::to_string(kMaxTriangles));
 }
 
 bool rising_diagonal(MeshFamily family, int i, int j) {
@@ -180,9 +181,9 @@ ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eige
 
 ClothMesh make_grid(double length, double width, int nx, int ny, MeshFamily family, unsigned seed) {
   check_size(length, width);
-  if (nx < 1 || ny < 1 || nx > kMostTriangles / ny)
-    throw Error::request("rectangle mesh: " + std::to_string(nx) + " x " + std::to_string(ny) +
-                         " cells must be at least 1 x 1 and at most " + std::to_string(kMostTriangles));
+  if (nx < 1 || ny < 1 || nx > kMaxTriangles / ny)
+    throw Error::invalid_input("rectangle mesh: " + std::to_string(nx) + " x " + std::to_string(ny) +
+                               " cells must be at least 1 x 1 and at most " + std::to_string(kMaxTriangles));
   Flat flat = in_rows(family)                ? triangle_rows(nx, ny)
               : family == MeshFamily::random ? random_cells(nx, ny, seed)
                                              : square_cells(nx, ny, family);
@@ -235,8 +236,9 @@ ClothMesh make_tube(double length, double radius, int triangles, MeshFamily fami
   for (const Eigen::Vector3i& t : flat.face) tube.face.push_back({number[t[0]], number[t[1]], number[t[2]]});
   build_topology(tube, "tube mesh");
   if (!is_closed(tube, length))
-    throw Error::request("tube mesh: the two sides of the seam do not meet with mesh = " + to_string(family) +
-                         " and " + std::to_string(triangles) + " triangles; take mesh = unionjack");
+    throw Error::invalid_input(
+        "tube mesh: the two sides of the seam do not meet with mesh = " + to_string(family) + " and " +
+        std::to_string(triangles) + " triangles; take mesh = unionjack");
   return tube;
 }
 
@@ -266,9 +268,9 @@ std::vector<Eigen::Vector3d> with_middles(const ClothMesh& mesh, std::vector<Eig
 }
 
 ClothMesh subdivided(const ClothMesh& mesh) {
-  if (mesh.faces() > kMostTriangles / kPieces)
-    throw Error::request("subdivided mesh: 4 times " + std::to_string(mesh.faces()) +
-                         " triangles must be at most " + std::to_string(kMostTriangles));
+  if (mesh.faces() > kMaxTriangles / kPieces)
+    throw Error::invalid_input("subdivided mesh: 4 times " + std::to_string(mesh.faces()) +
+                               " triangles must be at most " + std::to_string(kMaxTriangles));
   ClothMesh fine;
   fine.warp_axis = mesh.warp_axis;
   fine.sewn = mesh.sewn;

@@ -10,11 +10,11 @@
 namespace hysteron {
 
 // More triangles than this are a mistake in the request, and beyond what the Delaunay grid resolves.
-inline constexpr int kMostTriangles = 10'000'000;
+inline constexpr int kMaxTriangles = 10'000'000;
 
-// Error::request "<what> mesh: <name> = <value> m must be > 0" unless it is a positive finite number.
+// Error::invalid_input "<what> mesh: <name> = <value> m must be > 0" unless it is a positive finite number.
 void check_length(const std::string& what, const std::string& name, double value);
-// Error::request unless 2 <= triangles <= kMostTriangles.
+// Error::invalid_input unless 2 <= triangles <= kMaxTriangles.
 void check_triangles(const std::string& what, int triangles);
 
 // Of a row of cells over their width, where they are regular.
@@ -30,7 +30,7 @@ ClothMesh flat_mesh(const std::vector<Eigen::Vector2d>& points, std::vector<Eige
 // Finer meshes of the same surface: each triangle cut into four at the middles of its sides.
 
 // The same cloth, at rest and in texture coordinates: first its vertices, then the middle of each edge; the
-// triangles of each triangle one after another.  Throws Error::request beyond 10 million triangles.
+// triangles of each triangle one after another.  Throws Error::invalid_input beyond 10 million triangles.
 ClothMesh subdivided(const ClothMesh& mesh);
 
 // Places of the vertices [m], followed by those of the edges' middles.

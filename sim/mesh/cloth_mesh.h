@@ -74,10 +74,10 @@ struct ClothMesh {
 };
 
 // Checks the mesh and fills the derived members.  `what` names the mesh in messages ("mesh shirt.obj").
-// Throws Error::request for: no triangles, indices out of range, non-finite vertices, degenerate triangles
-// (height/longest edge < 1e-6), an edge shared by more than two triangles, inconsistent orientation,
-// vertices that no triangle uses, a triangle given twice, a pattern of another size than the vertices, panels
-// of another number than the triangles.
+// Throws Error::invalid_input for: no triangles, indices out of range, non-finite vertices, degenerate
+// triangles (height/longest edge < 1e-6), an edge shared by more than two triangles, inconsistent
+// orientation, vertices that no triangle uses, a triangle given twice, a pattern of another size than the
+// vertices, panels of another number than the triangles.
 void build_topology(ClothMesh& mesh, const std::string& what);
 
 // Mesh families of the builders (the accuracy of a bending element depends on them).
@@ -85,14 +85,14 @@ void build_topology(ClothMesh& mesh, const std::string& what);
 //   other diagonal; unionjack: alternating diagonals; equilateral: rows of equilateral triangles; random:
 //   jittered points, Delaunay triangulated.
 enum class MeshFamily { aligned, aligned45, flipped, unionjack, equilateral, random };
-MeshFamily mesh_family(const std::string& name);  // Error::request for an unknown name
+MeshFamily mesh_family(const std::string& name);  // Error::invalid_input for an unknown name
 std::string to_string(MeshFamily family);
 
 // Rectangle [0, length] x [0, width] in z = 0 with about `triangles` triangles; warp along x.
 // For structured families the cells are as square as the counts allow (equilateral: rows parallel to the
 // length, closed by half triangles).  random: seeded, the same bits on every machine; boundary vertices are
-// evenly spaced, angles mostly above 20 degrees.  Throws Error::request for lengths that are not positive and
-// triangles outside 2 ... 10 million.
+// evenly spaced, angles mostly above 20 degrees.  Throws Error::invalid_input for lengths that are not
+// positive and triangles outside 2 ... 10 million.
 ClothMesh make_rectangle(double length, double width, int triangles, MeshFamily family, unsigned seed);
 // Rectangle with exactly nx x ny cells (aligned, flipped, unionjack) of 2 triangles each; equilateral
 // and aligned-45 have ny (2 nx + 1) triangles, random 2 nx ny.
@@ -115,14 +115,14 @@ ClothMesh copies_of(const ClothMesh& mesh, int copies, const Eigen::Vector3d& of
 // Texture coordinates, where every corner has one, become the pattern, or panels if they have seams.
 // weld > 0 merges each vertex into the first one closer than that distance [m].  Adds to `doubts`, where they
 // are asked for, those of mesh_doubts.h.
-// Throws Error::machine for a file that cannot be read; Error::request, naming the file and the line, for
-// malformed lines, numbers that are not finite, quads that cross themselves, and all that build_topology
+// Throws Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line,
+// for malformed lines, numbers that are not finite, quads that cross themselves, and all that build_topology
 // refuses.
 ClothMesh read_obj(const std::string& file, double weld, LengthUnit unit = LengthUnit::metre,
                    std::vector<std::string>* doubts = nullptr);
 // Writers of one frame, atomic (temporary name, then rename): position [m] per vertex, value (a curvature
 // [1/m], or empty) per vertex as the property `curvature`.  OBJ in shortest exact decimals with its texture
-// coordinates; PLY binary little-endian, doubles.  Throw Error::machine.
+// coordinates; PLY binary little-endian, doubles.  Throw Error::system.
 void write_obj(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position);
 void write_ply(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
                const std::vector<double>& value);

@@ -20,9 +20,9 @@ void check_folds(const ClothMesh& mesh, const std::string& what) {
   for (int e = 0; e < mesh.interior_edges; ++e) {
     const Edge& edge = mesh.edge[e];
     if (is_seam(mesh, e) || is_mirrored(mesh, edge.face0) == is_mirrored(mesh, edge.face1)) continue;
-    throw Error::request(what + ": triangle " + std::to_string(edge.face1 + 1) +
-                         " is turned over in its texture coordinates against its neighbour " +
-                         std::to_string(edge.face0 + 1) + ", where the cloth must be flat");
+    throw Error::invalid_input(what + ": triangle " + std::to_string(edge.face1 + 1) +
+                               " is turned over in its texture coordinates against its neighbour " +
+                               std::to_string(edge.face0 + 1) + ", where the cloth must be flat");
   }
 }
 
@@ -44,13 +44,13 @@ std::string vertices_of(const Eigen::Vector3i& face) {
 // Otherwise vertices of `start` say where others are.
 void check_triangles(const ClothMesh& start, const ClothMesh& rest, const std::string& what) {
   if (start.vertices() != rest.vertices() || start.faces() != rest.faces())
-    throw Error::request(
+    throw Error::invalid_input(
         what + " has " + std::to_string(start.vertices()) + " vertices and " + std::to_string(start.faces()) +
         " triangles; where cloth starts it must have the same as at rest, " +
         std::to_string(rest.vertices()) + " and " + std::to_string(rest.faces()) + ", in the same order");
   for (int f = 0; f < rest.faces(); ++f)
     if (start.face[f] != rest.face[f])
-      throw Error::request(
+      throw Error::invalid_input(
           what + ": its triangle " + std::to_string(f + 1) + " has the vertices " +
           vertices_of(start.face[f]) + " and at rest " + vertices_of(rest.face[f]) +
           "; where cloth starts all must be the same (a quad that is bent may be cut along its "
@@ -64,7 +64,7 @@ void check_size(double stretch, const std::string& what) {
   text << what << ": where cloth starts, sides of its triangles are " << stretch
        << " times as long as at rest, which must be " << 1 / kLargestStretch << " to " << kLargestStretch
        << ": both files must be in cloth.unit, and their vertices in the same order";
-  throw Error::request(text.str());
+  throw Error::invalid_input(text.str());
 }
 
 void check_scale(double stretch, double scale, const std::string& what) {
@@ -74,7 +74,7 @@ void check_scale(double stretch, double scale, const std::string& what) {
   text << what << ": its triangles' sides are " << stretch << " times as long as in texture coordinates of "
        << scale << " m a unit, which must be " << 1 / kLargestStretch << " to " << kLargestStretch
        << "; cloth.texture-scale = " << scale * stretch << " m makes them equal";
-  throw Error::request(text.str());
+  throw Error::invalid_input(text.str());
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ ClothMesh read_pattern(const std::string& file, double weld, double scale, Lengt
   ClothMesh mesh = read_obj(file, weld, unit, doubts);
   const std::string what = "mesh " + file;
   if (mesh.pattern.empty() && mesh.panel.empty())
-    throw Error::request(what + ": its texture coordinates are no flat cloth: corners have none");
+    throw Error::invalid_input(what + ": its texture coordinates are no flat cloth: corners have none");
   const double worn = length_of_sides(mesh);
   for (Eigen::Vector2d& at : mesh.pattern) at *= scale;
   for (auto& corners : mesh.panel)

@@ -45,7 +45,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
     if (is_mesh(entry->path()) && !entry->is_directory()) files.push_back(entry->path());
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
@@ -64,7 +64,7 @@ MeshSequence folder_sequence(const fs::path& folder) {
   if (sequence.files.empty() && fs::is_directory(folder / "mesh"))
     sequence.files = meshes_in(folder / "mesh");
   if (sequence.files.empty())
-    throw Error::request("the folder " + folder.string() + " holds no .obj and no .ply");
+    throw Error::invalid_input("the folder " + folder.string() + " holds no .obj and no .ply");
   if (sequence.name == "mesh") sequence.name = name_of(fs::weakly_canonical(folder).parent_path());
   return sequence;
 }
@@ -72,8 +72,8 @@ MeshSequence folder_sequence(const fs::path& folder) {
 void check_format(const MeshSequence& sequence) {
   for (const fs::path& file : sequence.files)
     if (ending_of(file) != ending_of(sequence.files.front()))
-      throw Error::request("one sequence of two formats: " + sequence.files.front().string() + " and " +
-                           file.string());
+      throw Error::invalid_input("one sequence of two formats: " + sequence.files.front().string() + " and " +
+                                 file.string());
 }
 
 void name_files(MeshSequence& sequence) {
@@ -130,12 +130,12 @@ std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words) 
   std::ptrdiff_t loose = -1;  // the sequence of single files
   for (const std::string& word : words) {
     const fs::path path(word);
-    if (!fs::exists(path)) throw Error::request("no such file or folder: " + word);
+    if (!fs::exists(path)) throw Error::invalid_input("no such file or folder: " + word);
     if (fs::is_directory(path)) {
       sequences.push_back(folder_sequence(path));
       continue;
     }
-    if (!is_mesh(path)) throw Error::request("mesh " + word + ": its name must end in .obj or .ply");
+    if (!is_mesh(path)) throw Error::invalid_input("mesh " + word + ": its name must end in .obj or .ply");
     if (loose < 0) {
       loose = static_cast<std::ptrdiff_t>(sequences.size());
       sequences.emplace_back();

@@ -19,8 +19,8 @@ struct MeshSequence {
 // (numbers in them by value); the files together are one more, in the order given, in the first one's place.
 // A folder without meshes that has a folder mesh/ of them, as a run leaves it with --export, stands for that.
 // Sequences are named after their folder (of mesh/ the one above), a single file after itself; equal names
-// get numbers.  Throws Error::request for words that are no mesh file or folder, folders without meshes, and
-// sequences of both formats.
+// get numbers.  Throws Error::invalid_input for words that are no mesh file or folder, folders without
+// meshes, and sequences of both formats.
 std::vector<MeshSequence> mesh_sequences(const std::vector<std::string>& words);
 
 // How a file's coordinates stand to metres with z up.

@@ -38,7 +38,7 @@ struct Lines {
 };
 
 Error bad_line(const std::string& what, int line, const std::string& problem) {
-  return Error::request(what + ": line " + std::to_string(line) + ": " + problem);
+  return Error::invalid_input(what + ": line " + std::to_string(line) + ": " + problem);
 }
 
 // Of a line without its comment.
@@ -132,7 +132,7 @@ std::string text_of(const std::string& file, const std::string& what) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string text = whole_file(file, "cannot read mesh " + file);
   if (text.find('\0') != text.npos)
-    throw Error::request(what + ": not an OBJ: it holds bytes that are no text");
+    throw Error::invalid_input(what + ": not an OBJ: it holds bytes that are no text");
   return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
@@ -166,7 +166,7 @@ class Faces {
     std::string warning, error;
     std::istringstream in(lines.resolved);
     if (!tinyobj::LoadObj(&attributes_, &shapes, &materials, &warning, &error, &in, nullptr, false, false))
-      throw Error::request(what + ": " + error);
+      throw Error::invalid_input(what + ": " + error);
     for (const auto& shape : shapes) {
       auto corner = shape.mesh.indices.begin();
       for (const int corners : shape.mesh.num_face_vertices) {
@@ -224,8 +224,8 @@ class Faces {
 ObjSoup read_obj_soup(const std::string& file, const std::string& what) {
   Lines lines = scan(text_of(file, what), what);
   if (lines.vertex.empty() && lines.face_line.empty())
-    throw Error::request(what +
-                         ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
+    throw Error::invalid_input(
+        what + ": not an OBJ: none of its lines is a vertex, \"v X Y Z\", or a face, \"f A B C\"");
   ObjSoup soup = Faces(what, lines).take_soup();
   soup.vertex = std::move(lines.vertex);
   soup.vertex_line = std::move(lines.vertex_line);
@@ -263,14 +263,14 @@ void check_weld(double distance, const std::string& what) {
   if (distance >= 0 && std::isfinite(distance)) return;
   std::ostringstream text;
   text << what << ": weld = " << distance << " m must be >= 0";
-  throw Error::request(text.str());
+  throw Error::invalid_input(text.str());
 }
 
 // No two triangles are such a quad.
 void check_quads(const ObjSoup& soup, const std::string& what) {
   if (soup.crossed_line.empty()) return;
-  throw Error::request(what + ": line " + std::to_string(soup.crossed_line.front()) +
-                       ": sides of the quad cross: its corners must follow one another around it");
+  throw Error::invalid_input(what + ": line " + std::to_string(soup.crossed_line.front()) +
+                             ": sides of the quad cross: its corners must follow one another around it");
 }
 
 // Renumbers the soup's vertices to the kept ones; fills rest and the vertices' lines.

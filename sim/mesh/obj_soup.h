@@ -52,9 +52,9 @@ struct ObjSoup {
   std::vector<int> crossed_line;  // of quads with two sides that cross
 };
 
-// `what` names the mesh in messages.  Throws Error::machine for a file that cannot be read, Error::request
-// for what is no OBJ, malformed lines, numbers that are not finite, and faces that are neither triangles nor
-// quads.
+// `what` names the mesh in messages.  Throws Error::system for a file that cannot be read,
+// Error::invalid_input for what is no OBJ, malformed lines, numbers that are not finite, and faces that are
+// neither triangles nor quads.
 ObjSoup read_obj_soup(const std::string& file, const std::string& what);
 
 // Whether every corner has a texture coordinate.

@@ -107,7 +107,8 @@ bool is_at_end(std::istream& in) { return (in >> std::ws).eof(); }
 PlyContent read_ply_content(const std::string& text, const PlyHeader& header, const std::string& what) {
   std::istringstream in(text);
   Reader reader(false);
-  if (!reader.init(in) || !agree(reader, header)) throw Error::request(what + ": the header is malformed");
+  if (!reader.init(in) || !agree(reader, header))
+    throw Error::invalid_input(what + ": the header is malformed");
   const ItemReader items{header, text.size(), in};
   PlyContent content;
   const PlyElement* const vertices = header.find("vertex", "vertices");
@@ -117,9 +118,9 @@ PlyContent read_ply_content(const std::string& text, const PlyHeader& header, co
     Element& element = reader.element(e);
     for (std::size_t i = 0; i < announced.count; ++i) {
       if (!items.read(announced, element))
-        throw Error::request(what + ": item " + std::to_string(i) + " of the " +
-                             std::to_string(announced.count) + " of \"" + announced.name +
-                             "\": a number is missing or malformed");
+        throw Error::invalid_input(what + ": item " + std::to_string(i) + " of the " +
+                                   std::to_string(announced.count) + " of \"" + announced.name +
+                                   "\": a number is missing or malformed");
       if (&announced == vertices) content.vertex.push_back(position(element));
       if (&announced == vertices && announced.find("curvature"))
         element.assign(content.curvature.emplace_back(), "curvature");
@@ -127,7 +128,7 @@ PlyContent read_ply_content(const std::string& text, const PlyHeader& header, co
     }
   }
   if (!is_at_end(in))
-    throw Error::request(what + ": it goes on after the last item that its header announces");
+    throw Error::invalid_input(what + ": it goes on after the last item that its header announces");
   return content;
 }
 

@@ -55,7 +55,7 @@ class HeaderReader {
 
  private:
   Error bad(const std::string& problem) const {
-    return Error::request(what_ + ": line " + std::to_string(line_) + ": " + problem);
+    return Error::invalid_input(what_ + ": line " + std::to_string(line_) + ": " + problem);
   }
 
   std::vector<std::string> next_line() {
@@ -104,8 +104,9 @@ class HeaderReader {
   void check_room(const PlyElement& element) const {
     const std::size_t least = least_bytes(element, header_.ascii), left = text_.size() - at_ + 1;
     if (element.count == 0 || (least > 0 && element.count <= left / least)) return;
-    throw Error::request(what_ + ": line " + std::to_string(element.line) + ": the file is too short for " +
-                         std::to_string(element.count) + " items of \"" + element.name + "\"");
+    throw Error::invalid_input(what_ + ": line " + std::to_string(element.line) +
+                               ": the file is too short for " + std::to_string(element.count) +
+                               " items of \"" + element.name + "\"");
   }
 
   std::string_view text_;

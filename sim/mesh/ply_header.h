@@ -52,8 +52,8 @@ struct PlyHeader {
   }
 };
 
-// Throws Error::request, beginning with `what` and naming the line, unless `text` starts with a header whose
-// types are PLY's own and is long enough for the elements it announces.
+// Throws Error::invalid_input, beginning with `what` and naming the line, unless `text` starts with a header
+// whose types are PLY's own and is long enough for the elements it announces.
 PlyHeader read_ply_header(std::string_view text, const std::string& what);
 
 // The numbers of a PLY file, read by CGAL.
@@ -64,7 +64,7 @@ struct PlyContent {
 };
 
 // `text` is the file with that header, which has the elements and types that `read_ply` asks for.  Throws
-// Error::request, beginning with `what`, where the content does not fit the header.
+// Error::invalid_input, beginning with `what`, where the content does not fit the header.
 PlyContent read_ply_content(const std::string& text, const PlyHeader& header, const std::string& what);
 
 }  // namespace hysteron

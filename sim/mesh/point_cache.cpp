@@ -46,7 +46,7 @@ void write_to_point_cache(const std::string& file, std::size_t instant,
   stream.flush();
   ++header.samples;
   write_header();
-  if (!stream) throw Error::machine("cannot write " + file + ": " + std::strerror(errno));
+  if (!stream) throw Error::system("cannot write " + file + ": " + std::strerror(errno));
 }
 
 }  // namespace hysteron

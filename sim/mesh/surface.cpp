@@ -34,32 +34,32 @@ Surface without_loose_vertices(Surface surface) {
 void check_ply_header(const PlyHeader& header, const std::string& what) {
   const PlyElement* const vertex = header.find("vertex", "vertices");
   const PlyElement* const face = header.find("face", "faces");
-  if (!vertex || !face || face->count == 0) throw Error::request(what + ": no faces");
+  if (!vertex || !face || face->count == 0) throw Error::invalid_input(what + ": no faces");
   for (const char* axis : {"x", "y", "z"}) {
     const PlyProperty* const x = vertex->find(axis);
     if (!x || !x->is_real())
-      throw Error::request(what + ": line " + std::to_string(vertex->line) +
-                           ": the vertices need x, y and z of type float or double");
+      throw Error::invalid_input(what + ": line " + std::to_string(vertex->line) +
+                                 ": the vertices need x, y and z of type float or double");
   }
   const PlyProperty* const curvature = vertex->find("curvature");
   if (curvature && !curvature->is_real())
-    throw Error::request(what + ": line " + std::to_string(vertex->line) +
-                         ": the vertices' curvature must be of type float or double");
+    throw Error::invalid_input(what + ": line " + std::to_string(vertex->line) +
+                               ": the vertices' curvature must be of type float or double");
   const PlyProperty* list = face->find("vertex_indices");
   if (!list) list = face->find("vertex_index");
   if (!list || !list->is_list_of_indices())
-    throw Error::request(what + ": line " + std::to_string(face->line) +
-                         ": the faces need a list vertex_indices or vertex_index of type int or uint");
+    throw Error::invalid_input(what + ": line " + std::to_string(face->line) +
+                               ": the faces need a list vertex_indices or vertex_index of type int or uint");
 }
 
 void check_polygon(const std::vector<std::int64_t>& corner, std::size_t vertices, const std::string& which) {
   if (corner.size() != 3 && corner.size() != 4)
-    throw Error::request(which + " has " + std::to_string(corner.size()) +
-                         " corners; allowed are triangles and quads, triangulate the mesh first");
+    throw Error::invalid_input(which + " has " + std::to_string(corner.size()) +
+                               " corners; allowed are triangles and quads, triangulate the mesh first");
   for (const std::int64_t v : corner)
     if (v < 0 || v >= static_cast<std::int64_t>(vertices))
-      throw Error::request(which + " uses vertex " + std::to_string(v) + "; the file has " +
-                           std::to_string(vertices) + ", counted from 0");
+      throw Error::invalid_input(which + " uses vertex " + std::to_string(v) + "; the file has " +
+                                 std::to_string(vertices) + ", counted from 0");
 }
 
 void add_polygon(const std::vector<std::int64_t>& corner, Surface& surface) {
@@ -83,7 +83,7 @@ void add_polygon(const std::vector<std::int64_t>& corner, Surface& surface) {
 Surface read_obj_surface(const std::string& file) {
   const std::string what = "mesh " + file;
   ObjSoup soup = read_obj_soup(file, what);
-  if (soup.face.empty()) throw Error::request(what + ": no faces");
+  if (soup.face.empty()) throw Error::invalid_input(what + ": no faces");
   Surface surface;
   if (has_texture(soup)) surface.pattern = vertex_texture(soup, soup.face, soup.vertex.size());
   surface.vertex = std::move(soup.vertex);
@@ -98,7 +98,7 @@ Surface read_ply(const std::string& file) {
   PlyContent content = read_ply_content(text, header, what);
   for (std::size_t v = 0; v < content.vertex.size(); ++v)
     if (!content.vertex[v].allFinite())
-      throw Error::request(what + ": vertex " + std::to_string(v) + " is not a finite number");
+      throw Error::invalid_input(what + ": vertex " + std::to_string(v) + " is not a finite number");
   Surface surface;
   surface.vertex = std::move(content.vertex);
   surface.curvature = std::move(content.curvature);
@@ -113,7 +113,7 @@ Surface read_surface(const std::string& file) {
   const std::string ending = ending_of(file);
   if (ending == ".obj") return read_obj_surface(file);
   if (ending == ".ply") return read_ply(file);
-  throw Error::request("mesh " + file + ": its name must end in .obj or .ply");
+  throw Error::invalid_input("mesh " + file + ": its name must end in .obj or .ply");
 }
 
 }  // namespace hysteron

@@ -16,7 +16,7 @@ struct Surface {
 
 // The ways below read triangles and quads (cut along the shorter diagonal), and leave out vertices that no
 // face uses.  Edges of three faces, changes of orientation and triangles without area are taken as they are.
-// Throw Error::machine for a file that cannot be read; Error::request, naming the file and the line or
+// Throw Error::system for a file that cannot be read; Error::invalid_input, naming the file and the line or
 // element, for what is malformed, for faces of other sizes, and for no faces at all.
 
 // Wavefront OBJ.  Numbers that are not finite are refused.
@@ -25,7 +25,7 @@ Surface read_obj_surface(const std::string& file);
 // `curvature` (float or double), and `face` with vertex_indices or vertex_index (int or uint).  Positions
 // that are not finite are refused.
 Surface read_ply(const std::string& file);
-// By the ending, .obj or .ply in letters of either case; Error::request for another one.
+// By the ending, .obj or .ply in letters of either case; Error::invalid_input for another one.
 Surface read_surface(const std::string& file);
 
 }  // namespace hysteron

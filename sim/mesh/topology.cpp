@@ -14,7 +14,7 @@ namespace {
 
 // Below this height over longest edge a triangle has no normal worth computing with: its hinge angles would
 // be rounding noise of the vertices.
-constexpr double kLeastHeightRatio = 1e-6;
+constexpr double kMinHeightRatio = 1e-6;
 
 // One directed side of a triangle, opposite to its corner; lo and hi are its vertices in rising order.
 struct Side {
@@ -27,12 +27,13 @@ int side_to(const ClothMesh& mesh, int corner) { return mesh.face[corner / 3][(c
 int tip(const ClothMesh& mesh, int corner) { return mesh.face[corner / 3][corner % 3]; }
 
 void check_indices(const ClothMesh& mesh, const MeshNames& names) {
-  if (mesh.face.empty()) throw Error::request(names.what + ": no triangles; a cloth needs at least one");
+  if (mesh.face.empty())
+    throw Error::invalid_input(names.what + ": no triangles; a cloth needs at least one");
   for (int f = 0; f < mesh.faces(); ++f) {
     for (const int v : mesh.face[f]) {
       if (v >= 0 && v < mesh.vertices()) continue;
-      throw Error::request(names.what + ": " + names.triangle(f) + " uses vertex " + std::to_string(v) +
-                           ", allowed are 0 to " + std::to_string(mesh.vertices() - 1));
+      throw Error::invalid_input(names.what + ": " + names.triangle(f) + " uses vertex " + std::to_string(v) +
+                                 ", allowed are 0 to " + std::to_string(mesh.vertices() - 1));
     }
   }
 }
@@ -43,17 +44,17 @@ void check_vertices(const ClothMesh& mesh, const MeshNames& names) {
     for (const int v : face) used[v] = 1;
   for (int v = 0; v < mesh.vertices(); ++v) {
     if (!mesh.rest[v].allFinite())
-      throw Error::request(names.what + ": " + names.vertex(v) + " is not a finite number");
+      throw Error::invalid_input(names.what + ": " + names.vertex(v) + " is not a finite number");
     if (!used[v])
-      throw Error::request(names.what + ": " + names.vertex(v) + " belongs to no triangle; remove it");
+      throw Error::invalid_input(names.what + ": " + names.vertex(v) + " belongs to no triangle; remove it");
   }
   if (!mesh.pattern.empty() && mesh.pattern.size() != mesh.rest.size())
-    throw Error::request(names.what + ": " + std::to_string(mesh.pattern.size()) +
-                         " pattern coordinates for " + std::to_string(mesh.vertices()) +
-                         " vertices; give one each or none");
+    throw Error::invalid_input(names.what + ": " + std::to_string(mesh.pattern.size()) +
+                               " pattern coordinates for " + std::to_string(mesh.vertices()) +
+                               " vertices; give one each or none");
   if ((mesh.sewn || !mesh.panel.empty()) && mesh.panel.size() != mesh.face.size())
-    throw Error::request(names.what + ": " + std::to_string(mesh.panel.size()) + " panels for " +
-                         std::to_string(mesh.faces()) + " triangles; give one each or none");
+    throw Error::invalid_input(names.what + ": " + std::to_string(mesh.panel.size()) + " panels for " +
+                               std::to_string(mesh.faces()) + " triangles; give one each or none");
 }
 
 using Corners = std::array<Eigen::Vector3d, 3>;
@@ -72,10 +73,11 @@ void measure_areas(ClothMesh& mesh, const MeshNames& names) {
   for (int f = 0; f < mesh.faces(); ++f) {
     const Corners at = mesh.corners(f);
     const double area = area_vector(at).norm(), side = longest_side(at);
-    if (!(2 * area >= kLeastHeightRatio * side * side) || side == 0)
-      throw Error::request(names.what + ": " + names.triangle(f) + " is degenerate (" +
-                           names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
-                           names.vertex(mesh.face[f][2]) + "): height over longest edge must be >= 1e-6");
+    if (!(2 * area >= kMinHeightRatio * side * side) || side == 0)
+      throw Error::invalid_input(names.what + ": " + names.triangle(f) + " is degenerate (" +
+                                 names.vertex(mesh.face[f][0]) + ", " + names.vertex(mesh.face[f][1]) + ", " +
+                                 names.vertex(mesh.face[f][2]) +
+                                 "): height over longest edge must be >= 1e-6");
     mesh.face_area[f] = area;
     for (const int v : mesh.face[f]) mesh.vertex_area[v] += area / 3;
   }
@@ -102,10 +104,10 @@ std::string edge_name(const MeshNames& names, const Side& side) {
 void check_pair(const ClothMesh& mesh, const MeshNames& names, const Side& a, const Side& b) {
   const std::string pair = names.triangle(a.corner / 3) + " and " + names.triangle(b.corner / 3);
   if (tip(mesh, a.corner) == tip(mesh, b.corner))
-    throw Error::request(names.what + ": " + pair + " have the same vertices; remove one");
+    throw Error::invalid_input(names.what + ": " + pair + " have the same vertices; remove one");
   if (side_from(mesh, a.corner) == side_from(mesh, b.corner))
-    throw Error::request(names.what + ": " + pair + " have opposite orientation at " + edge_name(names, a) +
-                         "; turn one over (a Moebius strip has no front)");
+    throw Error::invalid_input(names.what + ": " + pair + " have opposite orientation at " +
+                               edge_name(names, a) + "; turn one over (a Moebius strip has no front)");
 }
 
 // Interior edges first, each kind in the order of its first triangle, which keeps neighbours near in memory.
@@ -116,9 +118,9 @@ void connect_edges(ClothMesh& mesh, const MeshNames& names) {
     for (next = i; next < sides.size() && sides[next].lo == sides[i].lo && sides[next].hi == sides[i].hi;)
       ++next;
     if (next - i > 2)
-      throw Error::request(names.what + ": " + edge_name(names, sides[i]) + " is shared by " +
-                           std::to_string(next - i) + " triangles (the third is " +
-                           names.triangle(sides[i + 2].corner / 3) + "), allowed are 2");
+      throw Error::invalid_input(names.what + ": " + edge_name(names, sides[i]) + " is shared by " +
+                                 std::to_string(next - i) + " triangles (the third is " +
+                                 names.triangle(sides[i + 2].corner / 3) + "), allowed are 2");
     if (next - i == 2) check_pair(mesh, names, sides[i], sides[i + 1]);
     if (next - i == 2)
       interior.push_back({sides[i].corner, sides[i + 1].corner});
@@ -147,7 +149,7 @@ void connect_edges(ClothMesh& mesh, const MeshNames& names) {
 Eigen::Vector3d texture_warp(const Corners& at, const std::array<Eigen::Vector2d, 3>& texture) {
   const Eigen::Vector2d u = texture[1] - texture[0], v = texture[2] - texture[0];
   const double det = u.x() * v.y() - u.y() * v.x();
-  if (std::abs(det) <= kLeastHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
+  if (std::abs(det) <= kMinHeightRatio * std::max(u.squaredNorm(), v.squaredNorm()))
     return Eigen::Vector3d::Zero();
   const Eigen::Vector3d x1 = at[1] - at[0], x2 = at[2] - at[0];
   return (x1 * v.y() - x2 * u.y()) / det;
@@ -222,7 +224,7 @@ std::array<Eigen::Vector3d, 2> ClothMesh::face_axes(int f) const {
   if (!textured) warp = warp_axis;
   Eigen::Vector3d in_plane = warp - normal * normal.dot(warp);
   // A warp direction that pierces the triangle says nothing about it; any fixed choice serves.
-  if (in_plane.norm() <= kLeastHeightRatio * warp.norm()) in_plane = at[1] - at[0];
+  if (in_plane.norm() <= kMinHeightRatio * warp.norm()) in_plane = at[1] - at[0];
   in_plane.normalize();
   if (textured) in_plane = warp_axis.x() * in_plane + warp_axis.y() * normal.cross(in_plane);
   return {in_plane, normal.cross(in_plane)};

@@ -18,8 +18,8 @@ struct VtkField {
 };
 
 // PolyData in VTK's XML format: positions [m] and values as raw little-endian numbers behind the header, in
-// double precision.  Throws Error::request where a field has not one value for each vertex or face,
-// Error::machine where the file cannot be written.
+// double precision.  Throws Error::invalid_input where a field has not one value for each vertex or face,
+// Error::system where the file cannot be written.
 void write_vtp(const std::string& file, const ClothMesh& mesh, const std::vector<Eigen::Vector3d>& position,
                const std::vector<VtkField>& of_vertices, const std::vector<VtkField>& of_faces);
 

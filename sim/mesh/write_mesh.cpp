@@ -16,8 +16,9 @@ static_assert(std::endian::native == std::endian::little, "write_ply stores numb
 void check_counts(const std::string& file, const ClothMesh& mesh, std::size_t positions, std::size_t values) {
   const std::size_t n = mesh.rest.size();
   if (positions == n && (values == 0 || values == n)) return;
-  throw Error::request("cannot write mesh " + file + ": " + std::to_string(positions) + " positions and " +
-                       std::to_string(values) + " values for " + std::to_string(n) + " vertices");
+  throw Error::invalid_input("cannot write mesh " + file + ": " + std::to_string(positions) +
+                             " positions and " + std::to_string(values) + " values for " + std::to_string(n) +
+                             " vertices");
 }
 
 template <int N>

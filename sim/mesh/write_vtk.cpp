@@ -29,8 +29,8 @@ class Appended {
   }
   std::string field(const std::string& file, const VtkField& of, std::size_t places) {
     if (of.values.size() != places * of.components)
-      throw Error::request("cannot write mesh " + file + ": " + std::to_string(of.values.size()) +
-                           " values of " + of.name + ", not " + std::to_string(places * of.components));
+      throw Error::invalid_input("cannot write mesh " + file + ": " + std::to_string(of.values.size()) +
+                                 " values of " + of.name + ", not " + std::to_string(places * of.components));
     return element("Float64", of.name, of.components, of.values);
   }
   const std::string& data() const { return data_; }

@@ -11,14 +11,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kMostIterations = 60;
-constexpr double kConverged = 1e-10;                    // residuals, of the moment b1/L and of the length
-constexpr double kShortestStep = 1e-7;                  // of the clamps, of the length
-constexpr double kSmallestShare = 1e-4;                 // of a Newton step
-constexpr double kFirstRaise = 1e-3, kMostRaise = 1e3;  // of the diagonal, of b1 over an element
-constexpr double kPenalty = 2;                          // on the gap, of the force
-constexpr double kArmijo = 0.1;                         // of the fall that the slope promises
-constexpr int kWeightSteps = 8;                         // in which weight is put on the first shape
+constexpr int kMaxIterations = 60;
+constexpr double kConverged = 1e-10;                   // residuals, of the moment b1/L and of the length
+constexpr double kShortestStep = 1e-7;                 // of the clamps, of the length
+constexpr double kSmallestShare = 1e-4;                // of a Newton step
+constexpr double kFirstRaise = 1e-3, kMaxRaise = 1e3;  // of the diagonal, of b1 over an element
+constexpr double kPenalty = 2;                         // on the gap, of the force
+constexpr double kArmijo = 0.1;                        // of the fall that the slope promises
+constexpr int kWeightSteps = 8;                        // in which weight is put on the first shape
 
 }  // namespace
 
@@ -67,7 +67,7 @@ BuckledStripTest::Direction BuckledStripTest::direction(const Trial& at) const {
     }
     const double bordered = at.border.dot(y);
     const bool convex = negative == (bordered > 0 ? 0 : 1);
-    if (!convex && raised < kMostRaise * stiff) continue;
+    if (!convex && raised < kMaxRaise * stiff) continue;
     const double force = (at.border.dot(x) - at.gap) / bordered;
     return {x - force * y, force};
   }
@@ -120,7 +120,7 @@ bool BuckledStripTest::solve(double distance, double weight) {
   at.force = force_;
   assemble(at, distance, weight);
   double penalty = 0;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration, ++iterations_) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration, ++iterations_) {
     if (at.norm <= kConverged) {
       angle_ = at.angle;
       force_ = at.force;
@@ -162,8 +162,8 @@ void BuckledStripTest::lay(double distance, Start start) {
   const int steps = strip_.weight == 0 ? 0 : kWeightSteps;
   for (int i = 0; i <= steps; ++i)
     if (!solve(distance, steps == 0 ? 0 : strip_.weight * i / steps))
-      throw Error::run("no equilibrium of the strip was found at " + std::to_string(distance) +
-                       " m between the clamps, the first distance");
+      throw Error::simulation("no equilibrium of the strip was found at " + std::to_string(distance) +
+                              " m between the clamps, the first distance");
   strip_.law = law;
   if (start == Start::virgin)
     accept();
@@ -182,8 +182,8 @@ void BuckledStripTest::go_to(double distance, double step) {
       distance_ = next;
       size = std::min(2 * size, step * strip_.length);
     } else if ((size = std::min(size, std::abs(left)) / 2) < kShortestStep * strip_.length) {
-      throw Error::run("no equilibrium of the strip was found at " + std::to_string(next) +
-                       " m between the clamps");
+      throw Error::simulation("no equilibrium of the strip was found at " + std::to_string(next) +
+                              " m between the clamps");
     }
   }
 }

@@ -36,7 +36,7 @@ class BuckledStripTest {
   BuckledStripTest(const BuckledStrip& strip, double distance, Start start);
 
   // Moves the clamps to a distance in (0, L) [m], in steps of at most `step` of the length (halved where
-  // Newton's method fails).  Throws Error::run if no equilibrium is found.
+  // Newton's method fails).  Throws Error::simulation if no equilibrium is found.
   void go_to(double distance, double step = 0.01);
 
   double distance() const { return distance_; }

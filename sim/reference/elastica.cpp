@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 constexpr double kSeconds = 1;       // of a step, for laws with a clock
 constexpr double kBalanced = 1e-12;  // unbalanced moment over w L^2 load
-constexpr int kMostNewtonSteps = 60, kMostHalvings = 30;
+constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 30;
 
 // The law at `count` points with a history each.
 class Points {
@@ -128,8 +128,9 @@ class Solver {
         continue;
       }
       step /= 2;
-      if (++halvings > kMostHalvings)
-        throw Error::run("no equilibrium of the heavy strip was found at load " + std::to_string(next));
+      if (++halvings > kMaxHalvings)
+        throw Error::simulation("no equilibrium of the heavy strip was found at load " +
+                                std::to_string(next));
     }
   }
 
@@ -153,7 +154,7 @@ class Solver {
     Curve c = curve_of(h_, k, strip_.weight);
     points_.look(k, moment, tangent);
     VectorXd residual = moment - load * c.moment;
-    for (int iteration = 0; iteration < kMostNewtonSteps; ++iteration) {
+    for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
       if (residual.lpNorm<Eigen::Infinity>() <= scale) {
         points_.accept(k);
         curvature_ = k;

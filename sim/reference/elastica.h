@@ -33,7 +33,7 @@ struct SaggingStrip {
 // The strip's equilibria under `loads`, one after the other, from rest: the law's history is accepted at each
 // load and on the way there (steps of at most 1/steps of the largest load; continuation, halved where
 // Newton's method fails).  Second order in the segments' lengths.  Laws with a clock take 1 s for each step.
-// Error::run if no equilibrium is found.
+// Error::simulation if no equilibrium is found.
 std::vector<SaggingStrip> sagging_strips(const HeavyStrip& strip, const std::vector<double>& loads,
                                          int steps = 50);
 

@@ -14,7 +14,7 @@ namespace hysteron {
 namespace {
 
 constexpr double kShortest = 1e-3, kLongest = 1;  // [m] no such strip is shorter or longer
-constexpr double kMostStretch = 3;                // of the gauge
+constexpr double kMaxStretch = 3;                 // of the gauge
 constexpr int kFewestRows = 4;                    // of a branch
 constexpr double kRipple = 0.05;  // of a branch's way that the clamps may come back: they turn late
 constexpr double kGap = 0.3;      // of a branch's way between its first row and the last of the branch before
@@ -46,7 +46,7 @@ class Checks {
     if (distance.size() < kFewestRows) refuse("a branch has fewer than 4 rows");
     for (std::size_t i = 0; i < distance.size(); ++i)
       if (const double d = distance[i];
-          !(d > 0 && d < kMostStretch * loops_.gauge) || (loops_.bends() && d >= loops_.gauge))
+          !(d > 0 && d < kMaxStretch * loops_.gauge) || (loops_.bends() && d >= loops_.gauge))
         refuse(fmt::format("clamps at {:g} m do not fit a gauge of {:g} m", d, loops_.gauge), line(b, i));
     order(b);
     if (b > 0 && std::abs(distance.front() - loops_.branches[b - 1].distance.back()) > kGap * way(b))
@@ -89,7 +89,7 @@ class Checks {
 
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& line = "") const {
-    throw Error::request(file_ + line + ": " + loops_.name() + ": " + what).in(reader_);
+    throw Error::invalid_input(file_ + line + ": " + loops_.name() + ": " + what).in(reader_);
   }
 
   // ":17" of a row that was read there.
@@ -161,7 +161,7 @@ void check_fab_way(const FabLoops& loops, const std::string& file, const std::st
   checks.lengths();
   for (std::size_t b = 0; b < loops.branches.size(); ++b) checks.branch(b);
   if (loops.branches.size() % 2 != 0)
-    throw Error::request(file + ": " + loops.name() + ": every cycle has a branch out and one back")
+    throw Error::invalid_input(file + ": " + loops.name() + ": every cycle has a branch out and one back")
         .in(reader);
   checks.start();
 }
@@ -205,7 +205,7 @@ std::size_t column_of(const TextTable& table, const std::string& name, const fs:
                       const std::string& reader) {
   const auto found = std::find(table.head.begin(), table.head.end(), name);
   if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
-  throw Error::request(file.filename().string() + " has no column " + name).in(reader);
+  throw Error::invalid_input(file.filename().string() + " has no column " + name).in(reader);
 }
 
 // A length or a force; where it is there in other units, these are named.
@@ -220,12 +220,13 @@ std::size_t column_of(const TextTable& table, const std::string& quantity, const
     const std::string read = said_of(kSi) + ", " + said_of(kFab);
     const std::string what = file.filename().string() + ": " + quantity;
     if (unit->empty())
-      throw Error::request(what + " names no unit: it must be " + quantity + ending + " (" + read + ")")
+      throw Error::invalid_input(what + " names no unit: it must be " + quantity + ending + " (" + read + ")")
           .in(reader);
     if (!is_of(kSi) && !is_of(kFab))
-      throw Error::request(what + " is in " + *unit + ": convert its numbers (" + read + ")").in(reader);
-    throw Error::request(what + " is in " + *unit + ": give --units " + (is_of(kSi) ? kSi : kFab).flag +
-                         ", which reads it (" + read + ")")
+      throw Error::invalid_input(what + " is in " + *unit + ": convert its numbers (" + read + ")")
+          .in(reader);
+    throw Error::invalid_input(what + " is in " + *unit + ": give --units " + (is_of(kSi) ? kSi : kFab).flag +
+                               ", which reads it (" + read + ")")
         .in(reader);
   }
   return column_of(table, quantity + ending, file, reader);
@@ -285,21 +286,21 @@ std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const st
     const auto& words = table.rows[row];
     const std::string where = file.filename().string() + ":" + std::to_string(table.lines[row]);
     if (words[c.direction].empty() || words[c.test].empty())
-      throw Error::request(where + " names no direction or no test").in(reader);
+      throw Error::invalid_input(where + " names no direction or no test").in(reader);
     FabLoops& loops = loops_of(all, words[c.direction], words[c.test]);
     const double branch = number(c.branch);
     const std::size_t next = loops.branches.size();
     if (branch == static_cast<double>(next)) loops.branches.emplace_back();
     if (loops.branches.empty() || branch + 1 != static_cast<double>(loops.branches.size()))
-      throw Error::request(where + ": branch " + words[c.branch] + " must be " +
-                           (next > 0 ? std::to_string(next - 1) + " or " : "") + std::to_string(next) +
-                           ": the rows of a test stand in the order of its branches, 0, 1, 2 ...")
+      throw Error::invalid_input(where + ": branch " + words[c.branch] + " must be " +
+                                 (next > 0 ? std::to_string(next - 1) + " or " : "") + std::to_string(next) +
+                                 ": the rows of a test stand in the order of its branches, 0, 1, 2 ...")
           .in(reader);
     const auto same = [&](double& of_test, std::size_t column) {
       const double here = unit.metre * number(column);
       if (of_test != 0 && here != of_test)
-        throw Error::request(where + ": " + table.head[column] + " = " + words[column] +
-                             " differs from that of the rows before, and one test has one strip")
+        throw Error::invalid_input(where + ": " + table.head[column] + " = " + words[column] +
+                                   " differs from that of the rows before, and one test has one strip")
             .in(reader);
       of_test = here;
     };
@@ -323,7 +324,7 @@ const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& 
     if (loops.direction == direction && loops.test == test) return loops;
     there += (there.empty() ? "" : ", ") + loops.name();
   }
-  throw Error::request("the data have no " + direction + " " + test + "; they have " + there)
+  throw Error::invalid_input("the data have no " + direction + " " + test + "; they have " + there)
       .of("fab.test", test);
 }
 

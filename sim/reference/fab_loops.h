@@ -31,13 +31,13 @@ enum class TesterUnits { si, fab };
 
 // A table with the columns direction, test, branch, clamp_distance, force, gauge_length, width, their units
 // as endings: _m and _N (si), or _cm and _gf (fab: the tester's own; lines before the head, semicolons and
-// decimal commas are read, too).  Force is of the whole width.  Throws Error::machine, Error::request with
-// file and line: other units than said, a column or a number that is missing, branches out of order, another
-// gauge or width within a test; and as check_fab_way() and check_fab_forces().
+// decimal commas are read, too).  Force is of the whole width.  Throws Error::system, Error::invalid_input
+// with file and line: other units than said, a column or a number that is missing, branches out of order,
+// another gauge or width within a test; and as check_fab_way() and check_fab_forces().
 std::vector<FabLoops> read_fab(const std::filesystem::path& file, TesterUnits units,
                                const std::string& reader);
 
-// Of the loops in a file; Error::request names what there is.
+// Of the loops in a file; Error::invalid_input names what there is.
 const FabLoops& find_loops(const std::vector<FabLoops>& all, const std::string& direction,
                            const std::string& test);
 
@@ -60,7 +60,7 @@ inline constexpr double kLargestStart = 0.25;
 
 // The way of the clamps: a test and a direction that there are, two branches a cycle, lengths of a strip, a
 // beginning near the gauge, rows in order, branches that go out and back, each from where the last ended.
-// Throws Error::request: "fit: loops.csv: L D1: ...".
+// Throws Error::invalid_input: "fit: loops.csv: L D1: ...".
 void check_fab_way(const FabLoops& loops, const std::string& file, const std::string& reader);
 
 // Forces on that way: they vary, rise as the clamps part (tension > 0), and over a cycle the strip takes

@@ -41,7 +41,7 @@ double StretchedStripTest::energy() const { return length_ * respond(law_, ancho
 namespace {
 
 constexpr double kElement = 0.33e-3;  // length of an element [m]: forces to 0.1 % at a gauge of 2 cm
-constexpr int kFewestElements = 32, kMostElements = 256;  // of half a strip
+constexpr int kFewestElements = 32, kMaxElements = 256;  // of half a strip
 constexpr double kStep = 0.02;  // of the clamps, of the gauge: history in between is monotone
 
 // Work of the clamps by the trapezoidal rule from one distance to the next.
@@ -63,7 +63,7 @@ class Work {
 FabRun bent(const FabLoops& loops, const FabStrip& strip, int branches) {
   const double weight = kStandardGravity * strip.density;
   const int elements =
-      std::clamp(static_cast<int>(std::lround(loops.gauge / 2 / kElement)), kFewestElements, kMostElements);
+      std::clamp(static_cast<int>(std::lround(loops.gauge / 2 / kElement)), kFewestElements, kMaxElements);
   BuckledStripTest test({strip.bending, loops.gauge, loops.bends_up() ? weight : -weight, elements},
                         loops.branches[0].distance[0], BuckledStripTest::Start::relaxed);
   FabRun run;

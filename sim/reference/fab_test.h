@@ -48,7 +48,7 @@ struct FabRun {
 
 // All branches, or the first `branches`.  A strip that bends is laid slack at the first distance, where its
 // friction carries nothing, as recorded forces begin between the branches of the loop; its weight acts
-// against a bend up and with one down.  Throws Error::run where no equilibrium is found.
+// against a bend up and with one down.  Throws Error::simulation where no equilibrium is found.
 FabRun run_fab(const FabLoops& loops, const FabStrip& strip, int branches = -1);
 
 // A test that nobody recorded: cycles from `gauge` less `slack` to each of the compressions (`loops` bend) or

@@ -108,14 +108,15 @@ std::string per_metre(double curvature) { return fmt::format("{:g} 1/m", curvatu
 
 void check_protocol(const KesProtocol& p) {
   if (!(p.slope_from >= 0 && p.slope_from < p.slope_to && p.slope_to <= p.amplitude)) {
-    throw Error::request("slope-from = " + per_metre(p.slope_from) + ", slope-to = " + per_metre(p.slope_to) +
-                         " must be 0 <= slope-from < slope-to <= amplitude = " + per_metre(p.amplitude))
+    throw Error::invalid_input("slope-from = " + per_metre(p.slope_from) +
+                               ", slope-to = " + per_metre(p.slope_to) +
+                               " must be 0 <= slope-from < slope-to <= amplitude = " + per_metre(p.amplitude))
         .of("slope-from", fmt::format("{:g}", p.slope_from))
         .in("kes");
   }
   if (!(p.width_at > 0 && p.width_at < p.amplitude)) {
-    throw Error::request("width-at = " + per_metre(p.width_at) +
-                         " must be > 0 and < amplitude = " + per_metre(p.amplitude))
+    throw Error::invalid_input("width-at = " + per_metre(p.width_at) +
+                               " must be > 0 and < amplitude = " + per_metre(p.amplitude))
         .of("width-at", fmt::format("{:g}", p.width_at))
         .in("kes");
   }

@@ -17,7 +17,7 @@ struct KesProtocol : KesWindow {
   bool minor_loops = true;  // test smaller amplitudes and partial reversals as well
 };
 
-// Throws Error::request if curvatures are not 0 <= slope_from < slope_to <= amplitude or 0 < width_at <
+// Throws Error::invalid_input if curvatures are not 0 <= slope_from < slope_to <= amplitude or 0 < width_at <
 // amplitude.
 void check_protocol(const KesProtocol& protocol);
 
@@ -62,7 +62,7 @@ struct KesTest {
   std::array<int, 3> recovery_cases{};  // reversals with |M| <= Ma, <= 2 Ma, > 2 Ma, in all loops
 };
 
-// Throws Error::request as run_law().
+// Throws Error::invalid_input as run_law().
 KesTest test_in_kes(const LawRequest& request, const KesProtocol& protocol = {});
 
 }  // namespace hysteron

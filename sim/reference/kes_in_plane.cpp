@@ -10,7 +10,7 @@ namespace hysteron {
 namespace {
 
 constexpr int kBisections = 60;
-constexpr double kMostExtension = 2;
+constexpr double kMaxExtension = 2;
 // Of the largest tension, where the way back ends: cloth without any is in equilibrium wherever it lies.
 constexpr double kLeftOver = 1e-4;
 
@@ -104,7 +104,7 @@ ShearTest test_shear(const InPlaneLaw& law, const InPlaneProtocol& p) {
   for (const LawRow& row : test.walk.shear.rows) {
     const double g = row.curvature;
     const double stretch =
-        root([&](double l) { return tension.stress(strain_of(l, g)) * l - p.weight; }, 0.5, kMostExtension);
+        root([&](double l) { return tension.stress(strain_of(l, g)) * l - p.weight; }, 0.5, kMaxExtension);
     test.walk.stretch.push_back(stretch);
     test.force.push_back(shear.stress(g));
     tension.accept(strain_of(stretch, g));
@@ -119,18 +119,18 @@ TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& p) {
   const auto force = [&](double extension) {
     return tension.stress(strain_of(1 + extension, 0)) * (1 + extension);
   };
-  if (force(kMostExtension - 1) < p.largest)
-    throw Error::request(
+  if (force(kMaxExtension - 1) < p.largest)
+    throw Error::invalid_input(
         fmt::format("load = {0:g} N/m stretches a fabric of {1:g} N/m to more than twice its length: it must "
                     "be < {2:g} N/m",
-                    p.largest, law.tension.spring, force(kMostExtension - 1)));
+                    p.largest, law.tension.spring, force(kMaxExtension - 1)));
   TensionTest test;
   const auto go = [&](double extension) {
     test.extension.push_back(extension);
     test.force.push_back(force(extension));
     tension.accept(strain_of(1 + extension, 0));
   };
-  const double largest = root([&](double e) { return force(e) - p.largest; }, 0, kMostExtension - 1);
+  const double largest = root([&](double e) { return force(e) - p.largest; }, 0, kMaxExtension - 1);
   for (int i = 0; i <= p.steps; ++i) go(largest * i / p.steps);
   test.turn = test.force.size() - 1;
   const double slack = root([&](double e) { return force(e) - kLeftOver * p.largest; }, -0.5, largest);

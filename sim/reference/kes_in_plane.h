@@ -79,7 +79,7 @@ TensionReading read_tension(const std::vector<double>& extension, const std::vec
                             std::size_t turn);
 
 ShearTest test_shear(const InPlaneLaw& law, const InPlaneProtocol& protocol = {});
-// Throws Error::request of a fabric that does not reach the largest tension before twice its length.
+// Throws Error::invalid_input of a fabric that does not reach the largest tension before twice its length.
 TensionTest test_tension(const InPlaneLaw& law, const InPlaneProtocol& protocol = {});
 
 }  // namespace hysteron

@@ -40,7 +40,7 @@ TextTable read_tester_table(const std::filesystem::path& file,
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   const std::string name = file.filename().string();
   const std::size_t head = begin_of_head(text, is_of_head);
-  if (head == text.npos) throw Error::request(name + " has no line that names " + wanted).in(reader);
+  if (head == text.npos) throw Error::invalid_input(name + " has no line that names " + wanted).in(reader);
   // Blank lines in place of those before the head: the rows keep their numbers.
   const auto before = static_cast<std::size_t>(std::count(text.begin(), text.begin() + head, '\n'));
   TextTable table;
@@ -52,7 +52,7 @@ TextTable read_tester_table(const std::filesystem::path& file,
   for (std::string& field : table.head) field = trimmed(field);
   for (std::vector<std::string>& row : table.rows)
     for (std::string& field : row) field = trimmed(field);
-  if (table.rows.empty()) throw Error::request(name + " has no rows").in(reader);
+  if (table.rows.empty()) throw Error::invalid_input(name + " has no rows").in(reader);
   return table;
 }
 
@@ -62,8 +62,9 @@ double number_of(const TextTable& table, std::size_t row, std::size_t column,
   if (digits.starts_with('+')) digits.remove_prefix(1);
   const auto number = number_in(digits);
   if (!number || !std::isfinite(*number))
-    throw Error::request(file.filename().string() + ":" + std::to_string(table.lines[row]) + ": " +
-                         table.head[column] + " = '" + table.rows[row][column] + "' must be a finite number")
+    throw Error::invalid_input(file.filename().string() + ":" + std::to_string(table.lines[row]) + ": " +
+                               table.head[column] + " = '" + table.rows[row][column] +
+                               "' must be a finite number")
         .in(reader);
   return *number;
 }

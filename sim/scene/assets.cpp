@@ -19,7 +19,7 @@ fs::path assets_folder() {
   std::error_code ignored;
   if (const char* named = std::getenv("HYSTERON_ASSETS"); named && *named) {
     if (fs::is_directory(named, ignored)) return named;
-    throw Error::machine(std::string("HYSTERON_ASSETS = ") + named + " is no folder; unset it or name one");
+    throw Error::system(std::string("HYSTERON_ASSETS = ") + named + " is no folder; unset it or name one");
   }
   const fs::path binary = fs::read_symlink("/proc/self/exe", ignored);
   const fs::path beside = binary.parent_path();
@@ -31,7 +31,7 @@ fs::path assets_folder() {
     if (fs::is_directory(place, ignored)) return place;
     looked.push_back(place.string());
   }
-  throw Error::machine("no assets folder at " + join(looked, " or ") + "; set HYSTERON_ASSETS to it");
+  throw Error::system("no assets folder at " + join(looked, " or ") + "; set HYSTERON_ASSETS to it");
 }
 
 fs::path find_asset(const std::string& kind, const std::string& name, const std::string& origin) {
@@ -47,8 +47,8 @@ fs::path find_asset(const std::string& kind, const std::string& name, const std:
   const std::vector<std::string> names = list_assets(kind);
   const std::string nearest = nearest_name(name, names);
   const std::string hint = nearest.empty() ? "" : "; did you mean " + nearest + "?";
-  throw Error::request("no file and none of the " + kind + " is called \"" + name + "\" (" + origin +
-                       "); there are: " + join(names, ", ") + hint);
+  throw Error::invalid_input("no file and none of the " + kind + " is called \"" + name + "\" (" + origin +
+                             "); there are: " + join(names, ", ") + hint);
 }
 
 std::string asset_name(const fs::path& file) {

@@ -44,9 +44,9 @@ void check_copies(const Scene& scene, const ClothMesh& one) {
   if (gap >= least) return;
   const std::string offset = "[" + number_text(c.copy_offset.x()) + ", " + number_text(c.copy_offset.y()) +
                              ", " + number_text(c.copy_offset.z()) + "]";
-  throw Error::request(shown(scene, "cloth.copy-offset", offset, "m") + " leaves copies " + number_text(gap) +
-                       " m apart, which must be >= " + number_text(least) +
-                       " m, twice the fabric's thickness");
+  throw Error::invalid_input(shown(scene, "cloth.copy-offset", offset, "m") + " leaves copies " +
+                             number_text(gap) + " m apart, which must be >= " + number_text(least) +
+                             " m, twice the fabric's thickness");
 }
 
 ClothMesh rest_mesh(const Scene& scene, std::vector<std::string>& doubts) {
@@ -89,7 +89,8 @@ Cloth placed(const Scene& scene, ClothMesh mesh, std::vector<Eigen::Vector3d> st
   for (std::size_t p = 0; p < scene.pin.size(); ++p) {
     cloth.pin_vertices.push_back(selected(cloth.mesh, scene.pin[p]));
     if (cloth.pin_vertices.back().empty())
-      throw Error::request("pin " + std::to_string(p + 1) + ": its selection holds no vertex of the cloth");
+      throw Error::invalid_input("pin " + std::to_string(p + 1) +
+                                 ": its selection holds no vertex of the cloth");
     if (scene.pin[p].from > 0) continue;
     for (int vertex : cloth.pin_vertices.back()) cloth.pin[vertex] = static_cast<int>(p);
   }

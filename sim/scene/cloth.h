@@ -28,8 +28,8 @@ struct Cloth {
 // With a slack of 1 nm, so that corners meet grid vertices in spite of rounding.
 bool is_in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-// Builds or reads the mesh, places it and resolves the pins.  Error::request for impossible meshes and for
-// pins that hold no vertex.
+// Builds or reads the mesh, places it and resolves the pins.  Error::invalid_input for impossible meshes and
+// for pins that hold no vertex.
 Cloth make_cloth(const Scene& scene);
 // The same with a mesh of the caller's in place of the scene's.
 Cloth place_cloth(const Scene& scene, ClothMesh mesh);

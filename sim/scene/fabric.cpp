@@ -22,7 +22,7 @@ void check_pairs(const Scene& scene, const PairedLists& lists) {
   const std::string key = table + lists.first_name;
   const std::string of = lists.first.empty() && !scene.origin.contains(key) ? table + lists.second_name : key;
   const auto refuse = [&](const std::string& what) {
-    throw Error::request(key + " " + what + " (" + origin_of(scene, of) + ")").of(key, "");
+    throw Error::invalid_input(key + " " + what + " (" + origin_of(scene, of) + ")").of(key, "");
   };
   if (lists.first.size() != lists.second.size())
     refuse("has " + std::to_string(lists.first.size()) + " numbers and must have as many as " + table +
@@ -37,7 +37,7 @@ void check_pairs(const Scene& scene, const PairedLists& lists) {
 }
 
 void check_stops(const Scene& scene, const char* table, const Spectrum& of) {
-  check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMostStops});
+  check_pairs(scene, {table, "thresholds", "stiffnesses", of.thresholds, of.stiffnesses, kMaxStops});
 }
 
 }  // namespace
@@ -72,15 +72,15 @@ void check_bending_parts(const Scene& scene) {
   check_stops(scene, "bending.stops.weft", b.weft_stops);
   const std::string weft = "fabric.bending.stops.weft.thresholds";
   if (!b.weft_stops.empty() && b.weft_stops.size() != b.stops.size())
-    throw Error::request(weft + " has " + std::to_string(b.weft_stops.size()) +
-                         " numbers and must have as many as fabric.bending.stops.thresholds, " +
-                         std::to_string(b.stops.size()) + " (" + origin_of(scene, weft) + ")");
+    throw Error::invalid_input(weft + " has " + std::to_string(b.weft_stops.size()) +
+                               " numbers and must have as many as fabric.bending.stops.thresholds, " +
+                               std::to_string(b.stops.size()) + " (" + origin_of(scene, weft) + ")");
   check_pairs(scene, {"bending.branches", "times", "stiffnesses", b.branches.times, b.branches.stiffnesses,
-                      kMostBranches});
+                      kMaxBranches});
   if (b.set.on() != (b.set.yield > 0))
-    throw Error::request(shown(scene, "fabric.bending.set.yield", b.set.yield, "1/m") + " and " +
-                         shown(scene, "fabric.bending.set.hardening", b.set.hardening, "N m") +
-                         " must both be > 0, or both 0: no set");
+    throw Error::invalid_input(shown(scene, "fabric.bending.set.yield", b.set.yield, "1/m") + " and " +
+                               shown(scene, "fabric.bending.set.hardening", b.set.hardening, "N m") +
+                               " must both be > 0, or both 0: no set");
 }
 
 void check_in_plane_stops(const Scene& scene) {

@@ -25,7 +25,7 @@ struct Reader {
   std::string file;
 
   Error refusal(const std::string& what, const TomlNode& node) const {
-    return Error::request(what + " (" + place(file, node) + ")");
+    return Error::invalid_input(what + " (" + place(file, node) + ")");
   }
 
   void only_known(const TomlNode& table, const std::vector<std::string>& names) const {
@@ -135,8 +135,8 @@ void read_parameter(const Reader& reader, const TomlNode& node, const TomlNode* 
   const BoundKey& key = find_key(keys, "fabric." + node.key, origin);
   const PublishedNumber number = reader.quantity(node, sources);
   if (number.unit != key.description.unit) {
-    throw Error::request("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
-                         key.description.unit + "\" (" + origin + ")");
+    throw Error::invalid_input("fabric." + node.key + " has unit \"" + number.unit + "\" and must have \"" +
+                               key.description.unit + "\" (" + origin + ")");
   }
   if (const auto range = reader.range(node, number.value)) {
     for (const double end : {range->low, range->high}) assign(key, end, origin + ", range");

@@ -47,8 +47,8 @@ inline constexpr double kGramForceCentimetrePerCentimetre = 9.80665e-3;        /
 
 // Reads a fabric by name (assets/fabrics) or file; `origin` says who asks ("--fabric").  b1, b2, k0, density
 // and thickness must be there, but b1 and k0 may be left to the stops; other parameters keep the program's
-// default, whose provenance says so.  Throws Error::request with file and line for unknown or missing keys,
-// wrong units, missing sources, values out of range.
+// default, whose provenance says so.  Throws Error::invalid_input with file and line for unknown or missing
+// keys, wrong units, missing sources, values out of range.
 FabricFile read_fabric(const std::string& name_or_file, const std::string& origin);
 
 // All fabrics of the assets folder, by name.

@@ -46,7 +46,7 @@ std::string with_unit(const std::string& value, const KeyDescription& key) {
 // "fabric.b2 = -1 N m must be >= 0 (scene.toml:7)"
 Error refusal(const KeyDescription& key, const std::string& value, const std::string& must,
               const std::string& origin) {
-  return Error::request(key.path + " = " + value + " must be " + must).from(origin).of(key.path, value);
+  return Error::invalid_input(key.path + " = " + value + " must be " + must).from(origin).of(key.path, value);
 }
 
 Error wrong_type(const KeyDescription& key, const Value& value, const std::string& origin) {
@@ -73,8 +73,8 @@ void check_choice(const KeyDescription& key, const std::string& name, const std:
   if (key.choices.empty()) return;
   if (std::count(key.choices.begin(), key.choices.end(), name)) return;
   if (std::count(key.announced.begin(), key.announced.end(), name)) {
-    throw Error::request(key.path + " = " + name + " is not built yet (" + origin +
-                         "); built: " + join(key.choices, " | "))
+    throw Error::invalid_input(key.path + " = " + name + " is not built yet (" + origin +
+                               "); built: " + join(key.choices, " | "))
         .of(key.path, name);
   }
   const std::string nearest = nearest_name(name, key.choices);
@@ -256,8 +256,8 @@ const BoundKey& find_key(const Keys& keys, const std::string& path, const std::s
     names.push_back(key.description.path);
   }
   const std::string nearest = nearest_name(path, names);
-  throw Error::request("unknown key " + path + " (" + origin + ")" +
-                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+  throw Error::invalid_input("unknown key " + path + " (" + origin + ")" +
+                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
       .of(path, "");
 }
 

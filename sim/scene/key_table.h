@@ -118,14 +118,14 @@ Keys bind(const Rows& rows, Owner& owner) {
 // A value as it stands in a file.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-// Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::request for a wrong
-// type, a number outside its range or not finite, or a text that is no choice.
+// Sets a key.  `origin` ("scene.toml:7", "--step") ends every message.  Throws Error::invalid_input for a
+// wrong type, a number outside its range or not finite, or a text that is no choice.
 void assign(const BoundKey& key, const Value& value, const std::string& origin);
 // A flag's text as the value that a file would hold: numbers in C notation, vectors and lists as numbers
 // apart by spaces or commas.  A text that is none of these stays text (and is refused by assign).
 Value parse_text(const KeyDescription& key, const std::string& text);
 
-// Throws Error::request for an unknown key, naming the nearest known one.
+// Throws Error::invalid_input for an unknown key, naming the nearest known one.
 const BoundKey& find_key(const Keys& keys, const std::string& path, const std::string& origin);
 
 // Values of all keys, nested at the dots of their paths, in the table's order.

@@ -23,7 +23,7 @@ Keys bind_keyframe(Keyframe& keyframe);
 
 // Sets one key from a flag's text and remembers `origin` ("--step").  "fabric" and "fabric.name" load a whole
 // fabric (all its earlier values are replaced); another fabric.* key replaces one number, whose provenance
-// becomes `origin`, "given".  Throws Error::request as assign_text and find_key do.
+// becomes `origin`, "given".  Throws Error::invalid_input as assign_text and find_key do.
 void set_key(Scene& scene, const std::string& path, const std::string& text, const std::string& origin);
 // The same from a file's value; `key` is one of bind_scene(scene).
 void set_key(Scene& scene, const BoundKey& key, const Value& value, const std::string& origin);

@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Error malformed(const std::string& path, const std::string& what, const std::string& file) {
-  return Error::request("scene." + path + " " + what + " (" + file + ")").of(path, "");
+  return Error::invalid_input("scene." + path + " " + what + " (" + file + ")").of(path, "");
 }
 
 std::string text_of(const Json& json, const std::string& path, const std::string& file) {

@@ -11,11 +11,11 @@ namespace hysteron {
 
 // Sets every key that `tree` holds; others stay as they are.  No file is asked for the fabric: its numbers,
 // their sources and what is published of it are those of `tree`, and so is where each key was set.  `file`
-// names it in messages.  Throws Error::request for keys that are not known, wrong types and values out of
-// range.
+// names it in messages.  Throws Error::invalid_input for keys that are not known, wrong types and values out
+// of range.
 void apply_recorded_scene(Scene& scene, const nlohmann::ordered_json& tree, const std::string& file);
 
-// A value of a key as assign() takes it.  Throws Error::request for what is none.
+// A value of a key as assign() takes it.  Throws Error::invalid_input for what is none.
 Value recorded_value(const nlohmann::ordered_json& json, const std::string& path, const std::string& file);
 
 }  // namespace hysteron

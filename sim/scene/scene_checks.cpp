@@ -20,30 +20,33 @@ const std::vector<std::string> kMeshFamilies = {"aligned",   "aligned-45",  "fli
 void check_fabric(const Scene& scene) {
   const Fabric& f = scene.fabric;
   if (f.kes.on() && !(f.b2 > 0)) {
-    throw Error::request(shown(scene, "fabric.stops-median", f.kes.shape.median, "1/m") + " and " +
-                         shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") + " make friction of " +
-                         shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
-                         shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
-                         " where the tester reads: no elasticity is left beside it")
+    throw Error::invalid_input(shown(scene, "fabric.stops-median", f.kes.shape.median, "1/m") + " and " +
+                               shown(scene, "fabric.stops-spread", f.kes.shape.spread, "") +
+                               " make friction of " +
+                               shown(scene, "fabric.kes-2hb", f.kes.read.loop_width, "N") + " steeper than " +
+                               shown(scene, "fabric.kes-b", f.kes.read.rigidity, "N m") +
+                               " where the tester reads: no elasticity is left beside it")
         .of("fabric.stops-median", number_text(f.kes.shape.median));
   }
   if (f.b1 < f.b2) {
-    throw Error::request(shown(scene, "fabric.b1", f.b1, "N m") +
-                         " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))
+    throw Error::invalid_input(shown(scene, "fabric.b1", f.b1, "N m") +
+                               " must be >= " + shown(scene, "fabric.b2", f.b2, "N m"))
         .of("fabric.b1", number_text(f.b1));
   }
   if (f.k0 == 0 && f.b1 > f.b2) {
-    throw Error::request(shown(scene, "fabric.k0", f.k0, "1/m") + " must be > 0 while fabric.b1 > fabric.b2")
+    throw Error::invalid_input(shown(scene, "fabric.k0", f.k0, "1/m") +
+                               " must be > 0 while fabric.b1 > fabric.b2")
         .of("fabric.k0", "0");
   }
   if (4 * f.bias_bending < 1 + f.weft_bending) {
-    throw Error::request(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
-                         number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4")
+    throw Error::invalid_input(shown(scene, "fabric.bias-bending", f.bias_bending, "") + " must be >= " +
+                               number_text((1 + f.weft_bending) / 4) + ", (1 + fabric.weft-bending)/4")
         .of("fabric.bias-bending", number_text(f.bias_bending));
   }
   if (f.coupling * f.coupling >= f.warp * f.weft) {
-    throw Error::request(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
-                         number_text(std::sqrt(f.warp * f.weft)) + " N/m, sqrt(fabric.warp * fabric.weft)")
+    throw Error::invalid_input(shown(scene, "fabric.coupling", f.coupling, "N/m") + " must be within +-" +
+                               number_text(std::sqrt(f.warp * f.weft)) +
+                               " N/m, sqrt(fabric.warp * fabric.weft)")
         .of("fabric.coupling", number_text(f.coupling));
   }
   check_bending_parts(scene);
@@ -54,14 +57,14 @@ void check_mesh(const Scene& scene) {
   const std::string& shape = scene.cloth.shape;
   const bool given = shape == "file" && names_an_obj(scene.mesh);
   if ((shape == "file" || shape == "pattern") && scene.cloth.file.empty() && !given) {
-    throw Error::request("cloth.shape = " + shape + " (" + origin_of(scene, "cloth.shape") +
-                         ") needs cloth.file, an OBJ");
+    throw Error::invalid_input("cloth.shape = " + shape + " (" + origin_of(scene, "cloth.shape") +
+                               ") needs cloth.file, an OBJ");
   }
   if (names_an_obj(scene.mesh) || std::count(kMeshFamilies.begin(), kMeshFamilies.end(), scene.mesh)) return;
   const std::string nearest = nearest_name(scene.mesh, kMeshFamilies);
-  throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") + ") must be " +
-                       join(kMeshFamilies, " | ") + " | FILE.obj" +
-                       (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  throw Error::invalid_input("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") + ") must be " +
+                             join(kMeshFamilies, " | ") + " | FILE.obj" +
+                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
 // The triangles of a file are its own.
@@ -69,24 +72,25 @@ void check_one_mesh(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   const bool of_file = cloth.shape == "file" || cloth.shape == "pattern";
   if (!of_file || cloth.file.empty() || !scene.origin.count("mesh")) return;
-  throw Error::request("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
-                       ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
-                       ") both define the triangles: leave one out");
+  throw Error::invalid_input("mesh = " + scene.mesh + " (" + origin_of(scene, "mesh") +
+                             ") and cloth.file = " + cloth.file + " (" + origin_of(scene, "cloth.file") +
+                             ") both define the triangles: leave one out");
 }
 
 // Lengths of keys are metres.
 void check_unit(const Scene& scene) {
   const ClothShape& cloth = scene.cloth;
   if (cloth.unit == LengthUnit::metre || !rest_file(scene).empty() || names_an_obj(cloth.start)) return;
-  throw Error::request(shown(scene, "cloth.unit", name_of(cloth.unit), "") +
-                       " is that of an OBJ, and this cloth is built: lengths of keys are metres")
+  throw Error::invalid_input(shown(scene, "cloth.unit", name_of(cloth.unit), "") +
+                             " is that of an OBJ, and this cloth is built: lengths of keys are metres")
       .of("cloth.unit", name_of(cloth.unit));
 }
 
 void check_method(const Scene& scene) {
   if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge) {
-    throw Error::request("force = chapter (" + origin_of(scene, "force") + ") needs element = hinge, not " +
-                         name_of(scene.element) + " (" + origin_of(scene, "element") + ")");
+    throw Error::invalid_input("force = chapter (" + origin_of(scene, "force") +
+                               ") needs element = hinge, not " + name_of(scene.element) + " (" +
+                               origin_of(scene, "element") + ")");
   }
 }
 
@@ -94,38 +98,38 @@ void check_motion(const Scene& scene, const std::string& path, const Motion& mot
   for (std::size_t i = 0; i < motion.keys.size(); ++i) {
     const std::string key = path + ".keys[" + std::to_string(i) + "]";
     if (i > 0 && motion.keys[i].time <= motion.keys[i - 1].time) {
-      throw Error::request(key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
-                           number_text(motion.keys[i - 1].time) + " s, the key before (" +
-                           origin_of(scene, key) + ")");
+      throw Error::invalid_input(key + ".time = " + number_text(motion.keys[i].time) + " s must be > " +
+                                 number_text(motion.keys[i - 1].time) + " s, the key before (" +
+                                 origin_of(scene, key) + ")");
     }
     if (motion.keys[i].angle != 0 && motion.axis.isZero(0)) {
-      throw Error::request(key + ".angle = " + number_text(motion.keys[i].angle) +
-                           " degree needs an axis that is not zero (" + origin_of(scene, key) + ")");
+      throw Error::invalid_input(key + ".angle = " + number_text(motion.keys[i].angle) +
+                                 " degree needs an axis that is not zero (" + origin_of(scene, key) + ")");
     }
   }
 }
 
 void check_times(const Scene& scene, double from, double until, const std::string& path) {
   if (from >= until)
-    throw Error::request(path + ".from = " + number_text(from) + " s must be < " + path +
-                         ".until = " + number_text(until) + " s (" + origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".from = " + number_text(from) + " s must be < " + path +
+                               ".until = " + number_text(until) + " s (" + origin_of(scene, path) + ")");
 }
 
 void check_pin(const Scene& scene, const Pin& pin, const std::string& path) {
   check_times(scene, pin.from, pin.until, path);
   if (pin.select == "box" && (pin.low.array() > pin.high.array()).any()) {
-    throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
-                         origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m] (" +
+                               origin_of(scene, path) + ")");
   }
   if (pin.strength > 0 && !scene.is_implicit())
-    throw Error::request(path + ".strength = " + number_text(pin.strength) + " N (" + origin_of(scene, path) +
-                         ") needs integrator = implicit, bdf2, tr-bdf2 or quasi-static, not " +
-                         name_of(scene.integrator));
+    throw Error::invalid_input(
+        path + ".strength = " + number_text(pin.strength) + " N (" + origin_of(scene, path) +
+        ") needs integrator = implicit, bdf2, tr-bdf2 or quasi-static, not " + name_of(scene.integrator));
   check_motion(scene, path, pin.motion);
   for (std::size_t i = 0; i < pin.motion.keys.size(); ++i)
     if (pin.motion.keys[i].scale != 1)
-      throw Error::request(path + ".keys[" + std::to_string(i) + "].scale is for obstacles (" +
-                           origin_of(scene, path) + ")");
+      throw Error::invalid_input(path + ".keys[" + std::to_string(i) + "].scale is for obstacles (" +
+                                 origin_of(scene, path) + ")");
 }
 
 // How far its middle comes in any one step [m].
@@ -147,27 +151,29 @@ double longest_stride(const Scene& scene, const Obstacle& solid) {
 void check_stride(const Scene& scene, const Obstacle& solid, const std::string& path) {
   const double stride = longest_stride(scene, solid), most = form_of(solid).half_thickness;
   if (stride <= most) return;
-  throw Error::request(path + " moves " + number_text(stride) + " m in a step of " + number_text(scene.step) +
-                       " s (" + origin_of(scene, path) + "), further than half its thickness, " +
-                       number_text(most) + " m: it may pass through the cloth; take a step below " +
-                       number_text(scene.step * most / stride) + " s");
+  throw Error::invalid_input(path + " moves " + number_text(stride) + " m in a step of " +
+                             number_text(scene.step) + " s (" + origin_of(scene, path) +
+                             "), further than half its thickness, " + number_text(most) +
+                             " m: it may pass through the cloth; take a step below " +
+                             number_text(scene.step * most / stride) + " s");
 }
 
 void check_obstacle(const Scene& scene, const Obstacle& solid, const std::string& path) {
   check_times(scene, solid.from, solid.until, path);
   const ObstacleForm form = form_of(solid);
   if (form.has_axis && solid.axis.isZero(0)) {
-    throw Error::request(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".axis = [0, 0, 0] must not be zero (" + origin_of(scene, path) + ")");
   }
   if (solid.kind == ObstacleKind::torus && solid.radius <= solid.height / 2) {
-    throw Error::request(path + ".radius = " + number_text(solid.radius) + " m must be > " +
-                         number_text(solid.height / 2) + " m, half of " + path +
-                         ".height: a torus needs a hole (" + origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".radius = " + number_text(solid.radius) + " m must be > " +
+                               number_text(solid.height / 2) + " m, half of " + path +
+                               ".height: a torus needs a hole (" + origin_of(scene, path) + ")");
   }
   const double room = form.has_rim ? form.half_thickness : kInfinity;
   if (solid.rim > room) {
-    throw Error::request(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
-                         number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) + ")");
+    throw Error::invalid_input(path + ".rim = " + number_text(solid.rim) + " m must be in [0, " +
+                               number_text(room) + "], half of the thinnest part (" + origin_of(scene, path) +
+                               ")");
   }
   check_motion(scene, path, solid.motion);
   check_stride(scene, solid, path);
@@ -200,8 +206,8 @@ void check_phases(const Scene& scene) {
     const std::string& name = scene.phase[i].name;
     for (std::size_t j = 0; j < i && !name.empty(); ++j)
       if (scene.phase[j].name == name)
-        throw Error::request(table(i) + " is called \"" + name + "\" like " + table(j) +
-                             ": phases need names of their own");
+        throw Error::invalid_input(table(i) + " is called \"" + name + "\" like " + table(j) +
+                                   ": phases need names of their own");
   }
 }
 
@@ -214,18 +220,19 @@ std::string origin_in(const Scene& scene, const std::string& path, const std::st
 // What falls due when the scene is over is never done.
 void check_due(const Scene& scene, const Command& command, const std::string& path) {
   if (command.time < scene.seconds) return;
-  throw Error::request(path + ".time = " + number_text(command.time) + " s (" +
-                       origin_in(scene, path, "time") + ") must be < " +
-                       shown(scene, "seconds", scene.seconds, "s") + ", the end of the scene");
+  throw Error::invalid_input(path + ".time = " + number_text(command.time) + " s (" +
+                             origin_in(scene, path, "time") + ") must be < " +
+                             shown(scene, "seconds", scene.seconds, "s") + ", the end of the scene");
 }
 
 void check_command(const Scene& scene, const Command& command, const std::string& path) {
   const auto place = [&](const std::string& key) { return origin_in(scene, path, key); };
   if ((command.low.array() > command.high.array()).any())
-    throw Error::request(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") + ")");
+    throw Error::invalid_input(path + ".low must be <= " + path + ".high in x, y and z [m] (" + place("low") +
+                               ")");
   if (command.kind == CommandKind::edit && scene.law != "grinspun-edit") {
-    throw Error::request(path + ".kind = edit needs law = grinspun-edit, not " + scene.law + " (" +
-                         place("kind") + ")");
+    throw Error::invalid_input(path + ".kind = edit needs law = grinspun-edit, not " + scene.law + " (" +
+                               place("kind") + ")");
   }
 }
 
@@ -233,34 +240,35 @@ void check_command(const Scene& scene, const Command& command, const std::string
 
 void check_steps(const Scene& scene) {
   if (scene.self_contact && scene.integrator == Integrator::explicit_euler)
-    throw Error::request(
+    throw Error::invalid_input(
         "self-contact (" + origin_of(scene, "self-contact") +
         ") needs integrator = implicit | bdf2 | tr-bdf2 | quasi-static | semi-implicit, not explicit (" +
         origin_of(scene, "integrator") + ")");
   if (scene.self_contact && scene.integrator == Integrator::semi_implicit &&
       scene.implicit_every == ImplicitEvery::step)
-    throw Error::request("self-contact (" + origin_of(scene, "self-contact") +
-                         ") needs implicit-every = substep, not step (" + origin_of(scene, "implicit-every") +
-                         ")");
+    throw Error::invalid_input("self-contact (" + origin_of(scene, "self-contact") +
+                               ") needs implicit-every = substep, not step (" +
+                               origin_of(scene, "implicit-every") + ")");
   if (!(scene.tolerance > 0)) return;
   if (scene.integrator == Integrator::explicit_euler || scene.integrator == Integrator::quasi_static)
-    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
-                         name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
+    throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
+                               " needs integrator = bdf2 | tr-bdf2 | implicit | semi-implicit, not " +
+                               name_of(scene.integrator) + " (" + origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.self_contact)
-    throw Error::request(
+    throw Error::invalid_input(
         shown(scene, "tolerance", scene.tolerance, "m") +
         " with self-contact needs integrator = bdf2 | tr-bdf2 | implicit, not semi-implicit (" +
         origin_of(scene, "integrator") + ")");
   if (scene.integrator == Integrator::semi_implicit && scene.implicit_every == ImplicitEvery::step)
-    throw Error::request(shown(scene, "tolerance", scene.tolerance, "m") +
-                         " needs implicit-every = substep (" + origin_of(scene, "implicit-every") + ")");
+    throw Error::invalid_input(shown(scene, "tolerance", scene.tolerance, "m") +
+                               " needs implicit-every = substep (" + origin_of(scene, "implicit-every") +
+                               ")");
 }
 
 void check_duration(const Scene& scene) {
   if (scene.seconds > 0 && scene.step > scene.seconds)
-    throw Error::request(shown(scene, "step", scene.step, "s") +
-                         " must be <= " + shown(scene, "seconds", scene.seconds, "s"));
+    throw Error::invalid_input(shown(scene, "step", scene.step, "s") +
+                               " must be <= " + shown(scene, "seconds", scene.seconds, "s"));
   for (std::size_t i = 0; i < scene.command.size(); ++i)
     check_due(scene, scene.command[i], "command[" + std::to_string(i) + "]");
 }

@@ -59,15 +59,17 @@ class SceneFile {
     if (setting.path == "command") return read_tables(node, scene_.command, bind_command);
     if (setting.path == "obstacle") return read_tables(node, scene_.obstacle, bind_obstacle);
     if (setting.path.starts_with("param.")) return set_parameter(setting.path.substr(6), node, origin);
-    if (std::count(left_.begin(), left_.end(), setting.path)) return refuse_unless_array(node);
+    if (std::count(left_.begin(), left_.end(), setting.path)) return throw_if_unless_array(node);
     if (node.kind == TomlNode::Kind::array && is_table(setting.path))
-      throw Error::request(setting.path + " must be one table, [" + setting.path + "] (" + origin + ")");
+      throw Error::invalid_input(setting.path + " must be one table, [" + setting.path + "] (" + origin +
+                                 ")");
     const BoundKey& key = find_key(known_, setting.path, origin);
     if (node.kind == TomlNode::Kind::array && node.children.empty() && key.description.type == "numbers")
       return is_extra(setting.path) ? assign(key, Numbers(), origin)
                                     : set_key(scene_, key, Numbers(), origin);
     if (node.kind == TomlNode::Kind::array) {
-      throw Error::request(setting.path + " must be one value, not an array of tables (" + origin + ")");
+      throw Error::invalid_input(setting.path + " must be one value, not an array of tables (" + origin +
+                                 ")");
     }
     if (is_extra(setting.path)) return assign(key, node.value, origin);
     set_key(scene_, key, located(setting.path, node.value), origin);
@@ -108,7 +110,8 @@ class SceneFile {
     if (const auto* x = std::get_if<std::string>(&node.value)) text = *x;
     if (const auto* x = std::get_if<std::int64_t>(&node.value)) text = std::to_string(*x);
     if (const auto* x = std::get_if<double>(&node.value)) text = number_text(*x);
-    if (text.empty()) throw Error::request("param." + name + " must be a text or a number (" + origin + ")");
+    if (text.empty())
+      throw Error::invalid_input("param." + name + " must be a text or a number (" + origin + ")");
     scene_.param[name] = text;
     scene_.origin["param." + name] = origin;
   }
@@ -119,15 +122,15 @@ class SceneFile {
                        [&](const BoundKey& key) { return key.description.path.starts_with(path + "."); });
   }
 
-  void refuse_unless_array(const TomlNode& node) const {
+  void throw_if_unless_array(const TomlNode& node) const {
     if (node.kind == TomlNode::Kind::array) return;
-    throw Error::request(node.key + " must be an array of tables, [[" + node.key + "]] (" +
-                         place(file_, node) + ")");
+    throw Error::invalid_input(node.key + " must be an array of tables, [[" + node.key + "]] (" +
+                               place(file_, node) + ")");
   }
 
   template <class Item>
   void read_tables(const TomlNode& node, std::vector<Item>& items, Keys (*bind_one)(Item&)) {
-    refuse_unless_array(node);
+    throw_if_unless_array(node);
     items.assign(node.children.size(), Item{});
     for (std::size_t i = 0; i < items.size(); ++i) {
       const std::string path = node.key + "[" + std::to_string(i) + "]";
@@ -148,7 +151,7 @@ class SceneFile {
       }
       const BoundKey& key = find_key(keys, path + "." + child.key, origin);
       if (child.kind != TomlNode::Kind::value)
-        throw Error::request(path + "." + child.key + " must be one value (" + origin + ")");
+        throw Error::invalid_input(path + "." + child.key + " must be one value (" + origin + ")");
       assign(key, timed(key, child.value, origin), origin);
       scene_.origin[path + "." + child.key] = origin;
     }
@@ -244,9 +247,9 @@ double time_of(const std::vector<Phase>& phases, const std::string& text, const 
   if (start < 0) {
     std::vector<std::string> names;
     for (const Phase& phase : phases) names.push_back(phase.name);
-    throw Error::request("\"" + text + "\" must be a number of seconds or begin with a phase, " +
-                         (names.empty() ? "of which there are none" : join(names, " | ")) + " (" + origin +
-                         ")");
+    throw Error::invalid_input("\"" + text + "\" must be a number of seconds or begin with a phase, " +
+                               (names.empty() ? "of which there are none" : join(names, " | ")) + " (" +
+                               origin + ")");
   }
   if (sign == std::string::npos) return start;
   const std::size_t digit = text.find_first_not_of(' ', sign + 1);
@@ -254,8 +257,8 @@ double time_of(const std::vector<Phase>& phases, const std::string& text, const 
   const char* end = text.data() + text.size();
   const bool digits = digit != std::string::npos;
   if (!digits || std::from_chars(text.data() + digit, end, more).ptr != end)
-    throw Error::request("\"" + text + "\": after the phase, + or - and a number of seconds are expected (" +
-                         origin + ")");
+    throw Error::invalid_input(
+        "\"" + text + "\": after the phase, + or - and a number of seconds are expected (" + origin + ")");
   return text[sign] == '-' ? start - more : start + more;
 }
 

@@ -25,7 +25,8 @@ Scene default_scene(const std::string& fabric = "cotton-broad");
 // in the file.  Keys in `extra` (an experiment's own, or the run's options) are allowed at the top level too.
 // Arrays of tables called as in `left` are left to the caller.
 // A cloth or mesh file is looked for from the working folder, then beside the scene file.
-// Throws Error::request (one line with file, line, key, value, unit, range), Error::machine if unreadable.
+// Throws Error::invalid_input (one line with file, line, key, value, unit, range), Error::system if
+// unreadable.
 void apply_scene_file(Scene& scene, const std::string& name_or_file, const Keys& extra = {},
                       const std::vector<std::string>& left = {});
 // The same from a tree that another program has made; `source` stands for the file in messages.
@@ -36,13 +37,13 @@ void apply_scene_tree(Scene& scene, const TomlNode& root, const std::string& sou
 void apply_flags(Scene& scene, const std::vector<Flag>& flags, const Keys& extra = {});
 
 // What no single key can tell: b1 >= b2, k0 > 0 or b1 = b2, coupling^2 < warp*weft, `chapter` on hinges only,
-// pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::request.
+// pins, obstacles and their motions, the law's parameters, the mesh's name.  Throws Error::invalid_input.
 void check_scene(const Scene& scene);
 // The part of it that asks whether the lists of fabric.bending.* fit together.
 void check_bending_parts(const Scene& scene);
 void check_in_plane_stops(const Scene& scene);  // the same of fabric.membrane.*
 // That there is a step in it at all, and that commands are due before its end: of a scene that is about to
-// run, since experiments say how long they last.  Throws Error::request.
+// run, since experiments say how long they last.  Throws Error::invalid_input.
 void check_duration(const Scene& scene);
 void check_steps(const Scene& scene);  // the part of it that asks what the integrator can do
 
@@ -52,8 +53,8 @@ void check_steps(const Scene& scene);  // the part of it that asks what the inte
 double phase_start(const std::vector<Phase>& phases, const std::string& name);
 // Sum of all of them [s].
 double phases_end(const std::vector<Phase>& phases);
-// A time written as "hang", "hang + 0.2" or "hang - 0.2" (spaces as one likes) [s].  Error::request, which
-// ends in `origin`, for a name that is no phase or a number that is none.
+// A time written as "hang", "hang + 0.2" or "hang - 0.2" (spaces as one likes) [s].  Error::invalid_input,
+// which ends in `origin`, for a name that is no phase or a number that is none.
 double time_of(const std::vector<Phase>& phases, const std::string& text, const std::string& origin);
 
 }  // namespace hysteron

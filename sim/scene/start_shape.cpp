@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
 // Of a knot.
-constexpr double kLeastRadius = 5;  // in widths: below, the torsion stretches the strip by more than 1 %
-constexpr double kSway = 0.15;      // of the radius: how far loops swing in and out
+constexpr double kMinRadius = 5;  // in widths: below, the torsion stretches the strip by more than 1 %
+constexpr double kSway = 0.15;    // of the radius: how far loops swing in and out
 constexpr double kRise =
     0.9;  // of the width: how far they swing up and down, which parts them where they cross
 constexpr double kDrift = 1.2;    // of the width: from the beginning to the end, which parts the tails
@@ -115,27 +115,29 @@ void draw_copies(const Scene& scene, std::vector<Vector3d>& x) {
 
 void check_knot(const Scene& scene) {
   const ClothShape& c = scene.cloth;
-  if (c.radius < kLeastRadius * c.width)
-    throw Error::request(shown(scene, "cloth.radius", c.radius, "m") + " must be >= " +
-                         number_text(kLeastRadius * c.width) + " m, " + number_text(kLeastRadius) +
-                         " times " + shown(scene, "cloth.width", c.width, "m") + ", for cloth.start = knot");
+  if (c.radius < kMinRadius * c.width)
+    throw Error::invalid_input(shown(scene, "cloth.radius", c.radius, "m") +
+                               " must be >= " + number_text(kMinRadius * c.width) + " m, " +
+                               number_text(kMinRadius) + " times " +
+                               shown(scene, "cloth.width", c.width, "m") + ", for cloth.start = knot");
   const double least = knot_length(c.width, c.radius);
   if (c.length < least)
-    throw Error::request(shown(scene, "cloth.length", c.length, "m") + " must be >= " + number_text(least) +
-                         " m for a knot with loops of " + shown(scene, "cloth.radius", c.radius, "m"));
+    throw Error::invalid_input(shown(scene, "cloth.length", c.length, "m") +
+                               " must be >= " + number_text(least) + " m for a knot with loops of " +
+                               shown(scene, "cloth.radius", c.radius, "m"));
 }
 
 void check_pleats(const Scene& scene) {
   const ClothShape& c = scene.cloth;
   if (c.radius < scene.fabric.thickness)
-    throw Error::request(shown(scene, "cloth.radius", c.radius, "m") +
-                         " must be >= " + number_text(scene.fabric.thickness) +
-                         " m, fabric.thickness, for cloth.start = pleats");
+    throw Error::invalid_input(shown(scene, "cloth.radius", c.radius, "m") +
+                               " must be >= " + number_text(scene.fabric.thickness) +
+                               " m, fabric.thickness, for cloth.start = pleats");
   if (run_of(c) <= 0)
-    throw Error::request(shown(scene, "cloth.length", c.length, "m") + " must be > " +
-                         number_text((c.pleats - 1) * kPi * c.radius) + " m for " +
-                         shown(scene, "cloth.pleats", std::to_string(c.pleats), "") + " with turns of " +
-                         shown(scene, "cloth.radius", c.radius, "m"));
+    throw Error::invalid_input(shown(scene, "cloth.length", c.length, "m") + " must be > " +
+                               number_text((c.pleats - 1) * kPi * c.radius) + " m for " +
+                               shown(scene, "cloth.pleats", std::to_string(c.pleats), "") +
+                               " with turns of " + shown(scene, "cloth.radius", c.radius, "m"));
 }
 
 void check_start_name(const Scene& scene) {
@@ -143,8 +145,8 @@ void check_start_name(const Scene& scene) {
   const std::string& start = scene.cloth.start;
   if (std::count(kNames.begin(), kNames.end(), start)) return;
   const std::string nearest = nearest_name(start, kNames);
-  throw Error::request(shown(scene, "cloth.start", start, "") + " must be " + join(kNames, " | ") +
-                       " | FILE.obj" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
+  throw Error::invalid_input(shown(scene, "cloth.start", start, "") + " must be " + join(kNames, " | ") +
+                             " | FILE.obj" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"))
       .of("cloth.start", start);
 }
 
@@ -155,19 +157,19 @@ double knot_length(double width, double radius) { return Knot(width, radius).len
 void check_start_shape(const Scene& scene) {
   const ClothShape& c = scene.cloth;
   if (c.copies > 1 && scene.triangles < 2 * c.copies)
-    throw Error::request(shown(scene, "triangles", std::to_string(scene.triangles), "") +
-                         " must be at least 2 for each of " +
-                         shown(scene, "cloth.copies", std::to_string(c.copies), ""));
+    throw Error::invalid_input(shown(scene, "triangles", std::to_string(scene.triangles), "") +
+                               " must be at least 2 for each of " +
+                               shown(scene, "cloth.copies", std::to_string(c.copies), ""));
   if (c.copies > 1 && (names_an_obj(c.start) || c.shape == "pattern"))
-    throw Error::request(shown(scene, "cloth.copies", std::to_string(c.copies), "") +
-                         " must be 1 where a file says where the cloth starts");
+    throw Error::invalid_input(shown(scene, "cloth.copies", std::to_string(c.copies), "") +
+                               " must be 1 where a file says where the cloth starts");
   if (c.start == "rest" || names_an_obj(c.start)) return;
   check_start_name(scene);
   const bool knot = c.start == "knot", of_file = names_an_obj(scene.mesh);
   if (of_file || !(c.shape == "strip" || (!knot && c.shape == "square")))
-    throw Error::request(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
-                         (knot ? "" : " or square") + ", not " +
-                         (of_file ? "the mesh " + scene.mesh : c.shape));
+    throw Error::invalid_input(shown(scene, "cloth.start", c.start, "") + " needs cloth.shape = strip" +
+                               (knot ? "" : " or square") + ", not " +
+                               (of_file ? "the mesh " + scene.mesh : c.shape));
   knot ? check_knot(scene) : check_pleats(scene);
 }
 

@@ -9,7 +9,7 @@ namespace hysteron {
 // Shortest strip of which a knot with loops of this radius can be tied, with tails of a loop's radius [m].
 double knot_length(double width, double radius);
 
-// Error::request for a start that the cloth's shape, its sizes or the number of triangles do not allow.
+// Error::invalid_input for a start that the cloth's shape, its sizes or the number of triangles do not allow.
 void check_start_shape(const Scene& scene);
 
 // Where the vertices of the mesh start before the scene places them: rest shape, knot or pleats, each copy

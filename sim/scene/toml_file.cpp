@@ -15,7 +15,7 @@
 namespace hysteron {
 namespace {
 
-constexpr std::size_t kMostTomlBytes = std::size_t{16} << 20;
+constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;
 
 // What is read, and what may stand in it.
 struct Source {
@@ -38,11 +38,11 @@ bool is_list(const toml::array& array) {
 }
 
 // Keys and texts stand in messages of one line, in captions and in names of files.
-void refuse_control_characters(const std::string& text, const std::string& file, int line) {
+void throw_if_control_characters(const std::string& text, const std::string& file, int line) {
   const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\t') || c == 0x7F; };
   if (std::none_of(text.begin(), text.end(), is_control)) return;
-  throw Error::request("a key or a text holds a line break or another control character (" + file + ":" +
-                       std::to_string(line) + ")");
+  throw Error::invalid_input("a key or a text holds a line break or another control character (" + file +
+                             ":" + std::to_string(line) + ")");
 }
 
 Value convert_value(const std::string& file, const std::string& key, const toml::node& source) {
@@ -50,11 +50,12 @@ Value convert_value(const std::string& file, const std::string& key, const toml:
   if (const auto* x = source.as_integer()) return x->get();
   if (const auto* x = source.as_floating_point()) return x->get();
   if (const auto* x = source.as_string()) {
-    refuse_control_characters(x->get(), file, line_of(source));
+    throw_if_control_characters(x->get(), file, line_of(source));
     return x->get();
   }
-  throw Error::request(key + " is a date or a mixed array (" + file + ":" + std::to_string(line_of(source)) +
-                       "); allowed are true, false, numbers, texts, arrays of numbers, tables");
+  throw Error::invalid_input(key + " is a date or a mixed array (" + file + ":" +
+                             std::to_string(line_of(source)) +
+                             "); allowed are true, false, numbers, texts, arrays of numbers, tables");
 }
 
 TomlNode convert_array(const Source& from, const std::string& key, const toml::array& source) {
@@ -79,7 +80,7 @@ TomlNode convert(const Source& from, const std::string& key, const toml::node& s
   TomlNode node{TomlNode::Kind::table, key, line_of(source), {}, {}};
   if (const auto* table = source.as_table()) {
     for (const auto& [name, child] : *table) {
-      refuse_control_characters(std::string(name.str()), from.file, line_of(child));
+      throw_if_control_characters(std::string(name.str()), from.file, line_of(child));
       node.children.push_back(convert(from, std::string(name.str()), child));
     }
     // The library sorts by name; messages should come in reading order.
@@ -93,7 +94,7 @@ TomlNode convert(const Source& from, const std::string& key, const toml::node& s
 }
 
 Error malformed(const std::string& why, const std::string& file, int line) {
-  return Error::request("cannot read as TOML: " + why + " (" + file + ":" + std::to_string(line) + ")");
+  return Error::invalid_input("cannot read as TOML: " + why + " (" + file + ":" + std::to_string(line) + ")");
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ const TomlNode* TomlNode::find(const std::string& name) const {
 }
 
 TomlNode read_toml(const std::string& file, TomlLists lists) {
-  const std::string text = whole_file(file, "cannot read " + file, kMostTomlBytes);
+  const std::string text = whole_file(file, "cannot read " + file, kMaxTomlBytes);
   if (const std::optional<TomlFault> fault = fault_before_parsing(text))
     throw malformed(fault->what, file, fault->line);
   try {

@@ -22,8 +22,8 @@ struct TomlNode {
 // Whether arrays of texts or of truths may stand in a file, which no key of a scene takes.
 enum class TomlLists { refused, allowed };
 
-// Reads a whole file.  Throws Error::machine if it cannot be read, Error::request with file and line if it is
-// no TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
+// Reads a whole file.  Throws Error::system if it cannot be read, Error::invalid_input with file and line if
+// it is no TOML, nests deeper than any scene, or holds what no key can take (dates, mixed arrays).
 TomlNode read_toml(const std::string& file, TomlLists lists = TomlLists::refused);
 
 // "scene.toml:7"; without a line of its own "scene.toml".

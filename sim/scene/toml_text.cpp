@@ -87,8 +87,8 @@ class Structure {
 
   std::string take(char c, int line) {
     if (is_one_of(c, "=,[]{}")) dots_ = 0;
-    if (c == '.' && ++dots_ >= kMostKeyParts)
-      return "a key has more than " + std::to_string(kMostKeyParts) + " parts";
+    if (c == '.' && ++dots_ >= kMaxKeyParts)
+      return "a key has more than " + std::to_string(kMaxKeyParts) + " parts";
     if (c == '=' && std::exchange(in_value_, true)) return "a value holds an equals sign";
     if (is_one_of(c, "[{")) open_.push_back({c, line});
     if (is_one_of(c, "]}")) return close(c);

@@ -7,7 +7,7 @@
 
 namespace hysteron {
 
-inline constexpr int kMostKeyParts = 32;  // "cloth.length" has two
+inline constexpr int kMaxKeyParts = 32;  // "cloth.length" has two
 
 struct TomlFault {
   int line;
@@ -22,7 +22,7 @@ struct TomlFault {
 //  - brackets outside of texts and comments that do not match;
 //  - a header that is not "[a.b]" or "[[a.b]]" in a line of its own;
 //  - a text that begins in the middle of a key or a value: 1"a";
-//  - a key of more than kMostKeyParts parts: each part is a table in the one before.
+//  - a key of more than kMaxKeyParts parts: each part is a table in the one before.
 // Whatever else is wrong with a text is left to the parser.
 std::optional<TomlFault> fault_before_parsing(std::string_view text);
 

@@ -10,7 +10,7 @@
 
 namespace hysteron {
 
-inline constexpr int kMostMovingPins = 12;  // their placements travel with a kernel launch by value
+inline constexpr int kMaxMovingPins = 12;  // their placements travel with a kernel launch by value
 
 std::unique_ptr<Simulation> make_cpu_simulation(const Scene&, const Cloth&, const CurvatureOperator&,
                                                 const StepLimits&);

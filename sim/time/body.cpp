@@ -61,11 +61,11 @@ Body<Real, Device>::Body(std::unique_ptr<Device> on, const Scene& s, const Cloth
 
 template <class Real, class Device>
 void Body<Real, Device>::meet(double start, Real h) {
-  jumped |= hands.attach_and_release(*this, start);
+  forces_discontinuous |= hands.attach_and_release(*this, start);
   if (contact && start >= next_obstacle_) {
-    refuse_arrival(*this, met_, start);
+    throw_if_arrival(*this, met_, start);
     met_ = start;
-    jumped = true;
+    forces_discontinuous = true;
     next_obstacle_ = 1e30;
     for (const Obstacle& o : scene.obstacle)
       if (o.from > start) next_obstacle_ = std::min(next_obstacle_, o.from);
@@ -95,7 +95,8 @@ void Body<Real, Device>::end_stage(double time) {
   clock.end(Stage::contact);
   if (deep == 0) return;
   ++counts.deep;
-  if (scene.newton_iterations == 0) refuse_crushed(*this, time);  // else forces need not have come to balance
+  if (scene.newton_iterations == 0)
+    throw_if_crushed(*this, time);  // else forces need not have come to balance
 }
 
 template <class Real, class Device>
@@ -106,7 +107,7 @@ void Body<Real, Device>::carry_out_commands(double start, double end) {
     for (const Eigen::Vector3d& center : command_center_)
       chosen.push_back(is_in_box(center, command.low, command.high));
     bending.command(command.kind, chosen);
-    jumped = true;
+    forces_discontinuous = true;
   }
 }
 
@@ -118,7 +119,7 @@ void Body<Real, Device>::visit(Archive& archive) {
   hysteron::visit(archive, *device, ledger);
   hysteron::visit(archive, clock);
   archive(counts);
-  archive(jumped);
+  archive(forces_discontinuous);
   archive(initial_);
   archive(next_obstacle_);
   archive(met_);

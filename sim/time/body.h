@@ -24,7 +24,7 @@ struct StepCounts {
   long unbalanced = 0;          // parts taken before Newton's method had converged
   long deep = 0;                // parts with a vertex deeper than the cloth's thickness in an obstacle
   long newton = 0, linear = 0;  // iterations
-  double step_lengths = 0;      // sum over Newton's iterations, 1 for a full step
+  double time_steps = 0;        // sum over Newton's iterations, 1 for a full step
   double last_residual = 0;     // unbalanced force over load where Newton's method ended last
   // Over what was accepted: the largest of that; of stages in motion what it makes of free masses [m/s].
   double largest_residual = 0, largest_velocity = 0, velocities = 0;
@@ -61,7 +61,7 @@ struct Body {
   Hands<Real, Device> hands;
   StepCounts counts;
   // Hands, obstacles or commands have changed forces at once since the stage accepted last.
-  bool jumped = false;
+  bool forces_discontinuous = false;
 
   // A stage from `start` over h: what is held and how it moves, where obstacles go, where the cloth was.
   void begin_stage(double start, Real h);

@@ -92,7 +92,7 @@ bool Hands<Real, Device>::attach_and_release(Body<Real, Device>& body, double st
   const std::vector<int> pins = body.cloth.pins(body.scene, start);
   const std::vector<char> held = body.cloth.held(body.scene, start);
   bool changed = book(body, held);
-  if (body.contact) refuse_release(body, held, start);
+  if (body.contact) throw_if_release(body, held, start);
   body.held.upload(held);
   if (limited_) changed |= pins != pin_.download();
   if (moving_) take(body, pins, start);
@@ -252,7 +252,7 @@ bool Hands<Real, Device>::give_way(Body<Real, Device>& body, Real h) {
   strength_.upload(strength);
   body.v.upload(v);
   body.held.upload(held);
-  body.self_contact->look_anew();
+  body.self_contact->invalidate_pairs();
   return gives_way_ = pulls_ = true;
 }
 

@@ -24,12 +24,12 @@ struct Body;
 // Travels with a kernel launch by value.
 template <class Real>
 struct HandPlacements {
-  Mat3<Real> rotation[kMostMovingPins];
-  Vec3<Real> translation[kMostMovingPins];
+  Mat3<Real> rotation[kMaxMovingPins];
+  Vec3<Real> translation[kMaxMovingPins];
   // Share of the way home that is done at the end of the step, and in it.
-  Real home[kMostMovingPins], homewards[kMostMovingPins];
+  Real home[kMaxMovingPins], homewards[kMaxMovingPins];
   // The way of a step as one screw: the hand turns by `turn` about a pivot that moves by `shift`.
-  Vec3<Real> turn[kMostMovingPins], pivot[kMostMovingPins], shift[kMostMovingPins];  // [rad], at the end [m]
+  Vec3<Real> turn[kMaxMovingPins], pivot[kMaxMovingPins], shift[kMaxMovingPins];  // [rad], at the end [m]
 };
 
 template <class Real, class Device>
@@ -38,8 +38,8 @@ class Hands {
   // with_arcs: for integrators that ask for the way along the hands' arcs.
   Hands(Device& device, const Scene& scene, const Cloth& cloth, bool with_arcs);
 
-  // Hands take hold and let go where that is due at `start`; Error::run where cloth is let go in an obstacle.
-  // Says whether any did.  What gave way is held again.
+  // Hands take hold and let go where that is due at `start`; Error::simulation where cloth is let go in an
+  // obstacle. Says whether any did.  What gave way is held again.
   bool attach_and_release(Body<Real, Device>& body, double start);
   // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its
   // axis [degree/s], whatever its motion was.

@@ -38,7 +38,7 @@ void ImplicitIntegrator<Real, Device>::step(double start) {
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::step_by(double start, double h) {
   if (body_.scene.integrator != Integrator::quasi_static && !solver_.is_static())
-    refuse_long_step(body_.scene);
+    throw_if_long_step(body_.scene);
   take_interval(start, h, 0);
 }
 
@@ -71,7 +71,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::attempt(double start, double h, 
   const Real length = static_cast<Real>(h);
   Hands<Real, Device>& hands = body_.hands;
   body_.begin_stage(start, length);
-  if (body_.jumped) solver_.forget_acceleration();
+  if (body_.forces_discontinuous) solver_.forget_acceleration();
   const bool gives_way =
       body_.self_contact && hands.are_barred(body_, length) && hands.give_way(body_, length);
   const NewtonOutcome outcome = solve(start, h, is_first_stage);
@@ -88,7 +88,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bo
   body_.counts.newton += outcome.iterations;
   body_.counts.linear += outcome.linear_iterations;
   body_.counts.unbalanced += outcome.unbalanced;
-  body_.counts.step_lengths += outcome.step_lengths;
+  body_.counts.time_steps += outcome.time_steps;
   left_ = outcome;
   body_.counts.last_residual = outcome.load > 0 ? outcome.residual / outcome.load : 0;
   return outcome;
@@ -106,14 +106,14 @@ void ImplicitIntegrator<Real, Device>::accept(double end) {
   body_.clock.begin(Stage::history);
   solver_.accept(vertices_of(body_), body_.ledger.data());
   body_.clock.end(Stage::history);
-  body_.jumped = false;
+  body_.forces_discontinuous = false;
   body_.end_stage(end);
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_interval(double start, double h, int halvings) {
   const NewtonOutcome outcome =
-      attempt(start, first_stage(h), solver_.has_two_stages(), halvings == kMostHalvings);
+      attempt(start, first_stage(h), solver_.has_two_stages(), halvings == kMaxHalvings);
   outcome.converged ? finish(start, h, halvings) : take_halves(start, h, halvings, outcome);
 }
 
@@ -125,14 +125,14 @@ void ImplicitIntegrator<Real, Device>::finish(double start, double h, int halvin
   accept(start + first);
   ++body_.counts.parts;
   if (!solver_.has_two_stages()) return;
-  const NewtonOutcome outcome = attempt(start + first, rest, false, halvings == kMostHalvings);
+  const NewtonOutcome outcome = attempt(start + first, rest, false, halvings == kMaxHalvings);
   outcome.converged ? accept(start + first + rest) : take_halves(start + first, rest, halvings, outcome);
 }
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int halvings,
                                                    const NewtonOutcome& outcome) {
-  if (halvings == kMostHalvings) refuse_unbalanced(body_, solver_, start, h, outcome);
+  if (halvings == kMaxHalvings) throw_if_unbalanced(body_, solver_, start, h, outcome);
   ++body_.counts.retried;
   take_interval(start, h / 2, halvings + 1);
   take_interval(start + h / 2, h / 2, halvings + 1);
@@ -141,7 +141,7 @@ void ImplicitIntegrator<Real, Device>::take_halves(double start, double h, int h
 // Parts whose estimated error stays below the tolerance; one that does not is taken again, shorter.
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
-  const double whole = body_.scene.step, end = start + whole, least = whole / (1 << kMostHalvings);
+  const double whole = body_.scene.step, end = start + whole, least = whole / (1 << kMaxHalvings);
   if (part_ <= 0) part_ = whole / 16;
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, part_);
@@ -152,8 +152,9 @@ void ImplicitIntegrator<Real, Device>::take_adaptive_step(double start) {
       finish(now, h, 0);
       now += h;
     } else if (wanted < least) {
-      throw Error::run("tolerance = " + std::to_string(tolerance_) + " m cannot be met at t = " +
-                       std::to_string(now) + " s with steps of " + std::to_string(least) + " s or more");
+      throw Error::simulation("tolerance = " + std::to_string(tolerance_) +
+                              " m cannot be met at t = " + std::to_string(now) + " s with steps of " +
+                              std::to_string(least) + " s or more");
     } else {
       ++body_.counts.retried;
     }
@@ -179,7 +180,7 @@ void LaggedBending<Real, Device>::step(double start) {
 
 template <class Real, class Device>
 void LaggedBending<Real, Device>::become_static() {
-  refuse_statics(this->body_.scene);
+  throw_if_statics(this->body_.scene);
 }
 
 template class ImplicitIntegrator<double, ThisDevice>;

@@ -31,12 +31,12 @@ NewtonLimits newton_limits(const Scene& scene, bool statics) {
   limits.tuning = scene.tuning;
   limits.residual = scene.newton_residual;
   // Single precision resolves positions of a metre to 6e-8 m.
-  constexpr double kLeastVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
-  limits.velocity = std::max(scene.newton_velocity, kLeastVelocity);
+  constexpr double kMinVelocity = sizeof(Real) == 8 ? 0 : 1e-5;
+  limits.velocity = std::max(scene.newton_velocity, kMinVelocity);
   if (statics && scene.integrator != Integrator::quasi_static) {
     // What is good enough for steps in time, whose own error hides it, is not for the equilibrium after them.
     limits.residual = std::min(limits.residual, 1e-6);
-    limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kLeastVelocity);
+    limits.velocity = std::max(std::min(scene.newton_velocity, 1e-9), kMinVelocity);
   }
   if (statics) {
     limits.iterations = 400;
@@ -85,8 +85,8 @@ ImplicitStep<Real, Device>::ImplicitStep(Device& device, const Scene& scene, con
       forces_(device, static_ ? vertices_ : 0) {
   // Solves in one launch take the whole matrix; those with self-contact, in loops of their own, gain by it
   // where a GPU waits for loops rather than for memory.  On a CPU they wait for nothing.
-  constexpr int kMostWithSelfContact = 32768;
-  const int most = self_contact ? kMostWithSelfContact : kMostRowsInOneLaunch;  // vertices
+  constexpr int kMaxWithSelfContact = 32768;
+  const int most = self_contact ? kMaxWithSelfContact : kMaxRowsInOneLaunch;  // vertices
   if (Device::kGpu && !bending_lags_ && vertices_ <= most) potential_.assemble();
 }
 
@@ -120,7 +120,7 @@ void ImplicitStep<Real, Device>::visit(Archive& archive) {
 template <class Real, class Device>
 StepFormula ImplicitStep<Real, Device>::rates_of(double h) const {
   if (static_) return StepFormula::statics(h);
-  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMostGrowth * last_h_;
+  const bool two_steps = two_step_ && last_h_ > 0 && h <= kMaxGrowth * last_h_;
   return two_steps ? StepFormula::bdf2(h, last_h_) : StepFormula::backward_euler(h);
 }
 
@@ -199,7 +199,7 @@ template <class Real, class Device>
 PotentialValue ImplicitStep<Real, Device>::potential_of_guess(const VertexState<Real>& state,
                                                               bool accelerated) {
   guess(state, accelerated);
-  potential_.keep_out(end_.data());
+  potential_.clip_to_obstacles(end_.data());
   const bool apart = !potential_.has_self_contact() || keep_apart(state);
   if (!apart || !potential_.reaches(end_.data())) return {.energy = std::numeric_limits<double>::infinity()};
   potential_.lag_friction(end_.data());
@@ -251,12 +251,12 @@ void ImplicitStep<Real, Device>::guess(const VertexState<Real>& state, bool acce
 // all of theirs.
 template <class Real, class Device>
 bool ImplicitStep<Real, Device>::keep_apart(const VertexState<Real>& state) {
-  constexpr int kMostShortenings = 12;
+  constexpr int kMaxShortenings = 12;
   constexpr double kWithin = 0.99, kFastest = 0.1;
   double shorter = 1;
-  for (int k = 0; k < kMostShortenings; ++k) {
+  for (int k = 0; k < kMaxShortenings; ++k) {
     shorten_guess(state, static_cast<Real>(shorter));
-    const double feasible = potential_.unfolded_step(state.x, displacement_.data(), 1);
+    const double feasible = potential_.collision_free_step(state.x, displacement_.data(), 1);
     if (feasible >= 1) {
       potential_.took(end_.data());
       return true;

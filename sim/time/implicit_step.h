@@ -65,7 +65,7 @@ class ImplicitStep {
   NewtonOutcome solve(const VertexState<Real>& state, double h, double share, bool is_first_stage = false);
   bool is_static() const { return static_; }
   bool has_two_stages() const { return two_stage_; }  // tr-bdf2
-  // Forces have jumped: the acceleration that was is not the one to go on with.
+  // Forces have forces_discontinuous: the acceleration that was is not the one to go on with.
   void forget_acceleration() { knows_acceleration_ = false; }
   // Steps are equilibria from now on.
   void become_static(const Scene& scene);
@@ -95,7 +95,7 @@ class ImplicitStep {
   void move_on(const VertexState<Real>& state);
 
  private:
-  static constexpr double kMostGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
+  static constexpr double kMaxGrowth = 2.4;  // of a step over the one before; bdf2 is stable below 1 + sqrt2
   StepFormula formula_of(double h, bool is_first_stage) const;
   StepFormula rates_of(double h) const;
   PotentialValue potential_of_guess(const VertexState<Real>& state, bool accelerated);

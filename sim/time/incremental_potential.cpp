@@ -36,8 +36,8 @@ void IncrementalPotential<Real, Device>::begin(const StepStart<Real>& start) {
 }
 
 template <class Real, class Device>
-double IncrementalPotential<Real, Device>::unfolded_step(const Vec3<Real>* x, const Vec3<Real>* direction,
-                                                         double max_step) {
+double IncrementalPotential<Real, Device>::collision_free_step(const Vec3<Real>* x,
+                                                               const Vec3<Real>* direction, double max_step) {
   return self_contact_ ? self_contact_->prepare(x, direction, start_.held, max_step) : max_step;
 }
 
@@ -45,12 +45,12 @@ template <class Real, class Device>
 double IncrementalPotential<Real, Device>::feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction,
                                                          double max_step) {
   const double outside = contact_ ? contact_->feasible_step(x, direction, start_.held, max_step) : max_step;
-  return unfolded_step(x, direction, outside);
+  return collision_free_step(x, direction, outside);
 }
 
 template <class Real, class Device>
-void IncrementalPotential<Real, Device>::keep_out(Vec3<Real>* end) {
-  if (contact_) contact_->keep_out(start_.now, end, start_.held);
+void IncrementalPotential<Real, Device>::clip_to_obstacles(Vec3<Real>* end) {
+  if (contact_) contact_->clip_to_obstacles(start_.now, end, start_.held);
 }
 
 template <class Real, class Device>

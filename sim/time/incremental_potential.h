@@ -61,11 +61,11 @@ class IncrementalPotential {
   // Largest step length along `direction` from x, up to `max_step`, on which the cloth does not pass through
   // itself; feasible_step() also counts obstacles.  evaluate() then serves points up to there; took() tells
   // which of them was taken.
-  double unfolded_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
+  double collision_free_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   double feasible_step(const Vec3<Real>* x, const Vec3<Real>* direction, double max_step);
   void took(const Vec3<Real>* x);
   // Ends the paths of free vertices to `end` before the obstacles that bar them; whether none does.
-  void keep_out(Vec3<Real>* end);
+  void clip_to_obstacles(Vec3<Real>* end);
   bool reaches(const Vec3<Real>* end);
   bool has_self_contact() const { return self_contact_ != nullptr; }
   // Limits of friction from the contact at x; Phi changes with them.

@@ -19,7 +19,7 @@ constexpr double kWorkOfVertex = 3e4;
 // The same in all, up to which one core keeps up with a GPU, which takes some 10 ms for any step.
 constexpr double kCpuWork = 5e7;
 // Ordering larger cloths would take seconds.
-constexpr int kMostVertices = 10000;
+constexpr int kMaxVertices = 10000;
 
 // By which stiff threads raise it: multigrid then takes more iterations, a factorisation does not.  Seconds
 // of multigrid over those of factorisations in `drape --quick` of 2,400 and 6,000 triangles: 0.66 and 0.52 at
@@ -61,18 +61,19 @@ MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const Curvatu
   choice.in_float = scene.solves_in_float();
   if (scene.linear_solver == Preconditioning::cholesky) {
     if (choice.in_float)
-      throw Error::request(
+      throw Error::invalid_input(
           "linear-precision = float is of conjugate gradients: linear-solver = cholesky must be auto, "
           "multigrid or block-jacobi");
     if (scene.device == DeviceChoice::cuda)
-      throw Error::request("linear-solver = cholesky runs on the CPU: device = cuda must be auto or cpu");
+      throw Error::invalid_input(
+          "linear-solver = cholesky runs on the CPU: device = cuda must be auto or cpu");
     if (choice.gpu) choice.reason = "linear-solver = cholesky runs on the CPU";
     choice.gpu = false;
   }
   if (scene.linear_solver != Preconditioning::automatic) return choice;
   choice.linear_solver = Preconditioning::multigrid;
   const bool may_factorise =
-      scene.device != DeviceChoice::cuda && !choice.in_float && cloth.mesh.vertices() <= kMostVertices;
+      scene.device != DeviceChoice::cuda && !choice.in_float && cloth.mesh.vertices() <= kMaxVertices;
   if (!may_factorise) return choice;
   const double work = factorisation_work(
       cloth.mesh, membrane_couplings(cloth.mesh, scene.fabric, scene.membrane_element), op);

@@ -16,7 +16,7 @@ struct MethodChoice {
   std::string reason = {};  // why the CPU where there is a GPU; empty: no choice of ours
 };
 
-// `gpus`: how many there are.  Error::request where a GPU is asked for what it cannot do.
+// `gpus`: how many there are.  Error::invalid_input where a GPU is asked for what it cannot do.
 MethodChoice choose_method(const Scene& scene, const Cloth& cloth, const CurvatureOperator& op, int gpus);
 
 // Multiplications of a Cholesky factorisation of the matrix, whose off-diagonal blocks beside bending's are

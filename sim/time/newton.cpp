@@ -8,7 +8,7 @@ namespace hysteron {
 
 namespace {
 constexpr double kEnough = 1e-4;  // share of the predicted decrease that a step must reach (Armijo 1966)
-constexpr int kMostSearchHalvings = 30;
+constexpr int kMaxSearchHalvings = 30;
 // What rounding leaves of a difference of potentials, relative to the terms' magnitudes.
 template <class Real>
 constexpr double kRounding = sizeof(Real) == 8 ? 1e-14 : 1e-6;
@@ -89,7 +89,7 @@ NewtonOutcome Newton<Real, Device>::minimise(Buffer<Vec3<Real>, Device>& x, Pote
     const double least_gain = is_free ? blurred : lost;
     const double step_length = search(x, value, tried, correction.slope, blurred);
     if (potential_.has_self_contact()) farthest = tuning.longer * step_length * length;
-    outcome.step_lengths += step_length;
+    outcome.time_steps += step_length;
     const bool balanced =
         value.residual <= kBalanced<Real> * std::hypot(weight, value.reaction, value.internal);
     if (step_length == 0) {
@@ -152,7 +152,7 @@ double Newton<Real, Device>::search(Buffer<Vec3<Real>, Device>& x, PotentialValu
       value = tried.value;
       return step_length;
     }
-    if (halving == kMostSearchHalvings) return 0;
+    if (halving == kMaxSearchHalvings) return 0;
     const double curved = 2 * (rise - step_length * slope);  // minimum of the parabola through what is known
     const double next = curved > 0 ? -slope * step_length * step_length / curved : 0;
     tried = try_step(x.data(),

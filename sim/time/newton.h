@@ -29,10 +29,10 @@ struct NewtonOutcome {
   bool evaluated = true;    // the potential was last evaluated where the search has ended
   int iterations = 0;
   long linear_iterations = 0;
-  double step_lengths = 0;  // sum over the iterations, 1 for a full step
-  double residual = 0;      // [N]
-  double load = 0;          // weight and reactions, or inertia if that is larger [N]
-  double velocity = 0;      // what the residual makes of free masses in the step, root mean square [m/s]
+  double time_steps = 0;  // sum over the iterations, 1 for a full step
+  double residual = 0;    // [N]
+  double load = 0;        // weight and reactions, or inertia if that is larger [N]
+  double velocity = 0;    // what the residual makes of free masses in the step, root mean square [m/s]
 };
 
 template <class Real, class Device>

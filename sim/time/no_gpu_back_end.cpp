@@ -9,7 +9,7 @@ namespace {
 [[noreturn]] void refuse() {
   std::string reason;
   gpu_count(reason);
-  throw Error::machine("device = cuda: " + reason);
+  throw Error::system("device = cuda: " + reason);
 }
 
 }  // namespace

@@ -67,14 +67,14 @@ std::string others(const Immersion& found) {
 }  // namespace
 
 template <class Real, class Device>
-void refuse_divergence(Body<Real, Device>& body, double time) {
+void throw_if_divergence(Body<Real, Device>& body, double time) {
   if (body.is_finite()) return;
-  throw Error::run("the simulation diverged before t = " + std::to_string(time) +
-                   " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
+  throw Error::simulation("the simulation diverged before t = " + std::to_string(time) +
+                          " s: take a smaller step (step = " + std::to_string(body.scene.step) + " s)");
 }
 
 template <class Real, class Device>
-void refuse_arrival(Body<Real, Device>& body, double met, double time) {
+void throw_if_arrival(Body<Real, Device>& body, double met, double time) {
   const Scene& scene = body.scene;
   std::vector<Obstacle> fresh = scene.obstacle;
   for (Obstacle& o : fresh)
@@ -84,15 +84,16 @@ void refuse_arrival(Body<Real, Device>& body, double met, double time) {
   const auto set = obstacles_during<double>(fresh, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, held);
   if (found.count > 0)
-    throw Error::run(at_time(time) + "an obstacle appears where the cloth is: " +
-                     immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) + others(found));
+    throw Error::simulation(at_time(time) + "an obstacle appears where the cloth is: " +
+                            immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
+                            others(found));
   std::vector<char> spared = body.contact->spared(), deep = immersed(set, x);
   for (int i = 0; i < body.vertices; ++i) spared[i] = spared[i] || (deep[i] && held[i]);
   body.contact->spare(spared);
 }
 
 template <class Real, class Device>
-void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, double time) {
+void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time) {
   const Scene& scene = body.scene;
   const std::vector<char> before = body.held.download();
   std::vector<char> unconcerned(body.vertices);
@@ -101,14 +102,15 @@ void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, dou
   const auto set = obstacles_during<double>(scene.obstacle, scene.fabric.friction, time, time);
   const Immersion found = deepest(set, x, unconcerned);
   if (found.count == 0) return;
-  throw Error::run(at_time(time) + "a pin releases the cloth inside an obstacle: " +
-                   immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) + others(found));
+  throw Error::simulation(at_time(time) + "a pin releases the cloth inside an obstacle: " +
+                          immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
+                          others(found));
 }
 
 // A blow may drive the cloth deep into an obstacle for a moment.  It is crushed where that lasts because
 // something presses from the other side: a pin, an obstacle, or other layers.
 template <class Real, class Device>
-void refuse_crushed(Body<Real, Device>& body, double time) {
+void throw_if_crushed(Body<Real, Device>& body, double time) {
   const Scene& scene = body.scene;
   const std::vector<Eigen::Vector3d> x = positions_of(body);
   const std::vector<char> held = body.cloth.held(scene, time), spared = body.contact->spared();
@@ -125,7 +127,7 @@ void refuse_crushed(Body<Real, Device>& body, double time) {
   const Immersion found = deepest(set, x, well);
   if (found.count == 0) return;
   const std::vector<std::string> by = pressing(body, found.vertex, x[found.vertex], time);
-  throw Error::run(
+  throw Error::simulation(
       at_time(time) +
       "the cloth is crushed: " + immersion_text(found, scene.obstacle, x[found.vertex] + body.origin) +
       (held[found.vertex] ? ", held by a pin" : ", pressed by " + together(by)) +
@@ -133,41 +135,42 @@ void refuse_crushed(Body<Real, Device>& body, double time) {
 }
 
 template <class Real, class Device>
-void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
-                       const NewtonOutcome& outcome) {
+void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                         const NewtonOutcome& outcome) {
   std::string message =
       "no equilibrium of the step " + at_time(start) + "was found, even in parts of " + number(h) + " s: ";
   if (outcome.blocked) {
     message += "every motion leads the cloth through itself";
     if (body.self_contact->pairs() > 0) message += ", " + names_of(body.self_contact->blocking_pair());
-    throw Error::run(message);
+    throw Error::simulation(message);
   }
   if (!(outcome.load > 0)) {
     const std::string part = step.not_finite(body.x.data());
-    throw Error::run(message + (part.empty() ? "nothing holds the cloth back, or an obstacle bars its way"
-                                             : part + " is not finite"));
+    throw Error::simulation(message + (part.empty()
+                                           ? "nothing holds the cloth back, or an obstacle bars its way"
+                                           : part + " is not finite"));
   }
   message += "an unbalanced force of " + number(outcome.residual) +
              " N remains (weight, pins and inertia: " + number(outcome.load) + " N)";
   const Unbalanced worst = step.most_unbalanced(body.held.data());
-  if (worst.vertex < 0) throw Error::run(message);
+  if (worst.vertex < 0) throw Error::simulation(message);
   const std::vector<std::string> by = pressing(body, worst.vertex, worst.position, start + h);
-  throw Error::run(message + ", most of it, " + number(worst.force) + " N, at " +
-                   vertex_text(worst.vertex, worst.position + body.origin) +
-                   (by.empty() ? "" : ", pressed by " + together(by)));
+  throw Error::simulation(message + ", most of it, " + number(worst.force) + " N, at " +
+                          vertex_text(worst.vertex, worst.position + body.origin) +
+                          (by.empty() ? "" : ", pressed by " + together(by)));
 }
 
-template void refuse_divergence(Body<double, ThisDevice>&, double);
-template void refuse_divergence(Body<float, ThisDevice>&, double);
-template void refuse_arrival(Body<double, ThisDevice>&, double, double);
-template void refuse_arrival(Body<float, ThisDevice>&, double, double);
-template void refuse_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
-template void refuse_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
-template void refuse_crushed(Body<double, ThisDevice>&, double);
-template void refuse_crushed(Body<float, ThisDevice>&, double);
-template void refuse_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double, double,
-                                const NewtonOutcome&);
-template void refuse_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
-                                const NewtonOutcome&);
+template void throw_if_divergence(Body<double, ThisDevice>&, double);
+template void throw_if_divergence(Body<float, ThisDevice>&, double);
+template void throw_if_arrival(Body<double, ThisDevice>&, double, double);
+template void throw_if_arrival(Body<float, ThisDevice>&, double, double);
+template void throw_if_release(Body<double, ThisDevice>&, const std::vector<char>&, double);
+template void throw_if_release(Body<float, ThisDevice>&, const std::vector<char>&, double);
+template void throw_if_crushed(Body<double, ThisDevice>&, double);
+template void throw_if_crushed(Body<float, ThisDevice>&, double);
+template void throw_if_unbalanced(Body<double, ThisDevice>&, ImplicitStep<double, ThisDevice>&, double,
+                                  double, const NewtonOutcome&);
+template void throw_if_unbalanced(Body<float, ThisDevice>&, ImplicitStep<float, ThisDevice>&, double, double,
+                                  const NewtonOutcome&);
 
 }  // namespace hysteron

@@ -1,4 +1,4 @@
-// When a run cannot go on: Error::run that says where, when, and what presses there.
+// When a run cannot go on: Error::simulation that says where, when, and what presses there.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,20 @@ namespace hysteron {
 
 // A position or velocity is no longer finite.
 template <class Real, class Device>
-void refuse_divergence(Body<Real, Device>& body, double time);
+void throw_if_divergence(Body<Real, Device>& body, double time);
 // An obstacle that has come since `met` is where the cloth is.  What hands hold may be inside it: contact is
 // told.
 template <class Real, class Device>
-void refuse_arrival(Body<Real, Device>& body, double met, double time);
+void throw_if_arrival(Body<Real, Device>& body, double met, double time);
 // Hands release cloth inside an obstacle.
 template <class Real, class Device>
-void refuse_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
+void throw_if_release(Body<Real, Device>& body, const std::vector<char>& held, double time);
 // Something drives the cloth into an obstacle from the other side.
 template <class Real, class Device>
-void refuse_crushed(Body<Real, Device>& body, double time);
+void throw_if_crushed(Body<Real, Device>& body, double time);
 // A step has no solution, even in parts of h.
 template <class Real, class Device>
-void refuse_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
-                       const NewtonOutcome& outcome);
+void throw_if_unbalanced(Body<Real, Device>& body, ImplicitStep<Real, Device>& step, double start, double h,
+                         const NewtonOutcome& outcome);
 
 }  // namespace hysteron

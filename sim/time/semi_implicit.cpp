@@ -35,7 +35,7 @@
 namespace hysteron {
 
 namespace {
-constexpr int kMostIterations = 2000;
+constexpr int kMaxIterations = 2000;
 
 // Of positions of this size, what need not be solved for [m].  Their rounding is a force of the stiffness
 // that holds them, another in each step; a hundredth of that moves a hanging cloth by less than single
@@ -77,7 +77,7 @@ void SemiImplicit<Real, Device>::stage(double start, Real h) {
 template <class Real, class Device>
 void SemiImplicit<Real, Device>::take_adaptive_step(double start) {
   const Scene& scene = body_.scene;
-  const double end = start + scene.step, largest = limits_.substep, least = scene.step / (1 << kMostHalvings);
+  const double end = start + scene.step, largest = limits_.substep, least = scene.step / (1 << kMaxHalvings);
   if (part_ <= 0) part_ = std::min(largest, scene.step / 16);
   for (double now = start; end - now > least / 2;) {
     const double h = equal_part(end - now, std::min(part_, largest));
@@ -190,7 +190,7 @@ void LinearisedSolve<Real, Device>::solve(Real h, const Vec3<Real>* impulse) {
     system.mass = body_.mass.data();
     const PcgOutcome outcome =
         pcg_.solve(system, body_.held.data(), rhs_.data(), impulse, first ? change_.data() : nullptr,
-                   correction_.data(), {body_.scene.solver_tolerance, kMostIterations, blur});
+                   correction_.data(), {body_.scene.solver_tolerance, kMaxIterations, blur});
     body_.counts.linear += outcome.iterations;
     correct(h, first);
     body_.clock.end(Stage::solve);

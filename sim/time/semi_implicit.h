@@ -40,8 +40,8 @@ class SemiImplicit : public TimeIntegrator<Real, Device> {
  public:
   SemiImplicit(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
-  void step_by(double, double) override { refuse_long_step(body_.scene); }
-  void become_static() override { refuse_statics(body_.scene); }
+  void step_by(double, double) override { throw_if_long_step(body_.scene); }
+  void become_static() override { throw_if_statics(body_.scene); }
   void visit(Archive& archive) override {
     archive(part_);
     solve_.visit(archive);
@@ -69,8 +69,8 @@ class ChapterSteps : public TimeIntegrator<Real, Device> {
   ChapterSteps(Body<Real, Device>& body, const StepLimits& limits)
       : body_(body), substeps_(limits.substeps), solve_(body) {}
   void step(double start) override;
-  void step_by(double, double) override { refuse_long_step(body_.scene); }
-  void become_static() override { refuse_statics(body_.scene); }
+  void step_by(double, double) override { throw_if_long_step(body_.scene); }
+  void become_static() override { throw_if_statics(body_.scene); }
   void visit(Archive& archive) override { solve_.visit(archive); }
   std::size_t bytes() const override { return solve_.bytes(); }
 
@@ -88,8 +88,8 @@ class ExplicitEuler : public TimeIntegrator<Real, Device> {
  public:
   ExplicitEuler(Body<Real, Device>& body, const StepLimits& limits);
   void step(double start) override;
-  void step_by(double, double) override { refuse_long_step(body_.scene); }
-  void become_static() override { refuse_statics(body_.scene); }
+  void step_by(double, double) override { throw_if_long_step(body_.scene); }
+  void become_static() override { throw_if_statics(body_.scene); }
   void visit(Archive&) override {}  // forces are those of each substep's start
   std::size_t bytes() const override { return force_.bytes(); }
 

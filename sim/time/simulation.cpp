@@ -20,7 +20,7 @@ namespace {
 // bending waves feed on the membrane: at 0.9 a shaken sheet slowly gains energy
 // (tests/sim/solve/stability_test.cpp).
 constexpr double kStabilityMargin = 0.75;
-constexpr int kMostSubsteps = 100000;
+constexpr int kMaxSubsteps = 100000;
 
 // Stiffness of the law over that of `linear` bounds the frequency; the chapter's printed force has 1/2 in
 // place of |e|.
@@ -76,16 +76,16 @@ StepLimits choose_substeps(const Scene& scene, const Cloth& cloth, const Curvatu
   const double largest =
       scene.integrator == Integrator::explicit_euler ? limits.membrane_step : limits.bending_step;
   const double least = std::ceil(scene.step / largest);
-  if (least > kMostSubsteps)
-    throw Error::request("step = " + number(scene.step) + " s would take " + number(least) +
-                         " explicit substeps of at most " + number(largest) +
-                         " s: coarsen the mesh or soften b1");
+  if (least > kMaxSubsteps)
+    throw Error::invalid_input("step = " + number(scene.step) + " s would take " + number(least) +
+                               " explicit substeps of at most " + number(largest) +
+                               " s: coarsen the mesh or soften b1");
   limits.substeps = std::max(1, static_cast<int>(least));
   if (scene.substeps > 0) {
     if (scene.substeps < limits.substeps)
-      throw Error::request("substeps = " + std::to_string(scene.substeps) + " is unstable: step = " +
-                           number(scene.step) + " s needs at least " + std::to_string(limits.substeps) +
-                           " substeps of at most " + number(largest) + " s");
+      throw Error::invalid_input("substeps = " + std::to_string(scene.substeps) + " is unstable: step = " +
+                                 number(scene.step) + " s needs at least " + std::to_string(limits.substeps) +
+                                 " substeps of at most " + number(largest) + " s");
     limits.substeps = scene.substeps;
   }
   limits.substep = scene.step / limits.substeps;
@@ -98,24 +98,24 @@ int usable_gpus(const Scene& scene) {
   std::string reason;
   const int count = gpu_count(reason);
   if (count == 0 && scene.device == DeviceChoice::cuda)
-    throw Error::machine("device = cuda: " + reason + "; use --device cpu");
+    throw Error::system("device = cuda: " + reason + "; use --device cpu");
   return count;
 }
 
-void refuse_more_than(std::size_t count, int most, const std::string& what) {
+void throw_if_more_than(std::size_t count, int most, const std::string& what) {
   if (count > static_cast<std::size_t>(most))
-    throw Error::request(what + ": " + std::to_string(count) + " " + what + "s, at most " +
-                         std::to_string(most) + " are possible");
+    throw Error::invalid_input(what + ": " + std::to_string(count) + " " + what + "s, at most " +
+                               std::to_string(most) + " are possible");
 }
 
 void check(const Scene& scene, const Cloth& cloth) {
-  refuse_more_than(scene.pin.size(), kMostMovingPins, "pin");
-  refuse_more_than(scene.obstacle.size(), kMostObstacles, "obstacle");
+  throw_if_more_than(scene.pin.size(), kMaxMovingPins, "pin");
+  throw_if_more_than(scene.obstacle.size(), kMaxObstacles, "obstacle");
   if (scene.force == ForceConvention::chapter && scene.element != BendingElement::hinge)
-    throw Error::request("force = chapter needs element = hinge");
+    throw Error::invalid_input("force = chapter needs element = hinge");
   if (scene.force == ForceConvention::chapter && scene.is_implicit())
-    throw Error::request("force = chapter has no potential: use semi-implicit or explicit, not " +
-                         name_of(scene.integrator));
+    throw Error::invalid_input("force = chapter has no potential: use semi-implicit or explicit, not " +
+                               name_of(scene.integrator));
   check_steps(scene);
   check_start(scene, cloth);
 }

@@ -38,7 +38,7 @@ struct StepLimits {
 struct SolverCounts {
   long newton = 0, linear = 0;  // iterations
   long unbalanced = 0, retried = 0;
-  double step_lengths = 0;   // sum over Newton's iterations, 1 for a full step
+  double time_steps = 0;     // sum over Newton's iterations, 1 for a full step
   double last_residual = 0;  // unbalanced force over load where Newton's method ended last
   // What Newton's method has left at the ends of stages: the largest unbalanced force over load, and the
   // velocity that it would give free masses within the stage, the largest and the mean, each a root mean
@@ -50,14 +50,15 @@ class Simulation {
  public:
   virtual ~Simulation() = default;
 
-  // Error::run when the state is no longer finite, no equilibrium is found, or an obstacle crushes the cloth.
+  // Error::simulation when the state is no longer finite, no equilibrium is found, or an obstacle crushes the
+  // cloth.
   virtual void advance(int steps) = 0;
   // One step of this length instead of the scene's: to the equilibrium after a rest, however long [s].
-  // Error::request for integrators but `quasi-static`, Error::run as advance().
+  // Error::invalid_input for integrators but `quasi-static`, Error::simulation as advance().
   virtual void advance_by(double seconds) = 0;
   // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
   // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
-  // Error::request for integrators that are not implicit in all forces.
+  // Error::invalid_input for integrators that are not implicit in all forces.
   virtual void become_static() = 0;
   // All that outlives a step, bit for bit, as bytes that only this program reads; a simulation of the same
   // scene and cloth, on a device of the same kind, in the same precision and not yet static, goes on from
@@ -70,7 +71,7 @@ class Simulation {
 
   // From now on the hand of that pin goes on from where it is with this velocity [m/s] and spin about its
   // axis [degree/s], whatever its motion was, until it is driven again; hand() is how far it has come by now.
-  // Error::request for a pin that there is not.
+  // Error::invalid_input for a pin that there is not.
   virtual void drive(int pin, const Eigen::Vector3d& velocity, double spin) = 0;
   virtual Keyframe hand(int pin) const = 0;
 
@@ -136,8 +137,8 @@ class Simulation {
   MethodChoice method = {};  // as make_simulation() chose
 };
 
-// Chooses device and precision as the scene asks.  Error::request for what cannot be simulated, a start that
-// contact cannot go on from included (contact/start_checks.h), Error::machine for a missing GPU.
+// Chooses device and precision as the scene asks.  Error::invalid_input for what cannot be simulated, a start
+// that contact cannot go on from included (contact/start_checks.h), Error::system for a missing GPU.
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Cloth& cloth);
 
 // Names of the usable devices: the CPU, then the GPUs or the reason why there are none.

@@ -60,7 +60,7 @@ void Stepper<Real, Device>::advance(int steps) {
     integrator_->step(time());
     ++steps_;
   }
-  refuse_divergence(body_, time());
+  throw_if_divergence(body_, time());
   body_.counts.device += device_counts - before;
 }
 
@@ -71,7 +71,7 @@ void Stepper<Real, Device>::advance_by(double seconds) {
   integrator_->step_by(time(), seconds);
   ++steps_;
   beyond_ += seconds - body_.scene.step;
-  refuse_divergence(body_, time());
+  throw_if_divergence(body_, time());
   body_.counts.device += device_counts - before;
 }
 
@@ -94,7 +94,7 @@ template <class Real, class Device>
 void Stepper<Real, Device>::load(std::string_view state) {
   Archive archive(state);
   visit(archive);
-  if (!archive.at_end()) throw Error::request("the state is of another simulation");
+  if (!archive.at_end()) throw Error::invalid_input("the state is of another simulation");
 }
 
 template <class Real, class Device>
@@ -102,10 +102,10 @@ const Pin& Stepper<Real, Device>::pin(int number) const {
   const std::vector<Pin>& pins = body_.scene.pin;
   if (number >= 0 && number < static_cast<int>(pins.size())) return pins[number];
   const std::string text = std::to_string(number);
-  throw Error::request("pin = " + text +
-                       (pins.empty()
-                            ? ": the scene has none"
-                            : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
+  throw Error::invalid_input(
+      "pin = " + text +
+      (pins.empty() ? ": the scene has none"
+                    : " must be in [0, " + std::to_string(pins.size() - 1) + "], a pin of the scene"))
       .of("pin", text);
 }
 

@@ -51,7 +51,7 @@ class Stepper : public Simulation {
   SolverCounts solver_counts() const override {
     const StepCounts& c = body_.counts;
     const double mean = c.stages > 0 ? c.velocities / static_cast<double>(c.stages) : 0;
-    return {c.newton,        c.linear,           c.unbalanced,       c.retried, c.step_lengths,
+    return {c.newton,        c.linear,           c.unbalanced,       c.retried, c.time_steps,
             c.last_residual, c.largest_residual, c.largest_velocity, mean};
   }
   StepLimits limits() const override { return limits_; }

@@ -17,9 +17,9 @@ class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
   virtual void step(double start) = 0;  // of the scene's length
-  // Of a length of its own [s]; Error::request where steps do not lead from equilibrium to equilibrium.
+  // Of a length of its own [s]; Error::invalid_input where steps do not lead from equilibrium to equilibrium.
   virtual void step_by(double start, double h) = 0;
-  // Steps are equilibria from now on; Error::request where there is no equilibrium solve.
+  // Steps are equilibria from now on; Error::invalid_input where there is no equilibrium solve.
   virtual void become_static() = 0;
   // Of the step accepted last, on each vertex [N]; empty where they are not known.
   virtual std::vector<Vec3<Real>> handle_forces() { return {}; }
@@ -27,14 +27,14 @@ class TimeIntegrator {
   virtual std::size_t bytes() const = 0;
 };
 
-[[noreturn]] inline void refuse_statics(const Scene& scene) {
-  throw Error::request("integrator = " + name_of(scene.integrator) +
-                       " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
+[[noreturn]] inline void throw_if_statics(const Scene& scene) {
+  throw Error::invalid_input("integrator = " + name_of(scene.integrator) +
+                             " has no equilibrium solve: use implicit | bdf2 | tr-bdf2 | quasi-static");
 }
 
-[[noreturn]] inline void refuse_long_step(const Scene& scene) {
-  throw Error::request("integrator = " + name_of(scene.integrator) +
-                       " has steps of one length only: use quasi-static");
+[[noreturn]] inline void throw_if_long_step(const Scene& scene) {
+  throw Error::invalid_input("integrator = " + name_of(scene.integrator) +
+                             " has steps of one length only: use quasi-static");
 }
 
 // The one that the body's scene names.
@@ -44,7 +44,7 @@ std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>
 
 // Lengths of the parts of adaptive steps.
 
-inline constexpr int kMostHalvings = 12;  // of a step
+inline constexpr int kMaxHalvings = 12;  // of a step
 
 // The next part after one of h, had h grown by `growth` met the tolerance: aim below it, and change slowly
 // (Hairer, Norsett & Wanner 1993, II.4).

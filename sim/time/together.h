@@ -9,7 +9,7 @@ namespace hysteron {
 // jobs take turns: while one of them waits the next goes on, and loops that several have ordered are launched
 // once for all of them, so that many small cloths fill a GPU that each by itself would leave idle.  On a CPU
 // they come one after the other.  Every simulation gets the bits that it has by itself.  Throws what a job
-// has thrown when all have ended; Error::machine without a GPU.
+// has thrown when all have ended; Error::system without a GPU.
 void run_together(bool on_gpu, int count, const std::function<void(int)>& job);
 
 // How many jobs share the GPU's launches with the one that the calling thread runs, itself included: what a

@@ -22,8 +22,8 @@ using namespace hysteron;
 using namespace hysteron::fuzz;
 namespace fs = std::filesystem;
 
-constexpr rlim_t kMostMemory = rlim_t{4} << 30;  // [bytes]
-constexpr std::size_t kPlaces = 150;             // where a seed is cut off, and where it is damaged
+constexpr rlim_t kMaxMemory = rlim_t{4} << 30;  // [bytes]
+constexpr std::size_t kPlaces = 150;            // where a seed is cut off, and where it is damaged
 
 // Time of this process, not of the machine's other work; its signal ends the program.
 void allow_seconds(int seconds) {
@@ -33,7 +33,7 @@ void allow_seconds(int seconds) {
 
 void limit_memory() {
 #ifndef __SANITIZE_ADDRESS__  // which reserves far more
-  const rlimit limit{kMostMemory, kMostMemory};
+  const rlimit limit{kMaxMemory, kMaxMemory};
   setrlimit(RLIMIT_AS, &limit);
 #endif
 }

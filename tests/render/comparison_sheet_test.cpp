@@ -12,7 +12,6 @@
 namespace hysteron::render {
 namespace {
 
-
 // Cells are of one colour each, by column and row, on a page that has none of these.
 Rgb8 color_of(std::size_t column, std::size_t row) {
   return {static_cast<std::uint8_t>(10 + 12 * column), 200, static_cast<std::uint8_t>(10 + 40 * row)};
@@ -62,7 +61,7 @@ TEST(ComparisonSheet, HasAtMostFiveColumnsBesideEachOther) {
     const Image page = draw_comparison(sheet_of(count, 1));
     std::set<int> lefts;
     for (std::size_t c = 0; c < count; ++c) lefts.insert(extent_of(page, color_of(c, 0)).left);
-    EXPECT_LE(lefts.size(), static_cast<std::size_t>(kMostBeside)) << count;
+    EXPECT_LE(lefts.size(), static_cast<std::size_t>(kMaxBeside)) << count;
     const double aspect = 1.0 * page.width() / page.height();
     EXPECT_GE(aspect, 0.5) << count;
     EXPECT_LE(aspect, 3) << count;

@@ -17,7 +17,7 @@ namespace hysteron::render {
 namespace {
 
 constexpr int kSide = 300;
-constexpr float kLeast = 0.8e-3f;  // [m]
+constexpr float kMin = 0.8e-3f;  // [m]
 
 Look red_bodies() {
   Look look;
@@ -122,10 +122,10 @@ TEST(Inset, IsTheSagittaOnRoundBodiesAndAShareOfTheSideAtEdges) {
   EXPECT_FLOAT_EQ(cut_depth(0.02f, 0), edge);
   EXPECT_FLOAT_EQ(cut_depth(0.02f, 1e-3f), edge);
   const BodyMeasure sphere(sphere_mesh(0.1f));
-  EXPECT_FLOAT_EQ(body_inset(sphere, 0.01f, kLeast), kLeast) << "the cloth would float";
-  EXPECT_GT(body_inset(sphere, 0.04f, kLeast), 2 * kLeast);
+  EXPECT_FLOAT_EQ(body_inset(sphere, 0.01f, kMin), kMin) << "the cloth would float";
+  EXPECT_GT(body_inset(sphere, 0.04f, kMin), 2 * kMin);
   const BodyMeasure plate(box_mesh({0.1f, 0.1f, 0.5e-3f}, 0.1e-3f));
-  EXPECT_LT(body_inset(plate, 0.04f, kLeast), 0.5e-3f) << "the plate would be turned inside out";
+  EXPECT_LT(body_inset(plate, 0.04f, kMin), 0.5e-3f) << "the plate would be turned inside out";
 }
 
 TEST(Inset, SeesTheLongSidesOfACloth) {

@@ -86,7 +86,7 @@ Camera draped_camera(float aspect) {
 
 ScratchFolder::ScratchFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "hysteron-render-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw Error::machine("making the folder " + name + " for a test");
+  if (!::mkdtemp(name.data())) throw Error::system("making the folder " + name + " for a test");
   path_ = name;
 }
 
@@ -111,7 +111,7 @@ Error error_of(const std::function<void()>& action) {
     return error;
   }
   ADD_FAILURE() << "nothing was thrown";
-  return Error::run("nothing was thrown");
+  return Error::simulation("nothing was thrown");
 }
 
 double brightness(const Image& image, int x, int y, int half_side) {

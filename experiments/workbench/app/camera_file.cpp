@@ -12,7 +12,7 @@ namespace {
 Json list_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 Error refusal(const std::string& file, const std::string& what) {
-  return Error::request("camera = " + file + ": " + what + " (--camera)").of("camera", file);
+  return Error::invalid_input("camera = " + file + ": " + what + " (--camera)").of("camera", file);
 }
 
 double camera_number(const Json& value, const std::string& name, const std::string& file) {

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 // `fov`.
 std::string camera_text(const render::Camera& camera, const std::string& size);
 // Sets the keys camera.* that the file has; a box that is framed in place of target and distance is left.
-// Throws Error::request where the file is missing or no such JSON, with what is wrong in it.
+// Throws Error::invalid_input where the file is missing or no such JSON, with what is wrong in it.
 void read_camera(const std::string& file, Options& options);
 
 }  // namespace hysteron::experiments

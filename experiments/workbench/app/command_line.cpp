@@ -99,8 +99,8 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
     } else if (equals == std::string::npos && i + 1 < words.size()) {
       const std::string& value = words[++i];
       if (value.starts_with("--"))
-        throw Error::request(name + " needs a value, and " + value + " is an option: " + name + "=" + value +
-                             " if it is not")
+        throw Error::invalid_input(name + " needs a value, and " + value + " is an option: " + name + "=" +
+                                   value + " if it is not")
             .of(name.substr(2), value)
             .in(command.experiment->name);
       all.push_back(value);
@@ -112,13 +112,14 @@ std::vector<std::string> with_their_values(const std::vector<std::string>& words
 
 // CLI11 leaves what it does not know, and the "--" behind which nothing is a flag; say which flag that is,
 // and what was meant.
-void refuse_unknown(const Command& command) {
+void throw_if_unknown(const Command& command) {
   std::vector<std::string> unknown = command.app->remaining();
   std::erase(unknown, "--");
   if (unknown.empty()) return;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const std::string experiment = command.experiment->name;
-  if (!word.starts_with('-')) throw Error::request("unexpected argument \"" + word + "\"").in(experiment);
+  if (!word.starts_with('-'))
+    throw Error::invalid_input("unexpected argument \"" + word + "\"").in(experiment);
   std::vector<std::string> known;
   for (const auto& flag : command.flags) known.push_back("--" + flag.first);
   const std::string owner = whose(word.substr(std::min(word.find_first_not_of('-'), word.size())));
@@ -126,28 +127,28 @@ void refuse_unknown(const Command& command) {
   std::string more = owner;
   if (!nearest.empty()) more = "did you mean " + nearest + "?" + (owner.empty() ? "" : " (" + owner + ")");
   if (more.empty()) more = "see hysteron " + experiment + " --help";
-  throw Error::request("unknown option " + word + "; " + more).of(word, "").in(experiment);
+  throw Error::invalid_input("unknown option " + word + "; " + more).of(word, "").in(experiment);
 }
 
 // A word before the subcommand, or instead of one.
-void refuse_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
-  if (word.starts_with('-')) throw Error::request("unknown option " + word + " before the subcommand");
+void throw_if_stray_word(const std::string& word, const std::vector<Experiment>& experiments) {
+  if (word.starts_with('-')) throw Error::invalid_input("unknown option " + word + " before the subcommand");
   std::vector<std::string> known;
   for (const Experiment& experiment : experiments)
     if (!experiment.hidden) known.push_back(experiment.name);
   const std::string nearest = nearest_name(word, known);
-  throw Error::request("unknown subcommand " + word +
-                       (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
+  throw Error::invalid_input("unknown subcommand " + word +
+                             (nearest.empty() ? "; see hysteron --help" : "; did you mean " + nearest + "?"));
 }
 
 CommandLine taken_apart(const Command& command, std::string shell_command) {
   CommandLine line{command.experiment->name, std::move(shell_command), {}, command.names};
   if (!command.experiment->run) return line;
-  refuse_unknown(command);
+  throw_if_unknown(command);
   for (const auto& [path, option] : command.flags) {
     for (const std::string& text : option->reduced_results()) {
       if (path == "out" && text.empty())
-        throw Error::request("--out is empty: name where to write").of("out", "").in(line.experiment);
+        throw Error::invalid_input("--out is empty: name where to write").of("out", "").in(line.experiment);
       line.flags.push_back({path, text});
     }
   }
@@ -227,11 +228,11 @@ std::optional<CommandLine> parse_command_line(int count, const char* const* word
     program.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    const Error refused = Error::request(error.what());
+    const Error refused = Error::invalid_input(error.what());
     throw chosen() ? refused.in(chosen()->experiment->name) : refused;
   }
-  if (!program.remaining().empty()) refuse_stray_word(program.remaining().front(), known);
-  if (!chosen()) throw Error::request("needs a subcommand; see hysteron --help");
+  if (!program.remaining().empty()) throw_if_stray_word(program.remaining().front(), known);
+  if (!chosen()) throw Error::invalid_input("needs a subcommand; see hysteron --help");
   return taken_apart(*chosen(), shell_command(count, words));
 }
 

@@ -7,7 +7,7 @@
 
 namespace hysteron::experiments {
 
-// Nothing if help or the version was asked for and printed.  Throws Error::request in one line for what
+// Nothing if help or the version was asked for and printed.  Throws Error::invalid_input in one line for what
 // cannot be understood: unknown subcommands and flags (with the nearest name), missing values.
 std::optional<CommandLine> parse_command_line(int count, const char* const* words,
                                               const std::vector<Experiment>& known = experiments());

@@ -43,17 +43,17 @@ std::string decided_words(const std::string& experiment, const DecidedKey& key) 
          ": " + key.why;
 }
 
-void refuse_flags(const CommandLine& line, const std::vector<DecidedKey>& decided) {
+void throw_if_flags(const CommandLine& line, const std::vector<DecidedKey>& decided) {
   for (const Flag& flag : line.flags)
     for (const DecidedKey& key : decided)
       if ((flag.path == "fabric" ? "fabric.name" : flag.path) == key.path)
-        throw Error::request("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
-                             decided_words(line.experiment, key))
+        throw Error::invalid_input("--" + flag.path + (flag.text == "true" ? "" : " " + flag.text) + ": " +
+                                   decided_words(line.experiment, key))
             .of(key.path, flag.text);
 }
 
 void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys) {
-  refuse_flags(line, keys);
+  throw_if_flags(line, keys);
   setup.decided.insert(setup.decided.end(), keys.begin(), keys.end());
 }
 

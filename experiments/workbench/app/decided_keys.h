@@ -16,8 +16,9 @@ std::vector<DecidedKey> unused_but(const std::string& beginning, const std::set<
 // "fold sets cloth.shape itself: the specimen is a strip"
 std::string decided_words(const std::string& experiment, const DecidedKey& key);
 
-// Error::request where a flag sets one of the keys, "--cloth.shape disc: fold sets cloth.shape itself: ...".
-void refuse_flags(const CommandLine& line, const std::vector<DecidedKey>& decided);
+// Error::invalid_input where a flag sets one of the keys, "--cloth.shape disc: fold sets cloth.shape itself:
+// ...".
+void throw_if_flags(const CommandLine& line, const std::vector<DecidedKey>& decided);
 // The same; and the set-up remembers them, for lost_words().
 void decide(const CommandLine& line, Setup& setup, const std::vector<DecidedKey>& keys);
 

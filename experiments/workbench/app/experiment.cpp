@@ -57,8 +57,9 @@ void check_errors(const std::string& experiment) {
   std::vector<std::string> known;
   for (const Experiment& other : experiments())
     if (can_have(other.headlines)) known.emplace_back(other.name);
-  throw Error::request("--errors: " + experiment +
-                       " has no headline whose errors can be measured; these have: " + join(known, ", "))
+  throw Error::invalid_input(
+      "--errors: " + experiment +
+      " has no headline whose errors can be measured; these have: " + join(known, ", "))
       .of("errors", "true");
 }
 
@@ -95,7 +96,7 @@ Error with_owner(const Error& error, const Keys& known) {
   if (std::any_of(all.begin(), all.end(), [&](const KeyDescription& key) { return key.path == error.key(); }))
     return error;
   const std::string owner = error.key().empty() ? "" : whose(error.key());
-  return owner.empty() ? error : Error::request(error.what() + ("; " + owner)).of(error.key(), "");
+  return owner.empty() ? error : Error::invalid_input(error.what() + ("; " + owner)).of(error.key(), "");
 }
 
 // What asks for more throws std::bad_alloc, which ends the run (ending.h).  [MB], of the process; 0: no

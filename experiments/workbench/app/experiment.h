@@ -73,7 +73,7 @@ std::string whose(const std::string& key);
 
 // A scene and options, resolved and checked: defaults < scene file < --quick < flags.  `own` are the
 // experiment's own keys, bound to its own struct; `quick` is what --quick makes of scene, options and those
-// keys.  Throws Error::request, Error::machine.
+// keys.  Throws Error::invalid_input, Error::system.
 struct Setup {
   Scene scene;
   Options options;
@@ -118,12 +118,12 @@ std::vector<KeyDescription> own_keys_of() {
 
 // For experiments without a scene.  Sets `keys` from the flags, which win over `quick`: what --quick, one of
 // the keys, makes of the struct that they are bound to.  Those of a fabric are left to fabric_of().  Throws
-// Error::request.
+// Error::invalid_input.
 void set_keys(const CommandLine& line, const Keys& keys, const std::function<void()>& quick = {});
 // --fabric, --fabric.b1, --fabric.b2, --fabric.k0, --fabric.kes-*, --fabric.stops-*, --fabric.bending.*.
 std::vector<KeyDescription> fabric_keys();
 // The fabric of that name or file with the flags fabric.* in place of its own numbers, checked like a
-// scene's. Throws Error::request, Error::machine.
+// scene's. Throws Error::invalid_input, Error::system.
 Fabric fabric_of(const std::string& name_or_file, const std::vector<Flag>& flags);
 
 }  // namespace hysteron::experiments

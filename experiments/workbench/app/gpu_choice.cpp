@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kAllowed[] = "CUDA_VISIBLE_DEVICES";
 constexpr std::string_view kGpu = "cuda:";
-constexpr std::size_t kMostDigits = 4;
+constexpr std::size_t kMaxDigits = 4;
 
 std::vector<std::string> allowed_gpus() {
   const char* allowed = std::getenv(kAllowed);
@@ -28,15 +28,15 @@ void choose_gpu(CommandLine& line) {
   for (Flag& flag : line.flags) {
     if (flag.path != "device" || !flag.text.starts_with(kGpu)) continue;
     const std::string number = flag.text.substr(kGpu.size());
-    if (number.empty() || number.size() > kMostDigits ||
-        number.find_first_not_of("0123456789") != number.npos)
-      throw Error::request("--device " + flag.text + ": after cuda: comes the number of a GPU, from 0 on")
+    if (number.empty() || number.size() > kMaxDigits || number.find_first_not_of("0123456789") != number.npos)
+      throw Error::invalid_input("--device " + flag.text +
+                                 ": after cuda: comes the number of a GPU, from 0 on")
           .of("device", "")
           .in(line.experiment);
     const int gpu = std::stoi(number), allowed = static_cast<int>(allowed_gpus().size());
     if (allowed > 0 && gpu >= allowed)
-      throw Error::request("--device " + flag.text + ": " + kAllowed + " leaves " + std::to_string(allowed) +
-                           ", numbered from 0 on")
+      throw Error::invalid_input("--device " + flag.text + ": " + kAllowed + " leaves " +
+                                 std::to_string(allowed) + ", numbered from 0 on")
           .of("device", "")
           .in(line.experiment);
     setenv(kAllowed, visible_gpu(gpu).c_str(), 1);

@@ -35,7 +35,7 @@ const Headlines& headlines_of(const std::string& experiment);
 // Whether the metric is a headline of any experiment.
 bool is_asked_for(const std::string& metric);
 
-// Error::request unless errors of the experiment's headlines can be measured.
+// Error::invalid_input unless errors of the experiment's headlines can be measured.
 void check_errors(const std::string& experiment);
 
 }  // namespace hysteron::experiments

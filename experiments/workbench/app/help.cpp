@@ -17,7 +17,7 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kUsualWidth = 100, kLeastWidth = 40, kWidestName = 28;
+constexpr int kUsualWidth = 100, kMinWidth = 40, kWidestName = 28;
 
 struct Group {
   const char* name;
@@ -190,8 +190,8 @@ std::string help_of_group(const Experiment& experiment, const std::string& name,
     if (group.name == name) return group_text(experiment, group, width);
     known.push_back(group.name);
   }
-  throw Error::request("--help " + name + ": no group of options is called so; there are " +
-                       join(known, ", "))
+  throw Error::invalid_input("--help " + name + ": no group of options is called so; there are " +
+                             join(known, ", "))
       .of("help", name)
       .in(experiment.name);
 }
@@ -245,7 +245,7 @@ int terminal_width() {
   winsize size{};
   if (said < 1 && (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)) return kUsualWidth;
   constexpr double kWidest = 1000;
-  return std::max(kLeastWidth, static_cast<int>(said < 1 ? size.ws_col : std::min(said, kWidest)));
+  return std::max(kMinWidth, static_cast<int>(said < 1 ? size.ws_col : std::min(said, kWidest)));
 }
 
 std::optional<std::string> help_asked(const std::vector<std::string>& words,

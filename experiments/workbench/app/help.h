@@ -19,7 +19,7 @@ std::vector<OptionGroup> option_groups(const Experiment& experiment, std::vector
 int terminal_width();
 
 // The answer to --help, -h, --help GROUP or --help-all among the words behind `hysteron`; none if they do not
-// ask.  Throws Error::request for a group that is not there.
+// ask.  Throws Error::invalid_input for a group that is not there.
 std::optional<std::string> help_asked(const std::vector<std::string>& words,
                                       const std::vector<Experiment>& known, int width);
 

@@ -7,14 +7,14 @@ namespace hysteron::experiments {
 namespace {
 
 constexpr int kDeepest = 64;  // its texts are put together by recursion
-constexpr std::size_t kMostJsonBytes = std::size_t{256} << 20;
+constexpr std::size_t kMaxJsonBytes = std::size_t{256} << 20;
 
 }  // namespace
 
 Json read_json(const std::filesystem::path& file, const std::string& kind) {
-  const std::string text = whole_file(file, "cannot read " + file.string(), kMostJsonBytes);
+  const std::string text = whole_file(file, "cannot read " + file.string(), kMaxJsonBytes);
   const auto refuse = [&](const std::string& why) {
-    throw Error::request(file.string() + " is no " + kind + ": it " + why);
+    throw Error::invalid_input(file.string() + " is no " + kind + ": it " + why);
   };
   const auto watch_depth = [&](int depth, Json::parse_event_t, const Json&) {
     if (depth > kDeepest) refuse("nests more than " + std::to_string(kDeepest) + " deep");

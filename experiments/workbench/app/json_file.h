@@ -8,8 +8,8 @@
 
 namespace hysteron::experiments {
 
-// Throws Error::machine if the file cannot be read; Error::request, naming it as no `kind`, if it is no JSON
-// or nests deeper than anything this program writes.
+// Throws Error::system if the file cannot be read; Error::invalid_input, naming it as no `kind`, if it is no
+// JSON or nests deeper than anything this program writes.
 Json read_json(const std::filesystem::path& file, const std::string& kind = "JSON");
 // Discarded (Json::is_discarded) where read_json would throw.
 Json json_or_none(const std::filesystem::path& file);

@@ -55,7 +55,7 @@ const Entries kEntries[] = {{"/frames/moments", {"s"}},
 Error bad(const std::filesystem::path& file, const char* path, const std::string& problem) {
   std::string key = path + 1;
   std::replace(key.begin(), key.end(), '/', '.');
-  return Error::request(file.string() + " is no manifest of hysteron: " + key + " " + problem);
+  return Error::invalid_input(file.string() + " is no manifest of hysteron: " + key + " " + problem);
 }
 
 // Null if there is nothing.

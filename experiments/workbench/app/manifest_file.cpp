@@ -369,7 +369,7 @@ Manifest checked_manifest(const Json& json, const std::filesystem::path& file) {
 Manifest read_manifest(const std::filesystem::path& file) {
   const Json json = read_json(file, "manifest of hysteron");
   if (const std::string missing = missing_in(json); !missing.empty())
-    throw Error::request(file.string() + " is no manifest of hysteron: it has no " + missing);
+    throw Error::invalid_input(file.string() + " is no manifest of hysteron: it has no " + missing);
   return checked_manifest(json, file);
 }
 

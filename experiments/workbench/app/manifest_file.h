@@ -22,13 +22,13 @@ bool is_manifest(const Json& json);
 // Also one that cannot be read, which read_manifest then says.
 bool has_manifest(const std::filesystem::path& folder);
 
-// Throws Error::request, naming file and key, unless it is a manifest of hysteron whose keys are of the types
-// that they have; keys that older programs did not write may be missing.  Error::machine if it cannot be
+// Throws Error::invalid_input, naming file and key, unless it is a manifest of hysteron whose keys are of the
+// types that they have; keys that older programs did not write may be missing.  Error::system if it cannot be
 // read.
 Manifest read_manifest(const std::filesystem::path& file);
 // The same of JSON that is_manifest() and stood in that file.
 Manifest checked_manifest(const Json& json, const std::filesystem::path& file);
-// Whether its keys are of the types that they have.  Throws Error::request, naming file and key.
+// Whether its keys are of the types that they have.  Throws Error::invalid_input, naming file and key.
 void check_manifest(const Json& manifest, const std::filesystem::path& file);
 // Nothing where there is none, or no JSON; nothing else is checked.
 std::optional<Manifest> manifest_or_none(const std::filesystem::path& file);

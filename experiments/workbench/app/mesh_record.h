@@ -20,7 +20,7 @@ struct MeshRecord {
 // Where the scene's mesh files are, however the working directory changes.
 void make_mesh_paths_absolute(Scene& scene);
 
-// Throws Error::machine for files that cannot be read.
+// Throws Error::system for files that cannot be read.
 std::vector<MeshRecord> mesh_records(const Scene& scene);
 
 // Lets the scene of a manifest name the files that are recorded there: where they were, or, if they are not

@@ -73,29 +73,29 @@ std::pair<int, int> sides(const std::string& size) {
 void check_look(const std::string& look) {
   if (std::find(kLooks.begin(), kLooks.end(), look) != kLooks.end()) return;
   const std::string nearest = nearest_name(look, kLooks);
-  throw Error::request("look = " + look + " must be " + join(kLooks, " | ") +
-                       (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
+  throw Error::invalid_input("look = " + look + " must be " + join(kLooks, " | ") +
+                             (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " (--look)")
       .of("look", look);
 }
 
 // Of as many numbers as it takes, or none.
 void check_place(const Numbers& given, std::size_t wanted, const char* key) {
   if (given.empty() || given.size() == wanted) return;
-  throw Error::request(
+  throw Error::invalid_input(
       fmt::format("{} has {} numbers and must have {} [m] (--{})", key, given.size(), wanted, key))
       .of(key, "");
 }
 
 void check_camera(const Options& options) {
   if (options.camera_direction.isZero(0))
-    throw Error::request("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
+    throw Error::invalid_input("camera.direction = [0, 0, 0] must not be zero (--camera.direction)")
         .of("camera.direction", "0, 0, 0");
   check_place(options.camera_target, 3, "camera.target");
   check_place(options.camera_box, 6, "camera.box");
   const Numbers& box = options.camera_box;
   for (std::size_t k = 0; k + 3 < box.size(); ++k)
     if (!(box[k + 3] > box[k]))
-      throw Error::request(
+      throw Error::invalid_input(
           fmt::format("camera.box reaches from {} to {} m along {} and must be ascending (--camera.box)",
                       box[k], box[k + 3], "xyz"[k]))
           .of("camera.box", "");
@@ -128,9 +128,9 @@ Keys with_output_options(Keys own, Options& options) {
 
 void check_options(const Options& options) {
   if (!drawable(options.width()) || !drawable(options.height())) {
-    throw Error::request("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +
-                         std::to_string(kSmallestSide) + ", " + std::to_string(kLargestSide) +
-                         "] pixels (--size)")
+    throw Error::invalid_input("size = " + options.size + " must be WIDTHxHEIGHT with sides in [" +
+                               std::to_string(kSmallestSide) + ", " + std::to_string(kLargestSide) +
+                               "] pixels (--size)")
         .of("size", options.size);
   }
   check_camera(options);
@@ -138,7 +138,7 @@ void check_options(const Options& options) {
   for (const std::string& look : options.looks()) {
     check_look(look);
     if (look == "difference" && options.reference.empty())
-      throw Error::request("look = difference needs the run that it is taken from (--reference DIR)")
+      throw Error::invalid_input("look = difference needs the run that it is taken from (--reference DIR)")
           .of("look", look);
   }
 }

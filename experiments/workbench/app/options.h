@@ -57,7 +57,7 @@ Keys bind_output_options(Options& options);
 Keys with_output_options(Keys own, Options& options);
 
 // A size that is no WIDTHxHEIGHT within 16 to 16384 pixels, a camera without direction, or with a target or a
-// box of too few numbers: Error::request.
+// box of too few numbers: Error::invalid_input.
 void check_options(const Options& options);
 
 }  // namespace hysteron::experiments

@@ -28,17 +28,19 @@ CommandLine line_of(const RecordedRun& run) {
     CommandLine line{run.manifest.experiment, "", {}, run.manifest.spec->names};
     for (const auto& [path, text] : run.manifest.spec->flags) line.flags.push_back({path, text});
     if (!experiment_named(line.experiment).run)
-      throw Error::request(run.file.string() + ": there is no experiment " + line.experiment);
+      throw Error::invalid_input(run.file.string() + ": there is no experiment " + line.experiment);
     return line;
   }
   const std::vector<std::string> words = words_of(run.manifest.command);
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
   if (words.size() < 2)
-    throw Error::request(run.file.string() + " holds no command that could be repeated").of("command", "");
+    throw Error::invalid_input(run.file.string() + " holds no command that could be repeated")
+        .of("command", "");
   const auto line = parse_command_line(static_cast<int>(pointers.size()), pointers.data());
   if (!line)
-    throw Error::request(run.file.string() + ": its command, \"" + run.manifest.command + "\", is no run");
+    throw Error::invalid_input(run.file.string() + ": its command, \"" + run.manifest.command +
+                               "\", is no run");
   return *line;
 }
 

@@ -30,8 +30,8 @@ std::string program_version();
 // of an exception, keeps its files and a manifest with "complete": false.
 class Run {
  public:
-  // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::request,
-  // Error::machine.
+  // Takes the folder as RunFolder does, out/<experiment> where none is named.  Throws Error::invalid_input,
+  // Error::system.
   // `kept`: files of a run that was interrupted and goes on as this one; visit() tells of the rest.
   Run(const CommandLine& line, const Setup& setup, const std::vector<std::string>& kept = {});
   // Of an experiment that simulates nothing; `keys` are what it resolved, as the manifest's `scene`.
@@ -50,11 +50,12 @@ class Run {
   static const std::string& unwritten();
   // Where to write the file of that name ("sheet.png", "frames/0000.png"); its folder is made.  It is listed
   // in the manifest, on disk at once, so that a later run knows what one that is killed has left; of a
-  // sequence the first file stands for all.  Throws Error::request where it would replace another's file.
+  // sequence the first file stands for all.  Throws Error::invalid_input where it would replace another's
+  // file.
   std::filesystem::path path(const std::string& name);
-  // Throws Error::request, before there is work to be lost, where one of these files that will be written
-  // later would replace another's.  Of a sequence the first stands for all, "plot_NAME" for its .png and
-  // .svg.
+  // Throws Error::invalid_input, before there is work to be lost, where one of these files that will be
+  // written later would replace another's.  Of a sequence the first stands for all, "plot_NAME" for its .png
+  // and .svg.
   void reserve(const std::vector<std::string>& names) const;
   // The file of that name could not be written: what there is of it goes, and it is not listed.
   void forget(const std::string& name);
@@ -104,9 +105,9 @@ class Run {
   void visit(Archive& archive);
 
   // Writes what is known so far, as of a run that is not complete: work that follows may be interrupted.
-  // Throws Error::machine.
+  // Throws Error::system.
   void keep() const { write_manifest(false); }
-  // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::machine.
+  // Writes the complete manifest, and prints it on stdout with --json.  Throws Error::system.
   void finish();
 
  private:

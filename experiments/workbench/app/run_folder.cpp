@@ -26,7 +26,7 @@ fs::path made(const fs::path& folder) {
   fs::create_directories(folder, failure);
   if (!failure && !fs::is_directory(folder, failure) && !failure)
     failure = std::make_error_code(std::errc::not_a_directory);
-  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot create the folder " + folder.string() + ": " + failure.message());
   return folder;
 }
 
@@ -59,7 +59,8 @@ std::optional<Manifest> run_before(const fs::path& folder) {
   if (!stands(file)) return {};
   std::optional<Manifest> manifest;
   if (is_plain(file)) manifest = manifest_or_none(file);
-  if (!manifest) throw Error::request(file.string() + " is not of a run and is not replaced" + kElsewhere);
+  if (!manifest)
+    throw Error::invalid_input(file.string() + " is not of a run and is not replaced" + kElsewhere);
   return manifest;
 }
 
@@ -138,24 +139,24 @@ bool is_within(const fs::path& inner, const fs::path& outer) {
 }
 
 // `what`, "--loop", names files: one of them would be removed before the run, or replaced by it.
-void refuse_input(const std::string& what, const std::string& text, const fs::path& folder,
-                  const std::vector<fs::path>& names) {
+void throw_if_input(const std::string& what, const std::string& text, const fs::path& folder,
+                    const std::vector<fs::path>& names) {
   std::error_code missing;
   const fs::path input = fs::canonical(text, missing), whole = fs::weakly_canonical(folder);
   if (missing || !is_within(input, whole)) return;
   for (const fs::path& name : names)
     if (stands(whole / name) && is_within(whole / name, input))
-      throw Error::request(what + text + " is of the run in " + folder.string() +
-                           ", which this one would replace" + kElsewhere);
+      throw Error::invalid_input(what + text + " is of the run in " + folder.string() +
+                                 ", which this one would replace" + kElsewhere);
 }
 
-void refuse_inputs(const CommandLine& line, const fs::path& folder, const std::vector<fs::path>& names) {
+void throw_if_inputs(const CommandLine& line, const fs::path& folder, const std::vector<fs::path>& names) {
   for (const Flag& flag : line.flags) {
     if (flag.path == "out") continue;
     for (const std::string& text : split(flag.text))
-      refuse_input("--" + flag.path + " ", text, folder, names);
+      throw_if_input("--" + flag.path + " ", text, folder, names);
   }
-  for (const std::string& text : line.names) refuse_input("", text, folder, names);
+  for (const std::string& text : line.names) throw_if_input("", text, folder, names);
 }
 
 }  // namespace
@@ -163,10 +164,10 @@ void refuse_inputs(const CommandLine& line, const fs::path& folder, const std::v
 FolderLock::FolderLock(const fs::path& folder, const std::string& otherwise)
     : handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (handle_ < 0)
-    throw Error::machine("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
+    throw Error::system("cannot open the folder " + folder.string() + ": " + std::strerror(errno));
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(handle_);
-  throw Error::request(folder.string() + " is in use by another run: wait for its end" + otherwise)
+  throw Error::invalid_input(folder.string() + " is in use by another run: wait for its end" + otherwise)
       .of("out", folder.string());
 }
 
@@ -175,16 +176,16 @@ FolderLock::~FolderLock() { ::close(handle_); }
 RunFolder::RunFolder(const fs::path& path, const CommandLine& line, const std::vector<std::string>& kept)
     : path_(made(path)), lock_(path, ", or give another folder (--out)") {
   const std::optional<Manifest> before = run_before(path_);
-  refuse_inputs(line, path_, files_of(before, path_));
+  throw_if_inputs(line, path_, files_of(before, path_));
   remove_run(before, path_, {kept.begin(), kept.end()});
 }
 
 void RunFolder::check_place(const fs::path& name) const {
   const fs::path file = path_ / name;
   if (!stays_inside(name) || is_behind_a_link(path_, name))
-    throw Error::request(file.string() + " would be written outside " + path_.string() + kElsewhere);
+    throw Error::invalid_input(file.string() + " would be written outside " + path_.string() + kElsewhere);
   if (stands(file))
-    throw Error::request(file.string() + " is not of an earlier run and is not replaced" + kElsewhere);
+    throw Error::invalid_input(file.string() + " is not of an earlier run and is not replaced" + kElsewhere);
 }
 
 void RunFolder::check_free(const std::string& name, const std::set<std::string>& own) const {
@@ -192,7 +193,7 @@ void RunFolder::check_free(const std::string& name, const std::set<std::string>&
   const fs::path inner = fs::path(name).parent_path();
   if (inner.empty()) return;
   if (stands(path_ / inner) && !fs::is_directory(path_ / inner))
-    throw Error::request((path_ / inner).string() + " must be a folder" + kElsewhere);
+    throw Error::invalid_input((path_ / inner).string() + " must be a folder" + kElsewhere);
   if (!is_numbered(name)) return;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(path_ / inner, none)) {

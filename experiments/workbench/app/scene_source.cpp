@@ -86,7 +86,7 @@ void apply_scene(Setup& setup, const std::string& experiment, const std::string&
   if (!name.ends_with(".json")) return apply_scene_file(setup.scene, name, extra, setup.own_tables);
   const Manifest manifest = read_manifest(name);
   if (!manifest.keys->contains("cloth"))
-    throw Error::request(
+    throw Error::invalid_input(
         name + " is of `" + manifest.experiment +
         "` and holds no scene that was simulated: name the manifest of one of its runs (--scene)")
         .of("scene", name);

@@ -9,8 +9,8 @@ namespace hysteron::experiments {
 // Applies what `--scene` names.  Of a manifest that is the scene that its run resolved: if it is of this
 // experiment, as it was asked of it, since it will change it once more, with the keys `extra`; else as it was
 // simulated.  Programs that did not note what was asked have noted which keys were given: of their manifests
-// only these are applied to the same experiment.  `extra` as in apply_scene_file.  Throws Error::request,
-// Error::machine.
+// only these are applied to the same experiment.  `extra` as in apply_scene_file.  Throws
+// Error::invalid_input, Error::system.
 void apply_scene(Setup& setup, const std::string& experiment, const std::string& name, const Keys& extra);
 
 // The scene as it was asked for, in JSON: what Setup::asked holds.
@@ -19,7 +19,7 @@ std::string asked_text(const Scene& scene);
 Json asked_patch(const Json& simulated, const std::string& asked);
 
 // Writes the scene of a set-up, with the keys of the run and its experiment, as the TOML file that
-// `--dump-scene` names.  Throws Error::machine.
+// `--dump-scene` names.  Throws Error::system.
 void dump_scene(const Setup& setup);
 
 }  // namespace hysteron::experiments

@@ -34,11 +34,11 @@ std::vector<std::string> words_of(const CommandLine& line) {
   return words;
 }
 
-Json asked(const SweepColumn& column) {
+Json asked(const ChildRun& column) {
   return {{"commit", kGitCommit}, {"dirty", kGitDirty}, {"words", words_of(column.line)}};
 }
 
-bool takes_checkpoints(const SweepColumn& column) {
+bool takes_checkpoints(const ChildRun& column) {
   return last_text(column.line.flags, "checkpoint", "0") != "0";
 }
 
@@ -53,7 +53,7 @@ std::vector<std::string> program_with(ProcessShare share) {
 }
 
 // Words after `hysteron` of the column's run.
-std::vector<std::string> all_words_of(const SweepColumn& column, const SweepJobs& jobs, int threads) {
+std::vector<std::string> all_words_of(const ChildRun& column, const SweepJobs& jobs, int threads) {
   std::vector<std::string> words = words_of(column.line);
   words.push_back("--quiet=true");
   words.push_back("--out=" + column.folder.string());
@@ -70,7 +70,7 @@ std::string reason_of(int exit_code, const std::string& first_error_line) {
 }
 
 // Of a run without a folder nothing is left.
-void write_outcome(const SweepColumn& column, bool make_folder) {
+void write_outcome(const ChildRun& column, bool make_folder) {
   std::error_code ignored;
   if (make_folder) fs::create_directories(column.folder, ignored);
   if (!fs::is_directory(column.folder, ignored)) return;
@@ -80,12 +80,12 @@ void write_outcome(const SweepColumn& column, bool make_folder) {
 }
 
 // What the run has left.
-void take_back(SweepColumn& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
+void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std::string& error) {
   const bool has_results = exit_code == 0 || exit_code == kCouldNotGoOn;
   column.exit_code = exit_code;
   if (!has_results && !jobs.go_on) {
     const std::string why = column.name + ": " + error;
-    throw exit_code == 2 ? Error::request(why) : Error::machine(why);
+    throw exit_code == 2 ? Error::invalid_input(why) : Error::system(why);
   }
   if (exit_code != 0) column.stopped = reason_of(exit_code, error);
   if (has_results) column.manifest = manifest_or_none(column.folder / "manifest.json");
@@ -99,7 +99,7 @@ double seconds_since(Clock::time_point start) {
 // A process, `hysteron batch`, and what it says of its columns as they end.
 class Batch {
  public:
-  Batch(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
+  Batch(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs,
         const std::function<void(std::size_t)>& ended)
       : columns_(columns), chunk_(chunk), jobs_(jobs), ended_(ended), waiting_(chunk.begin(), chunk.end()) {}
 
@@ -110,7 +110,7 @@ class Batch {
     for (const std::size_t i : chunk_)
       lines += Json(all_words_of(columns_[i], jobs_, share.threads)).dump() + "\n";
     const ProcessResult result = run_process(command, lines, [this](const std::string& line) { hear(line); });
-    if (!result.started) throw Error::machine("cannot start the run " + columns_[chunk_[0]].name);
+    if (!result.started) throw Error::system("cannot start the run " + columns_[chunk_[0]].name);
     for (const std::size_t i : std::set(waiting_)) end(i, result.exit_code, result.first_error_line);
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -131,7 +131,7 @@ class Batch {
     }
   }
 
-  std::vector<SweepColumn>& columns_;
+  std::vector<ChildRun>& columns_;
   const Chunk& chunk_;
   const SweepJobs& jobs_;
   const std::function<void(std::size_t)>& ended_;
@@ -141,7 +141,7 @@ class Batch {
 };
 
 // Why the run cannot share a process; "": it can.
-std::string what_hinders(const CommandLine& line) {
+std::string why_not_batchable(const CommandLine& line) {
   const Experiment& experiment = experiment_named(line.experiment);
   if (!experiment.simulates || experiment.timed)
     return "is of runs that step a cloth, not of " + line.experiment;
@@ -154,7 +154,7 @@ std::string what_hinders(const CommandLine& line) {
 
 }  // namespace
 
-bool recall(SweepColumn& column) {
+bool recall(ChildRun& column) {
   std::optional<Manifest> manifest = manifest_or_none(column.folder / "manifest.json");
   const Json outcome = json_or_none(column.folder / kOutcome);
   column.kept = manifest && manifest->complete && outcome.is_object() &&
@@ -163,7 +163,7 @@ bool recall(SweepColumn& column) {
   return column.kept;
 }
 
-void recall_outcome(SweepColumn& column) {
+void recall_outcome(ChildRun& column) {
   if (recall(column)) return;
   const Json outcome = json_or_none(column.folder / kOutcome);
   const bool known = outcome.is_object() && outcome.value("exit_code", Json()).is_number_integer() &&
@@ -174,15 +174,15 @@ void recall_outcome(SweepColumn& column) {
   if (column.exit_code == kCouldNotGoOn) column.manifest = manifest_or_none(column.folder / "manifest.json");
 }
 
-void check_batch(const std::vector<SweepColumn>& columns, int batch) {
+void check_batch(const std::vector<ChildRun>& columns, int batch) {
   if (batch <= 1) return;
-  for (const SweepColumn& column : columns)
-    if (const std::string why = what_hinders(column.line); !why.empty())
-      throw Error::request("batch = " + std::to_string(batch) + " " + why + " (--batch)")
+  for (const ChildRun& column : columns)
+    if (const std::string why = why_not_batchable(column.line); !why.empty())
+      throw Error::invalid_input("batch = " + std::to_string(batch) + " " + why + " (--batch)")
           .of("batch", std::to_string(batch));
 }
 
-std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int largest, int first) {
+std::vector<Chunk> chunks_of(const std::vector<ChildRun>& columns, int largest, int first) {
   std::vector<Chunk> chunks;
   std::map<std::pair<std::string, bool>, std::size_t> open;  // those that take more columns of a kind
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -199,8 +199,8 @@ std::vector<Chunk> chunks_of(const std::vector<SweepColumn>& columns, int larges
   return chunks;
 }
 
-void run_chunk(std::vector<SweepColumn>& columns, const Chunk& chunk, const SweepJobs& jobs,
-               ProcessShare share, const std::function<void(std::size_t)>& ended) {
+void run_chunk(std::vector<ChildRun>& columns, const Chunk& chunk, const SweepJobs& jobs, ProcessShare share,
+               const std::function<void(std::size_t)>& ended) {
   std::error_code ignored;
   for (const std::size_t i : chunk) fs::remove(columns[i].folder / kOutcome, ignored);
   Batch(columns, chunk, jobs, ended).run(share);

@@ -46,17 +46,17 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 // The law of a column, or "" where its manifest is missing.
-std::string law_of(const SweepColumn& column) {
+std::string law_of(const ChildRun& column) {
   return column.manifest ? column.manifest->scene.law.value_or("") : "";
 }
 
-bool differ_in_laws(const std::vector<SweepColumn>& columns) {
+bool differ_in_laws(const std::vector<ChildRun>& columns) {
   std::set<std::string> laws;
-  for (const SweepColumn& column : columns) laws.insert(law_of(column));
+  for (const ChildRun& column : columns) laws.insert(law_of(column));
   return laws.size() > 1 && laws.size() == columns.size() && !laws.contains("");
 }
 
-std::vector<std::string> numbers_of(const SweepColumn& column, const std::vector<std::string>& metrics,
+std::vector<std::string> numbers_of(const ChildRun& column, const std::vector<std::string>& metrics,
                                     std::size_t most) {
   std::vector<std::string> numbers;
   if (!column.stopped.empty()) numbers.emplace_back("stopped");
@@ -95,14 +95,14 @@ const std::vector<ShownNumber>& shown_numbers() {
   return kAll;
 }
 
-std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns,
+std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& asked) {
   std::vector<std::string> metrics = asked;
   if (asked.empty())
     for (const ShownNumber& number : shown_numbers()) metrics.emplace_back(number.metric);
   std::erase_if(metrics, [&](const std::string& metric) {
     return std::none_of(columns.begin(), columns.end(),
-                        [&](const SweepColumn& c) { return is_shown(c.metrics()[metric]); });
+                        [&](const ChildRun& c) { return is_shown(c.metrics()[metric]); });
   });
   if (asked.empty() && metrics.size() > kShown) metrics.resize(kShown);
   return metrics;
@@ -120,14 +120,14 @@ std::string short_number(const std::string& metric, const MetricValue& value) {
   return symbol.empty() ? number : symbol + " " + number;
 }
 
-std::vector<std::string> families_of(const std::vector<SweepColumn>& columns) {
+std::vector<std::string> families_of(const std::vector<ChildRun>& columns) {
   std::vector<std::string> families(columns.size());
   if (differ_in_laws(columns))
     for (std::size_t c = 0; c < columns.size(); ++c) families[c] = family_of_law(law_of(columns[c]));
   return families;
 }
 
-std::vector<render::Rgb8> colors_of(const std::vector<SweepColumn>& columns) {
+std::vector<render::Rgb8> colors_of(const std::vector<ChildRun>& columns) {
   constexpr int kHues = 4;
   const int count = static_cast<int>(columns.size()), shades = (count + kHues - 1) / kHues;
   std::vector<render::Rgb8> colors;
@@ -138,7 +138,7 @@ std::vector<render::Rgb8> colors_of(const std::vector<SweepColumn>& columns) {
   return colors;
 }
 
-std::vector<render::ComparisonColumn> heads_of(const std::vector<SweepColumn>& columns,
+std::vector<render::ComparisonColumn> heads_of(const std::vector<ChildRun>& columns,
                                                const std::vector<std::string>& asked) {
   const std::vector<std::string> metrics = shown_metrics(columns, asked), families = families_of(columns);
   const std::vector<render::Rgb8> colors = colors_of(columns);
@@ -152,15 +152,15 @@ std::vector<render::ComparisonColumn> heads_of(const std::vector<SweepColumn>& c
   return heads;
 }
 
-bool has_frames(const SweepColumn& column) {
+bool has_frames(const ChildRun& column) {
   return column.manifest && column.manifest->frames && !instants(column).empty();
 }
 
-const std::vector<Frames::Instant>& instants(const SweepColumn& column) {
+const std::vector<Frames::Instant>& instants(const ChildRun& column) {
   return column.manifest->frames->instants;
 }
 
-std::size_t frame_at(const SweepColumn& column, double time) {
+std::size_t frame_at(const ChildRun& column, double time) {
   const std::vector<Frames::Instant>& all = instants(column);
   std::size_t nearest = 0;
   for (std::size_t f = 0; f < all.size(); ++f)
@@ -168,7 +168,7 @@ std::size_t frame_at(const SweepColumn& column, double time) {
   return nearest;
 }
 
-fs::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame) {
+fs::path picture_of(const ChildRun& column, const std::string& look, std::size_t frame) {
   const std::string folder = column.manifest->frames->looks.at(0).name == look ? "frames" : "frames-" + look;
   return column.folder / folder / fmt::format("{:04}.png", frame);
 }
@@ -221,7 +221,7 @@ render::Image Crop::of(const render::Image& picture) const {
 namespace {
 
 // The curves of the first probe's moments that a manifest names, one a direction.
-std::vector<Curve> probed_curves(const SweepColumn& column) {
+std::vector<Curve> probed_curves(const ChildRun& column) {
   std::vector<Curve> curves;
   if (!column.manifest) return curves;
   for (const Curve& curve : column.manifest->curves)
@@ -230,7 +230,7 @@ std::vector<Curve> probed_curves(const SweepColumn& column) {
   return curves;
 }
 
-double most_bent(const SweepColumn& column, const Curve& curve) {
+double most_bent(const ChildRun& column, const Curve& curve) {
   double most = 0;
   for (double k : render::series_from_csv(column.folder / curve.file, curve.x, curve.x, "").y)
     if (std::isfinite(k)) most = std::max(most, std::abs(k));
@@ -239,11 +239,11 @@ double most_bent(const SweepColumn& column, const Curve& curve) {
 
 }  // namespace
 
-ProbedLoops::ProbedLoops(const std::vector<SweepColumn>& columns)
+ProbedLoops::ProbedLoops(const std::vector<ChildRun>& columns)
     : loops_(columns.size()), colors_(colors_of(columns)) {
   std::string direction;  // the plot's name
   double most = 0;
-  for (const SweepColumn& column : columns)
+  for (const ChildRun& column : columns)
     for (const Curve& curve : probed_curves(column))
       if (const double bent = most_bent(column, curve); bent > most) most = bent, direction = curve.plot;
   std::vector<render::LoopFrame> frames;

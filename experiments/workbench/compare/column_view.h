@@ -22,27 +22,27 @@ struct ShownNumber {
 const std::vector<ShownNumber>& shown_numbers();
 
 // Those of the asked metrics, or of shown_numbers() where none is asked for, that any column knows.
-std::vector<std::string> shown_metrics(const std::vector<SweepColumn>& columns,
+std::vector<std::string> shown_metrics(const std::vector<ChildRun>& columns,
                                        const std::vector<std::string>& asked);
 // "116°", "κ 31 /m", "0.94 mN": three digits, with the prefix of SI that leaves 1 to 999; zero below 1e-9 of
 // the unit, where sums of doubles end.
 std::string short_number(const std::string& metric, const MetricValue& value);
 
 // "elastic", "plastic", "hysteretic", "relaxing" where columns differ in their laws; else "" of all.
-std::vector<std::string> families_of(const std::vector<SweepColumn>& columns);
+std::vector<std::string> families_of(const std::vector<ChildRun>& columns);
 // One for each column, of a family shades of one hue; they do not come again below 12 columns.
-std::vector<render::Rgb8> colors_of(const std::vector<SweepColumn>& columns);
+std::vector<render::Rgb8> colors_of(const std::vector<ChildRun>& columns);
 
 // The columns with names, numbers, families and colours, still without cells.
-std::vector<render::ComparisonColumn> heads_of(const std::vector<SweepColumn>& columns,
+std::vector<render::ComparisonColumn> heads_of(const std::vector<ChildRun>& columns,
                                                const std::vector<std::string>& asked);
 
-bool has_frames(const SweepColumn& column);
-const std::vector<Frames::Instant>& instants(const SweepColumn& column);
+bool has_frames(const ChildRun& column);
+const std::vector<Frames::Instant>& instants(const ChildRun& column);
 // The picture nearest to a time [s], the last one where the run had ended before.
-std::size_t frame_at(const SweepColumn& column, double time);
+std::size_t frame_at(const ChildRun& column, double time);
 // The first look's pictures stand in frames/.
-std::filesystem::path picture_of(const SweepColumn& column, const std::string& look, std::size_t frame);
+std::filesystem::path picture_of(const ChildRun& column, const std::string& look, std::size_t frame);
 
 // The part of a row's pictures that has cloth in any of them, with some room; all of it where no run notes
 // where its cloth is.
@@ -63,7 +63,7 @@ class Crop {
 // in any of the columns.  Empty where it has none.
 class ProbedLoops {
  public:
-  explicit ProbedLoops(const std::vector<SweepColumn>& columns);
+  explicit ProbedLoops(const std::vector<ChildRun>& columns);
   // Of column c; in grey behind it that of prandtl, where that is another column.
   render::LoopInset at(std::size_t c, double time) const;
 

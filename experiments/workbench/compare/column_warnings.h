@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 class ColumnWarnings {
  public:
   // What the run's manifest warns of, and why it could not go on.
-  void hear(const SweepColumn& column);
+  void hear(const ChildRun& column);
   void hear(const std::string& name, const std::vector<std::string>& texts);
   // Each text once, with the names of the runs that give it: "linear, dahl: in 3 parts of steps ...".  Of
   // many texts the first, and how many there are.

@@ -20,49 +20,49 @@ CsvField field_of(const MetricValue& value) {
 
 }  // namespace
 
-std::vector<std::string> metrics_in(const std::vector<SweepColumn>& columns,
+std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns,
                                     bool (*wanted)(const MetricValue&)) {
   std::vector<std::string> keys;
-  for (const SweepColumn& column : columns)
+  for (const ChildRun& column : columns)
     for (const auto& [key, value] : column.metrics())
       if (wanted(value) && !std::count(keys.begin(), keys.end(), key)) keys.push_back(key);
   return keys;
 }
 
-void run_columns(Run& run, std::vector<SweepColumn>& columns, const SweepJobs& jobs) {
+void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   run_columns(
-      columns, jobs, [&](const SweepColumn& c) { run.progress(c.name + ": " + outcome_of(c)); },
+      columns, jobs, [&](const ChildRun& c) { run.progress(c.name + ": " + outcome_of(c)); },
       [&](const std::string& line) { run.progress(line); });
   ColumnWarnings warnings;
-  for (const SweepColumn& column : columns) warnings.hear(column);
+  for (const ChildRun& column : columns) warnings.hear(column);
   warnings.say(run);
 }
 
-void check_metrics(const std::vector<SweepColumn>& columns, const std::vector<std::string>& names) {
-  if (std::none_of(columns.begin(), columns.end(), [](const SweepColumn& c) { return c.stopped.empty(); }))
+void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names) {
+  if (std::none_of(columns.begin(), columns.end(), [](const ChildRun& c) { return c.stopped.empty(); }))
     return;
   const std::vector<std::string> known = metrics_in(columns, is_number_or_text);
   for (const std::string& name : names)
     if (!std::count(known.begin(), known.end(), name))
-      throw Error::request("compare.metrics = " + name + " must be among " + join(known, ", ") +
-                           "; --resume keeps the columns that have run (--compare.metrics)")
+      throw Error::invalid_input("compare.metrics = " + name + " must be among " + join(known, ", ") +
+                                 "; --resume keeps the columns that have run (--compare.metrics)")
           .of("compare.metrics", name);
 }
 
-void run_comparison(Run& run, const std::string& varied, std::vector<SweepColumn>& columns,
+void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& columns,
                     const SweepJobs& jobs, const std::vector<std::string>& metrics) {
   run_columns(run, columns, jobs);
   write_comparison_table(run, varied, columns, metrics);
 }
 
-void write_comparison_table(Run& run, const std::string& varied, const std::vector<SweepColumn>& columns,
+void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,
                             const std::vector<std::string>& metrics) {
   const std::vector<std::string> keys = metrics.empty() ? metrics_in(columns, is_numeric) : metrics;
   std::vector<CsvField> head = {varied};
   head.insert(head.end(), keys.begin(), keys.end());
   head.push_back("stopped");
   CsvFile file(run.path("table.csv"), head);
-  for (const SweepColumn& column : columns) {
+  for (const ChildRun& column : columns) {
     const Metrics found = column.metrics();
     if (column.manifest) run.manifest().asked_metrics = column.manifest->asked_metrics;
     std::vector<CsvField> fields = {column.name};

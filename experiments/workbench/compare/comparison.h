@@ -11,25 +11,24 @@ namespace hysteron::experiments {
 
 // Runs the columns; how far they are and how they end is the run's progress.  Throws what run_columns() of
 // sweep_columns.h throws.
-void run_columns(Run& run, std::vector<SweepColumn>& columns, const SweepJobs& jobs);
+void run_columns(Run& run, std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
 // Names of the metrics that are `wanted`, each once.
-std::vector<std::string> metrics_in(const std::vector<SweepColumn>& columns,
-                                    bool (*wanted)(const MetricValue&));
+std::vector<std::string> metrics_in(const std::vector<ChildRun>& columns, bool (*wanted)(const MetricValue&));
 
-// Throws Error::request for a name that is no metric of any column, with those that there are; of columns
-// none of which is complete, not all that would be there are known, and none is refused.
-void check_metrics(const std::vector<SweepColumn>& columns, const std::vector<std::string>& names);
+// Throws Error::invalid_input for a name that is no metric of any column, with those that there are; of
+// columns none of which is complete, not all that would be there are known, and none is refused.
+void check_metrics(const std::vector<ChildRun>& columns, const std::vector<std::string>& names);
 
 // Runs the columns and writes their table.  Throws what run_columns() throws.
-void run_comparison(Run& run, const std::string& varied, std::vector<SweepColumn>& columns,
+void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& columns,
                     const SweepJobs& jobs, const std::vector<std::string>& metrics = {});
 
 // table.csv: `varied` heads the first column, "law", "fabric".  Then one for each of the metrics, numbers and
 // texts, or of all numbers that any column of the comparison has, in the order in which they come, and
-// `stopped`.  Each becomes the run's metric NAME.metric.  Throws Error::machine if the file cannot be
+// `stopped`.  Each becomes the run's metric NAME.metric.  Throws Error::system if the file cannot be
 // written.
-void write_comparison_table(Run& run, const std::string& varied, const std::vector<SweepColumn>& columns,
+void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,
                             const std::vector<std::string>& metrics = {});
 
 }  // namespace hysteron::experiments

@@ -21,7 +21,7 @@ std::string meaning_of(const std::string& metric) {
 }
 
 // In the order in which they are shown, those that a column shows.
-std::string numbers_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+std::string numbers_text(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::string text;
   for (const std::string& key : shown_metrics(columns, page.metrics)) {
     const std::string meaning = meaning_of(key);
@@ -31,7 +31,7 @@ std::string numbers_text(const ComparisonPage& page, const std::vector<SweepColu
   return text.empty() ? "" : text + "; all others are in table.csv.";
 }
 
-std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+std::string rows_text(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::string text;
   for (const std::string& instant : shown_instants(page, columns))
     text += (text.empty() ? "" : "; ") + instant;
@@ -45,7 +45,7 @@ std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>
   }
   if (page.outlines && columns.size() < 5)
     text += " Last column: the outlines of all, laid over each other, in the columns' colours.";
-  for (const SweepColumn& c : columns)
+  for (const ChildRun& c : columns)
     for (const Curve& curve : c.manifest ? c.manifest->curves : std::vector<Curve>{})
       if (curve.plot.starts_with("plot_probe1_moment"))
         return text +
@@ -54,18 +54,18 @@ std::string rows_text(const ComparisonPage& page, const std::vector<SweepColumn>
   return text;
 }
 
-std::string columns_text(const std::vector<SweepColumn>& columns) {
+std::string columns_text(const std::vector<ChildRun>& columns) {
   std::string text;
-  for (const SweepColumn& c : columns)
+  for (const ChildRun& c : columns)
     text += (text.empty() ? "Columns: " : ", ") + c.name +
             (c.stopped.empty() ? "" : " (stopped: " + c.stopped + ")");
   return text + ".";
 }
 
-std::string facts_text(const std::vector<SweepColumn>& columns) {
+std::string facts_text(const std::vector<ChildRun>& columns) {
   std::vector<std::string> names;
   std::vector<const Manifest*> manifests;
-  for (const SweepColumn& c : columns)
+  for (const ChildRun& c : columns)
     if (c.manifest) names.push_back(c.name), manifests.push_back(&*c.manifest);
   return facts_of(names, manifests);
 }
@@ -79,8 +79,8 @@ std::string plotted(const std::string& stem) {
 
 // What a plot shows: the runs' own words for their curves, the meaning of a metric, or a series.
 std::string shown_in(const std::string& stem, const ComparisonPage& page,
-                     const std::vector<SweepColumn>& columns) {
-  for (const SweepColumn& c : columns)
+                     const std::vector<ChildRun>& columns) {
+  for (const ChildRun& c : columns)
     if (c.manifest)
       for (const Curve& curve : c.manifest->curves)
         if (curve.plot == stem) return curve.caption;
@@ -94,7 +94,7 @@ std::string shown_in(const std::string& stem, const ComparisonPage& page,
 }  // namespace
 
 void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
-                               const std::string& command, const std::vector<SweepColumn>& columns) {
+                               const std::string& command, const std::vector<ChildRun>& columns) {
   std::vector<FigureCaption> figures = {
       {"sheet.png", page.title,
        joined({first_upper(question_of(experiment)) + ".", columns_text(columns), rows_text(page, columns),

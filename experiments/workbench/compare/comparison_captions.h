@@ -11,6 +11,6 @@ namespace hysteron::experiments {
 // README.md of the run's folder: a caption each for sheet.png and for the plots that are there.  `experiment`
 // is what the columns ran, `command` how the page was asked for.
 void write_comparison_captions(Run& run, const ComparisonPage& page, const std::string& experiment,
-                               const std::string& command, const std::vector<SweepColumn>& columns);
+                               const std::string& command, const std::vector<ChildRun>& columns);
 
 }  // namespace hysteron::experiments

@@ -22,14 +22,14 @@ namespace {
 
 constexpr const char* kDifference = "difference";  // the look of it
 constexpr int kDifferenceScale = 64;               // 8-bit steps at the end of the difference's colours
-constexpr std::size_t kMostOutlined = 4;           // columns beside which outlines of all find a place
+constexpr std::size_t kMaxOutlined = 4;            // columns beside which outlines of all find a place
 
-double second(const SweepColumn& column, std::size_t frame) { return instants(column).at(frame).time; }
+double second(const ChildRun& column, std::size_t frame) { return instants(column).at(frame).time; }
 
 // The column that went on longest; null where none has a picture.
-const SweepColumn* longest_of(const std::vector<SweepColumn>& columns) {
-  const SweepColumn* longest = nullptr;
-  for (const SweepColumn& c : columns)
+const ChildRun* longest_of(const std::vector<ChildRun>& columns) {
+  const ChildRun* longest = nullptr;
+  for (const ChildRun& c : columns)
     if (has_frames(c) &&
         (!longest || second(c, instants(c).size() - 1) > second(*longest, instants(*longest).size() - 1)))
       longest = &c;
@@ -37,9 +37,9 @@ const SweepColumn* longest_of(const std::vector<SweepColumn>& columns) {
 }
 
 // How far the cloth goes from each picture of the longest column to the next, in the column where it is most.
-std::vector<double> way_of(const SweepColumn& longest, const std::vector<SweepColumn>& columns) {
+std::vector<double> way_of(const ChildRun& longest, const std::vector<ChildRun>& columns) {
   std::vector<double> moved(instants(longest).size(), 0);
-  for (const SweepColumn& c : columns)
+  for (const ChildRun& c : columns)
     for (std::size_t f = 1; has_frames(c) && f < std::min(moved.size(), instants(c).size()); ++f)
       moved[f] = std::max(moved[f], instants(c)[f].moved);
   return moved;
@@ -47,8 +47,8 @@ std::vector<double> way_of(const SweepColumn& longest, const std::vector<SweepCo
 
 // Of pictures of the column that went on longest: those nearest to the page's own times, or apart by what
 // moves between them, without the first picture, which is the same in all columns.
-std::vector<double> times_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
-  const SweepColumn* longest = longest_of(columns);
+std::vector<double> times_of(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
+  const ChildRun* longest = longest_of(columns);
   std::vector<double> times;
   if (!longest) return times;
   for (double time : page.times) times.push_back(second(*longest, frame_at(*longest, time)));
@@ -65,9 +65,9 @@ struct InstantText {
 };
 
 // Times of one's own may be milliseconds apart.
-InstantText text_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns, double time) {
+InstantText text_of(const ComparisonPage& page, const std::vector<ChildRun>& columns, double time) {
   const std::string text = fmt::format("{:.{}f} s", time, page.times.empty() ? 2 : 3);
-  for (const SweepColumn& c : columns) {
+  for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
     const Frames::Instant& instant = instants(c).at(frame_at(c, time));
     if (std::abs(instant.time - time) < 1e-9) return {text, instant.phase};
@@ -78,23 +78,23 @@ InstantText text_of(const ComparisonPage& page, const std::vector<SweepColumn>& 
 // One sheet of columns; its rows are added one by one.
 class Table {
  public:
-  Table(const ComparisonPage& page, const std::vector<SweepColumn>& columns)
+  Table(const ComparisonPage& page, const std::vector<ChildRun>& columns)
       : page_(page), columns_(columns), loops_(columns) {
     sheet_.columns = heads_of(columns, page.metrics);
     sheet_.scale_note = "at the cloth's middle";
-    if (page.outlines && columns.size() > 1 && columns.size() <= kMostOutlined)
+    if (page.outlines && columns.size() > 1 && columns.size() <= kMaxOutlined)
       sheet_.columns.push_back({"all, outlined", {}, {}, "", {}});
   }
 
   Crop crop_at(double time) const {
     Crop crop;
-    for (const SweepColumn& c : columns_)
+    for (const ChildRun& c : columns_)
       if (has_frames(c)) crop.include(instants(c)[frame_at(c, time)]);
     return crop;
   }
   Crop crop_until(double end) const {
     Crop crop;
-    for (const SweepColumn& c : columns_)
+    for (const ChildRun& c : columns_)
       for (std::size_t f = 0; has_frames(c) && f <= frame_at(c, end); ++f) crop.include(instants(c)[f]);
     return crop;
   }
@@ -126,13 +126,13 @@ class Table {
 
  private:
   double scale() const {
-    for (const SweepColumn& c : columns_)
+    for (const ChildRun& c : columns_)
       if (has_frames(c)) return c.manifest->frames->metres_per_pixel;
     return 0;
   }
 
   render::ComparisonCell cell(std::size_t c, double time, const Crop& crop) const {
-    const SweepColumn& column = columns_[c];
+    const ChildRun& column = columns_[c];
     if (!has_frames(column)) return {};
     const std::size_t frame = frame_at(column, time);
     const bool over = time - second(column, frame) > 1e-9;
@@ -189,13 +189,13 @@ class Table {
   }
 
   const ComparisonPage& page_;
-  const std::vector<SweepColumn>& columns_;
+  const std::vector<ChildRun>& columns_;
   ProbedLoops loops_;
   render::ComparisonSheet sheet_;
 };
 
-std::optional<render::ColorBar> bar_of(const std::vector<SweepColumn>& columns, const std::string& look) {
-  for (const SweepColumn& c : columns) {
+std::optional<render::ColorBar> bar_of(const std::vector<ChildRun>& columns, const std::string& look) {
+  for (const ChildRun& c : columns) {
     if (!has_frames(c)) continue;
     for (const auto& [name, bar] : c.manifest->frames->looks)
       if (name == look && bar)
@@ -204,7 +204,7 @@ std::optional<render::ColorBar> bar_of(const std::vector<SweepColumn>& columns, 
   return {};
 }
 
-std::vector<render::ColorBar> bars_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+std::vector<render::ColorBar> bars_of(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<render::ColorBar> bars;
   std::vector<std::string> looks = {page.look};
   if (page.to >= 0 && page.curvature) looks.emplace_back(kDifference);
@@ -216,7 +216,7 @@ std::vector<render::ColorBar> bars_of(const ComparisonPage& page, const std::vec
   return bars;
 }
 
-Table table_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+Table table_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                const std::vector<double>& times) {
   Table table(page, columns);
   std::vector<Crop> crops;
@@ -241,7 +241,7 @@ Table table_of(const ComparisonPage& page, const std::vector<SweepColumn>& colum
 
 // A page of many columns is twice as high as wide at most: the first of its instants go, unless they are
 // asked for.
-render::Image sheet_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+render::Image sheet_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                        std::vector<double> times) {
   render::Image sheet;
   for (;; times.erase(times.begin())) {
@@ -251,10 +251,10 @@ render::Image sheet_of(const ComparisonPage& page, const std::vector<SweepColumn
 }
 
 // All columns side by side at each instant of the film; the part that is shown stays the same.
-std::vector<render::Image> strips_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+std::vector<render::Image> strips_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                                      const std::vector<double>& times) {
   Crop crop;
-  for (const SweepColumn& c : columns)
+  for (const ChildRun& c : columns)
     if (has_frames(c))
       for (const Frames::Instant& instant : instants(c)) crop.include(instant);
   std::vector<render::Image> strips;
@@ -267,9 +267,9 @@ std::vector<render::Image> strips_of(const ComparisonPage& page, const std::vect
 }
 
 // A film at the columns' own speed, where ffmpeg is there.
-void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+void film(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<double> times;
-  if (const SweepColumn* longest = longest_of(columns))
+  if (const ChildRun* longest = longest_of(columns))
     for (const Frames::Instant& instant : instants(*longest)) times.push_back(instant.time);
   const double rate =
       times.size() > 1 ? static_cast<double>(times.size() - 1) / (times.back() - times.front()) : 1;
@@ -291,7 +291,7 @@ void film(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& 
 
 // Of each column the frames in its rows, or up to the end of what moves in one picture, and the first, which
 // tells of no motion before them.
-std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::vector<ChildRun>& columns,
                                         const std::vector<double>& times) {
   std::vector<std::vector<int>> frames(columns.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -309,15 +309,15 @@ std::vector<std::vector<int>> frames_of(const ComparisonPage& page, const std::v
 
 }  // namespace
 
-std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+std::vector<std::string> shown_instants(const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   std::vector<std::string> texts;
   for (double time : times_of(page, columns)) texts.push_back(text_of(page, columns, time).text());
   return texts;
 }
 
-void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+void draw_comparison_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   const std::vector<double> times = times_of(page, columns);
-  if (times.empty()) throw Error::run("no column has a picture");
+  if (times.empty()) throw Error::simulation("no column has a picture");
   render::write_png(run.path("sheet.png"), sheet_of(page, columns, times), render::PngEffort::best);
   keep_page(run, page, columns, frames_of(page, columns, times));
   if (page.video != "none") film(run, page, columns);

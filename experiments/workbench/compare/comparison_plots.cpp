@@ -11,8 +11,8 @@ namespace {
 
 // What the first column notes that notes anything: lists of series, of curves.
 template <class List>
-List first_list(const std::vector<SweepColumn>& columns, List (*noted)(const Manifest&)) {
-  for (const SweepColumn& c : columns)
+List first_list(const std::vector<ChildRun>& columns, List (*noted)(const Manifest&)) {
+  for (const ChildRun& c : columns)
     if (c.manifest && !noted(*c.manifest).empty()) return noted(*c.manifest);
   return {};
 }
@@ -24,7 +24,7 @@ std::string words_of(std::string column) {
 }
 
 // The experiment's own columns of metrics.csv against time.
-void plot_series(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
+void plot_series(Run& run, const std::string& title, const std::vector<ChildRun>& columns) {
   using Names = std::vector<std::string>;
   for (const std::string& name :
        first_list<Names>(columns, [](const Manifest& m) { return m.series.value_or(Names{}); })) {
@@ -35,7 +35,7 @@ void plot_series(Run& run, const std::string& title, const std::vector<SweepColu
 }
 
 // Tables of its own that the experiment names in its manifest.
-void plot_curves(Run& run, const std::string& title, const std::vector<SweepColumn>& columns) {
+void plot_curves(Run& run, const std::string& title, const std::vector<ChildRun>& columns) {
   for (const Curve& curve :
        first_list<std::vector<Curve>>(columns, [](const Manifest& m) { return m.curves; })) {
     const bool probed = curve.plot.starts_with("plot_probe");
@@ -51,12 +51,12 @@ void plot_curves(Run& run, const std::string& title, const std::vector<SweepColu
 }
 
 // The page's metrics, or what these experiments are asked for, a bar a column; none where all are zero.
-void plot_answers(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+void plot_answers(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   const std::vector<std::string> usual = {"drape_coefficient_percent", "recovery_angle_deg"};
   for (const std::string& key : page.metrics.empty() ? usual : page.metrics) {
     render::Plot plot{page.title, {""}, {split_unit(key).text()}};
     std::vector<double> values;
-    for (const SweepColumn& c : columns) {
+    for (const ChildRun& c : columns) {
       if (!c.manifest || !c.manifest->metrics[key].is_number()) continue;
       plot.x.categories.push_back(c.name);
       values.push_back(c.manifest->metrics[key].number());
@@ -73,7 +73,7 @@ void plot_answers(Run& run, const ComparisonPage& page, const std::vector<SweepC
 
 }  // namespace
 
-void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns) {
+void plot_comparison(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns) {
   plot_series(run, page.title, columns);
   plot_curves(run, page.title, columns);
   plot_answers(run, page, columns);

@@ -21,11 +21,11 @@ std::string words_of(const std::vector<Flag>& flags) {
 class Estimate {
  public:
   Estimate(const std::vector<std::string>& headlines, const Metrics& metrics,
-           const std::vector<Repeated>& repeats)
+           const std::vector<ErrorRunResult>& repeats)
       : run_(metrics), repeats_(repeats) {
     for (const std::string& name : headlines)
       if (metrics[name].is_number()) names_.push_back(name);
-    for (const Repeated& r : repeats_) usable_.push_back(is_usable(r));
+    for (const ErrorRunResult& r : repeats_) usable_.push_back(is_usable(r));
   }
 
   Errors errors() {
@@ -41,9 +41,9 @@ class Estimate {
  private:
   // A repeat that leaves every bit as it was tells nothing of an error: what it changes is not used.  Two
   // paths may be the same.
-  static bool unused(const Repeated& r) { return r.unchanged && r.repeat.name != "path"; }
+  static bool unused(const ErrorRunResult& r) { return r.unchanged && r.repeat.name != "path"; }
 
-  bool is_usable(const Repeated& r) {
+  bool is_usable(const ErrorRunResult& r) {
     const std::string what = r.repeat.name + " (" + words_of(r.repeat.changes) + ")";
     if (!r.stopped.empty())
       errors_.missing.push_back(what + " is not complete: " + r.stopped);
@@ -92,14 +92,14 @@ class Estimate {
 
   void path(const std::string& name) {
     const bool asked = std::any_of(repeats_.begin(), repeats_.end(),
-                                   [](const Repeated& r) { return r.repeat.name == "path"; });
+                                   [](const ErrorRunResult& r) { return r.repeat.name == "path"; });
     if (!asked) return;
     const std::vector<double> found = values(name, "path");
     errors_.metrics.set(name + kPathDifference, found.empty() ? MetricValue() : found[0] - of_run(name));
   }
 
   const Metrics& run_;
-  const std::vector<Repeated>& repeats_;
+  const std::vector<ErrorRunResult>& repeats_;
   std::vector<std::string> names_;
   std::vector<bool> usable_;
   Errors errors_;
@@ -107,13 +107,13 @@ class Estimate {
 
 }  // namespace
 
-Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats,
-                 const std::vector<std::string>& asked) {
+Errors errors_of(const std::string& experiment, const Metrics& metrics,
+                 const std::vector<ErrorRunResult>& repeats, const std::vector<std::string>& asked) {
   const Headlines& headlines = headlines_of(experiment);
   std::vector<std::string> names = headlines.with_errors();
   names.insert(names.end(), asked.begin(), asked.end());
   Errors errors = Estimate(names, metrics, repeats).errors();
-  const bool of_a_file = std::any_of(repeats.begin(), repeats.end(), [](const Repeated& r) {
+  const bool of_a_file = std::any_of(repeats.begin(), repeats.end(), [](const ErrorRunResult& r) {
     return !r.repeat.changes.empty() && r.repeat.changes.front().path == kSubdivisions;
   });
   if (of_a_file) errors.missing.push_back("draw: the cloth's triangles come from a file");

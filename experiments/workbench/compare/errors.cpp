@@ -46,7 +46,7 @@ Flag finer_mesh(const Scene& scene) {
   return {"triangles", std::to_string(kFiner * scene.triangles)};
 }
 
-SweepColumn column_of(const Run& run, const CommandLine& line, const Repeat& repeat) {
+ChildRun column_of(const Run& run, const CommandLine& line, const ErrorRun& repeat) {
   std::vector<Flag> own = repeat.changes;
   // A scene's file may say otherwise.
   own.insert(own.end(), {{"errors", "false"},
@@ -74,17 +74,17 @@ std::string changes_text(const std::vector<Flag>& flags) {
   return text;
 }
 
-Repeated what_came_of(const Repeat& repeat, const SweepColumn& column, const Run& run) {
+ErrorRunResult what_came_of(const ErrorRun& repeat, const ChildRun& column, const Run& run) {
   const bool unchanged = column.manifest && column.manifest->state_hash &&
                          column.manifest->state_hash == run.manifest().state_hash;
   return {repeat, column.metrics(), column.stopped, unchanged};
 }
 
 // Beyond what the run itself warns of.
-void warn_of(const std::vector<SweepColumn>& columns, Run& run) {
+void warn_of(const std::vector<ChildRun>& columns, Run& run) {
   ColumnWarnings warnings;
   const std::vector<std::string>& own = run.manifest().warnings;
-  for (const SweepColumn& column : columns) {
+  for (const ChildRun& column : columns) {
     if (!column.manifest) continue;
     std::vector<std::string> texts = column.manifest->warnings;
     std::erase_if(texts,
@@ -95,8 +95,8 @@ void warn_of(const std::vector<SweepColumn>& columns, Run& run) {
 }
 
 // errors.csv: a row for each repeat.
-void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<Repeat>& repeats,
-                 const std::vector<SweepColumn>& columns) {
+void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<ErrorRun>& repeats,
+                 const std::vector<ChildRun>& columns) {
   std::vector<CsvField> head = {"repeat", "differs"};
   head.insert(head.end(), metrics.begin(), metrics.end());
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
@@ -129,10 +129,10 @@ std::vector<Flag> half_the_step(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
-                               int draws) {
+std::vector<ErrorRun> repeats_of(const std::string& experiment, const Scene& scene,
+                                 const std::string& release, int draws) {
   const Headlines& headlines = headlines_of(experiment);
-  std::vector<Repeat> repeats;
+  std::vector<ErrorRun> repeats;
   const bool drawn = !from_a_file(scene);
   // The longest first: they run side by side.
   repeats.push_back({"mesh", {finer_mesh(scene)}});
@@ -152,10 +152,10 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   const Headlines& headlines = headlines_of(line.experiment);
   std::vector<std::string> names = headlines.with_errors();
   names.insert(names.end(), setup.asked_metrics.begin(), setup.asked_metrics.end());
-  const std::vector<Repeat> repeats =
+  const std::vector<ErrorRun> repeats =
       repeats_of(line.experiment, setup.scene, release_of(run, headlines), setup.options.errors_draws);
-  std::vector<SweepColumn> columns;
-  for (const Repeat& repeat : repeats) columns.push_back(column_of(run, line, repeat));
+  std::vector<ChildRun> columns;
+  for (const ErrorRun& repeat : repeats) columns.push_back(column_of(run, line, repeat));
   SweepJobs jobs;
   jobs.at_once = setup.options.errors_jobs;
   jobs.batch = setup.options.errors_batch;
@@ -164,11 +164,11 @@ void measure_errors(Run& run, const CommandLine& line, const Setup& setup) {
   jobs.go_on = true;
   run_columns(
       columns, jobs,
-      [&](const SweepColumn& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
+      [&](const ChildRun& column) { run.progress("errors, " + column.name + ": " + outcome_of(column)); },
       [&](const std::string& line) { run.progress("errors: " + line); });
   warn_of(columns, run);
   write_table(run, names, repeats, columns);
-  std::vector<Repeated> found;
+  std::vector<ErrorRunResult> found;
   for (std::size_t i = 0; i < repeats.size(); ++i) found.push_back(what_came_of(repeats[i], columns[i], run));
   const Errors errors = errors_of(line.experiment, run.metrics(), found, setup.asked_metrics);
   for (const auto& [name, value] : errors.metrics) run.metric(name, value);

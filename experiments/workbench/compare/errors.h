@@ -15,18 +15,18 @@ namespace hysteron::experiments {
 inline constexpr const char* kSubdivisions = "cloth.subdivisions";
 
 // One run more: what differs from the first.  Its name is "step", "mesh", "path" or "draw-1", "draw-2" ...
-struct Repeat {
+struct ErrorRun {
   std::string name;
   std::vector<Flag> changes;
 };
 // Of a resolved scene.  `release` is how its cloth is let go, "" where there is one path only.  The triangles
 // of a file are subdivided, and there are no other draws of them.
-std::vector<Repeat> repeats_of(const std::string& experiment, const Scene& scene, const std::string& release,
-                               int draws);
+std::vector<ErrorRun> repeats_of(const std::string& experiment, const Scene& scene,
+                                 const std::string& release, int draws);
 
 // What came of one.
-struct Repeated {
-  Repeat repeat;
+struct ErrorRunResult {
+  ErrorRun repeat;
   Metrics metrics{};
   std::string stopped{};   // why it is not complete; empty: it is
   bool unchanged = false;  // it ended in the run's own state, bit for bit
@@ -42,11 +42,11 @@ struct Errors {
   Metrics metrics{};
   std::vector<std::string> missing;
 };
-Errors errors_of(const std::string& experiment, const Metrics& metrics, const std::vector<Repeated>& repeats,
-                 const std::vector<std::string>& asked = {});
+Errors errors_of(const std::string& experiment, const Metrics& metrics,
+                 const std::vector<ErrorRunResult>& repeats, const std::vector<std::string>& asked = {});
 
 // Runs the repeats of a run whose metrics are known, adds its errors to them, the sentences as
-// `errors_missing`, and writes errors.csv.  Throws Error::machine.
+// `errors_missing`, and writes errors.csv.  Throws Error::system.
 void measure_errors(Run& run, const CommandLine& line, const Setup& setup);
 
 }  // namespace hysteron::experiments

@@ -17,7 +17,7 @@ Json page_manifest(const Manifest& manifest) {
   return json;
 }
 
-KeptRecord with_column(KeptRecord record, const SweepColumn& column, std::size_t mesh) {
+KeptRecord with_column(KeptRecord record, const ChildRun& column, std::size_t mesh) {
   Json setup = Json::parse(inflated(record.blocks.at(0), record.head.at("setup_bytes")));
   setup["manifest"] = page_manifest(*column.manifest);
   setup["stopped"] = column.stopped;
@@ -50,7 +50,7 @@ Json page_json(const ComparisonPage& page) {
 
 }  // namespace
 
-void keep_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns,
                const std::vector<std::vector<int>>& frames) {
   std::vector<KeptRecord> meshes, all;
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -87,8 +87,8 @@ ComparisonPage page_of(const Json& sheet) {
   return page;
 }
 
-SweepColumn column_of(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
-  SweepColumn column{cloth.name, {}, folder};
+ChildRun column_of(const KeptCloth& cloth, const fs::path& folder, const std::optional<Frames>& frames) {
+  ChildRun column{cloth.name, {}, folder};
   column.stopped = cloth.setup.at("stopped");
   Json json = cloth.setup.at("manifest");
   json["scene"] = cloth.setup.at("scene");

@@ -10,14 +10,14 @@ namespace hysteron::experiments {
 
 // Writes sheet.hyg: of each column what it kept of these of its frames, in ascending order, its manifest and
 // why it stopped; columns on one mesh have it once.  Columns that kept nothing are left out.
-void keep_page(Run& run, const ComparisonPage& page, const std::vector<SweepColumn>& columns,
+void keep_page(Run& run, const ComparisonPage& page, const std::vector<ChildRun>& columns,
                const std::vector<std::vector<int>>& frames);
 
 // The page of a kept comparison; it is of one if `sheet` has it.
 bool is_page(const Json& sheet);
 ComparisonPage page_of(const Json& sheet);
 // The column whose pictures were drawn again into that folder, as `frames` say.
-SweepColumn column_of(const KeptCloth& cloth, const std::filesystem::path& folder,
-                      const std::optional<Frames>& frames);
+ChildRun column_of(const KeptCloth& cloth, const std::filesystem::path& folder,
+                   const std::optional<Frames>& frames);
 
 }  // namespace hysteron::experiments

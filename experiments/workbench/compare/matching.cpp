@@ -10,7 +10,7 @@ namespace {
 constexpr int kSteps = 2000;          // to the curvature
 constexpr double kAlmostFlat = 1e-6;  // of k0: where the slope at rest is taken
 constexpr double kExact = 1e-9;       // relative
-constexpr int kMostIterations = 60;
+constexpr int kMaxIterations = 60;
 
 double measure(LawRequest law, double scale, Match match, double curvature) {
   law.curve.b1 *= scale;
@@ -33,7 +33,7 @@ Match match_named(const std::string& name) {
   if (name == "fabric") return Match::fabric;
   if (name == "small-strain") return Match::small_strain;
   if (name == "energy") return Match::energy;
-  throw Error::request("compare.match = " + name + " must be fabric | small-strain | energy")
+  throw Error::invalid_input("compare.match = " + name + " must be fabric | small-strain | energy")
       .of("compare.match", name);
 }
 
@@ -56,14 +56,14 @@ double matching_scale(const LawRequest& law, const LawRequest& reference, Match 
   if (match == Match::fabric) return 1;
   const double wanted = measure(reference, 1, match, curvature);
   double scale = 1;
-  for (int k = 0; k < kMostIterations; ++k) {
+  for (int k = 0; k < kMaxIterations; ++k) {
     const double found = measure(law, scale, match, curvature);
     if (std::abs(found / wanted - 1) <= kExact) return scale;
     scale *= wanted / found;
     if (!(scale > 0) || !std::isfinite(scale)) break;
   }
-  throw Error::request("law " + law.name + " cannot be made as stiff as " + reference.name +
-                       " by scaling its stiffnesses")
+  throw Error::invalid_input("law " + law.name + " cannot be made as stiff as " + reference.name +
+                             " by scaling its stiffnesses")
       .of("law", law.name);
 }
 

@@ -13,7 +13,7 @@ enum class Match {
   energy,        // equal work to bend from flat to a given curvature
 };
 
-// "fabric", "small-strain" or "energy"; Error::request for anything else.
+// "fabric", "small-strain" or "energy"; Error::invalid_input for anything else.
 Match match_named(const std::string& name);
 
 // Every stiffness in them multiplied: of stops, branches and set; no threshold and no time.
@@ -21,7 +21,7 @@ BendingParts stiffened(BendingParts parts, double scale);
 
 // The number by which b1, b2 and all stiffnesses beyond them of `law` have to be multiplied (k0 stays) so
 // that it is as stiff as `reference`; `curvature` is that of Match::energy [1/m], reached in one second by
-// laws that take time. Error::request as run_law(), or if no number makes them equal to 1e-9.
+// laws that take time. Error::invalid_input as run_law(), or if no number makes them equal to 1e-9.
 double matching_scale(const LawRequest& law, const LawRequest& reference, Match match, double curvature);
 
 // Work to bend from flat to `curvature`, stored or lost [J/m^2]; slope of the moment at rest [N m].

@@ -37,7 +37,7 @@ std::string last_row(const fs::path& file) {
 // its end.
 class Watch {
  public:
-  Watch(const std::vector<SweepColumn>& columns, int most, const std::function<void(const std::string&)>& say)
+  Watch(const std::vector<ChildRun>& columns, int most, const std::function<void(const std::string&)>& say)
       : columns_(columns), most_(most), say_(say), thread_([this] { run(); }) {}
   ~Watch() {
     {
@@ -75,7 +75,7 @@ class Watch {
     }
   }
 
-  const std::vector<SweepColumn>& columns_;
+  const std::vector<ChildRun>& columns_;
   const int most_;
   const std::function<void(const std::string&)>& say_;
   std::mutex mutex_;
@@ -124,7 +124,7 @@ Machine machine_for(const SweepJobs& jobs) {
 }
 
 // Batches no larger than leaves something to each GPU or core.
-std::vector<Chunk> chunks_for(const std::vector<SweepColumn>& columns, const SweepJobs& jobs,
+std::vector<Chunk> chunks_for(const std::vector<ChildRun>& columns, const SweepJobs& jobs,
                               const Machine& machine) {
   const int count = static_cast<int>(columns.size());
   return chunks_of(columns, std::min(jobs.batch, (count + machine.at_once - 1) / machine.at_once),
@@ -133,23 +133,23 @@ std::vector<Chunk> chunks_for(const std::vector<SweepColumn>& columns, const Swe
 
 }  // namespace
 
-SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
-                      const fs::path& out) {
+ChildRun column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+                   const fs::path& out) {
   static const std::set<std::string> kOfThePage = {"out", "json", "quiet", "resume", "threads"};
-  SweepColumn column{name, line, out / name};
+  ChildRun column{name, line, out / name};
   std::erase_if(column.line.flags, [](const Flag& flag) { return kOfThePage.contains(flag.path); });
   column.line.flags = with_later(column.line.flags, own);
   return column;
 }
 
-void explain_columns(const std::vector<SweepColumn>& columns) {
-  for (const SweepColumn& column : columns) {
+void explain_columns(const std::vector<ChildRun>& columns) {
+  for (const ChildRun& column : columns) {
     std::cout << column.name << ":" << std::endl;
     experiment_named(column.line.experiment).run(column.line);
   }
 }
 
-std::string outcome_of(const SweepColumn& column) {
+std::string outcome_of(const ChildRun& column) {
   return column.kept ? "kept" : column.stopped.empty() ? "done" : column.stopped;
 }
 
@@ -160,13 +160,13 @@ std::string progress_in(const fs::path& folder) {
   return fmt::format("{:.2f}/{:.4g} s", std::strtod(row.c_str(), nullptr), *manifest->scene.seconds);
 }
 
-int processes_at_once(const std::vector<SweepColumn>& columns, const SweepJobs& jobs) {
+int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs) {
   const Machine machine = machine_for(jobs);
   return std::min(static_cast<int>(chunks_for(columns, jobs, machine).size()), machine.at_once);
 }
 
-void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
-                 const std::function<void(SweepColumn&)>& said,
+void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
+                 const std::function<void(ChildRun&)>& said,
                  const std::function<void(const std::string&)>& progress) {
   check_batch(columns, jobs.batch);
   const Machine machine = machine_for(jobs);

@@ -13,7 +13,7 @@
 
 namespace hysteron::experiments {
 
-struct SweepColumn {
+struct ChildRun {
   std::string name;  // its folder's
   CommandLine line;  // without --out, --threads and what else does not matter
   std::filesystem::path folder;
@@ -29,10 +29,10 @@ struct SweepColumn {
 };
 
 // The line with the column's own flags, in OUT/<name>/, without what the page keeps for itself.
-SweepColumn column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
-                      const std::filesystem::path& out);
+ChildRun column_of(const std::string& name, const CommandLine& line, const std::vector<Flag>& own,
+                   const std::filesystem::path& out);
 // Prints what each of them includes and leaves out (--explain).
-void explain_columns(const std::vector<SweepColumn>& columns);
+void explain_columns(const std::vector<ChildRun>& columns);
 
 // What is not asked of the runs but of how they are run.
 struct SweepJobs {
@@ -51,30 +51,30 @@ struct SweepJobs {
 inline constexpr int kLargestBatch = 1024;
 inline constexpr char kBatchDoc[] =
     "up to so many runs share a process and, on a GPU, its launches; of runs without pictures (no-images)";
-// Throws Error::request where one of the columns cannot share a process: it draws, repeats itself for
+// Throws Error::invalid_input where one of the columns cannot share a process: it draws, repeats itself for
 // `errors`, is timed, or steps no cloth of its own.
-void check_batch(const std::vector<SweepColumn>& columns, int batch);
+void check_batch(const std::vector<ChildRun>& columns, int batch);
 
 // Takes what the same program has left of a column that it has finished: it is then `kept`.  False if it has
 // not.
-bool recall(SweepColumn& column);
+bool recall(ChildRun& column);
 // The same, or how the column ended, whoever ran it; "not run" where nothing is left of it.
-void recall_outcome(SweepColumn& column);
+void recall_outcome(ChildRun& column);
 
 // How many processes the columns take at a time.
-int processes_at_once(const std::vector<SweepColumn>& columns, const SweepJobs& jobs);
+int processes_at_once(const std::vector<ChildRun>& columns, const SweepJobs& jobs);
 
 // "kept", "done", or why it stopped.
-std::string outcome_of(const SweepColumn& column);
+std::string outcome_of(const ChildRun& column);
 
 // "1.20/4 s": how far a run has come that is not finished, by its folder; "" before its first instant.
 std::string progress_in(const std::filesystem::path& folder);
 
 // `said` is called, one at a time, as columns end, and `progress` every few seconds with how far each is,
-// where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::request and
-// Error::machine if one of them is wrong or fails, unless the jobs go on.
-void run_columns(std::vector<SweepColumn>& columns, const SweepJobs& jobs,
-                 const std::function<void(SweepColumn&)>& said,
+// where that has changed.  A run that cannot go on (exit code 3) keeps what it has; Error::invalid_input and
+// Error::system if one of them is wrong or fails, unless the jobs go on.
+void run_columns(std::vector<ChildRun>& columns, const SweepJobs& jobs,
+                 const std::function<void(ChildRun&)>& said,
                  const std::function<void(const std::string&)>& progress);
 
 }  // namespace hysteron::experiments

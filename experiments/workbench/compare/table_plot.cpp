@@ -68,7 +68,7 @@ void draw(Run& run, TablePlot plot, const std::string& label) {
   run.plot(plot.name, plot.plot);
 }
 
-void draw(Run& run, TablePlot plot, const std::vector<SweepColumn>& columns) {
+void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns) {
   const std::vector<render::Rgb8> colors = colors_of(columns);
   std::vector<render::Series> own;
   for (std::size_t c = 0; c < columns.size(); ++c) {

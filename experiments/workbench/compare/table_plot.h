@@ -23,6 +23,6 @@ void draw(Run& run, TablePlot plot, const std::string& label);
 // A line for each column of a comparison that has the file and rows in it.  Those that are zero throughout
 // are named below the title instead, and lines that lie on each other are one; a plot without lines is not
 // drawn.
-void draw(Run& run, TablePlot plot, const std::vector<SweepColumn>& columns);
+void draw(Run& run, TablePlot plot, const std::vector<ChildRun>& columns);
 
 }  // namespace hysteron::experiments

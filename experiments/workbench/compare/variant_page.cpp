@@ -30,9 +30,9 @@ PageChoice taken_from(CommandLine& line) {
 }
 
 // A comparison of the columns' last instants, of those that have one; plots.
-void draw_page(Run& run, const VariantPage& page, const std::vector<SweepColumn>& columns) {
-  std::vector<SweepColumn> shown;
-  for (const SweepColumn& column : columns) {
+void draw_page(Run& run, const VariantPage& page, const std::vector<ChildRun>& columns) {
+  std::vector<ChildRun> shown;
+  for (const ChildRun& column : columns) {
     if (!column.stopped.empty())
       run.warn(column.name + " is missing on the page's sheet and plots: " + column.stopped);
     else if (has_frames(column))
@@ -83,9 +83,9 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
   VariantPage page = page_of(without_lists(line), variants);
   const Scene& scene = page.setup.scene;
   if (page.setup.options.checkpoint > 0)
-    throw Error::request("--checkpoint is of single runs: name one law, fabric, integrator");
+    throw Error::invalid_input("--checkpoint is of single runs: name one law, fabric, integrator");
   if (!lists_fabrics(line)) page.title += ", " + scene.fabric.name;
-  std::vector<SweepColumn> columns;
+  std::vector<ChildRun> columns;
   for (const Variant& variant : in_one_frame(line, variants))
     columns.push_back(column_of(variant.name, line, variant.flags, page.setup.options.out));
   if (page.setup.options.explain) return explain_columns(columns), 0;
@@ -100,8 +100,8 @@ int run_variants(const CommandLine& given, void (*once)(const CommandLine&),
                        .go_on = true,
                        .batch = choice.batch};
   run_comparison(run, varied_of(variants), columns, jobs, page.metrics);
-  for (const SweepColumn& column : columns)
-    if (column.exit_code == 1) throw Error::machine(column.name + ": " + column.stopped);
+  for (const ChildRun& column : columns)
+    if (column.exit_code == 1) throw Error::system(column.name + ": " + column.stopped);
   if (!page.setup.options.no_images) draw_page(run, page, columns);
   finish_with_report(run);
   return 0;

@@ -25,7 +25,7 @@ std::vector<KeyDescription> page_keys();
 
 // Runs the experiment `once`, or its page where the line names several variants.  `page_of` makes it from the
 // line without lists, and may change the variants.  A column that cannot go on has its message in the table.
-// Throws Error::request, and Error::machine where that happens to a column.  Returns the exit code.
+// Throws Error::invalid_input, and Error::system where that happens to a column.  Returns the exit code.
 int run_variants(const CommandLine& line, void (*once)(const CommandLine&),
                  VariantPage (*page_of)(const CommandLine& first, std::vector<Variant>& variants));
 

@@ -40,7 +40,7 @@ void add_flags(std::vector<Flag>& flags, const std::string& path, const std::str
   while (std::getline(parts, part, '+')) {
     const std::size_t equals = part.find('=');
     if (equals == part.npos)
-      throw Error::request(text + ": \"" + part + "\" must be key=value").of(path, text);
+      throw Error::invalid_input(text + ": \"" + part + "\" must be key=value").of(path, text);
     flags.push_back({part.substr(0, equals), part.substr(equals + 1)});
   }
 }
@@ -53,7 +53,8 @@ std::vector<Variant> multiplied(const std::vector<Variant>& variants, const std:
     for (const std::string& name : names) {
       Variant one = variant;
       if (names.size() > 1 && name.empty())
-        throw Error::request(path + " has a comma without a name before it (--" + path + ")").of(path, "");
+        throw Error::invalid_input(path + " has a comma without a name before it (--" + path + ")")
+            .of(path, "");
       if (names.size() > 1) one.name += (one.name.empty() ? "" : "-") + column_name(name);
       if (!name.empty()) add_flags(one.flags, path, name);
       result.push_back(std::move(one));
@@ -73,7 +74,7 @@ void name_apart(std::vector<Variant>& variants) {
     std::string& name = variants[i].name;
     for (std::size_t j = 0; j < i; ++j)
       if (are_same(variants[i].flags, variants[j].flags))
-        throw Error::request(name + " is named twice: columns must differ");
+        throw Error::invalid_input(name + " is named twice: columns must differ");
     const std::string stem = name;
     for (int number = 2; !taken.insert(name).second; ++number) name = stem + "-" + std::to_string(number);
   }

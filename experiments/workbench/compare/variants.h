@@ -17,7 +17,7 @@ struct Variant {
 
 // What --fabric, --law and --integrator name, each `all` or names separated by commas: every combination of
 // them. A name may carry further keys for itself: "linear+fabric.damping=1e-3".  One variant, without a name
-// where nothing is named, where none is a list.  Throws Error::request where two are the same.
+// where nothing is named, where none is a list.  Throws Error::invalid_input where two are the same.
 std::vector<Variant> variants_of(const CommandLine& line);
 // Of a variant that a list calls so, and of its folder: files go by their stems, "../mine/wool.toml" by
 // "wool".

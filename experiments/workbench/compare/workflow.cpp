@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 void make(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (failure) throw Error::machine("cannot create the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot create the folder " + folder.string() + ": " + failure.message());
 }
 
 Json to_json(const WorkflowJob& job) {

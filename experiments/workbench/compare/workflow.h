@@ -32,7 +32,7 @@ struct Workflow {
 };
 
 // FOLDER/Snakefile and FOLDER/slurm/config.yaml, as in assets/snakemake, and FOLDER/config.json, what they
-// are asked for.  The jobs run this program in this working folder.  Throws Error::machine.
+// are asked for.  The jobs run this program in this working folder.  Throws Error::system.
 void write_workflow(const std::filesystem::path& folder, const Workflow& workflow);
 
 // "cd FOLDER && snakemake ...": how it is started.

@@ -27,7 +27,7 @@ std::vector<fs::path> reports_below(const fs::path& folder) {
     if (entry.path().filename() == "report.html" && entry.path().parent_path() != folder)
       found.push_back(entry.path().parent_path());
   }
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(found.begin(), found.end());
   return found;
 }

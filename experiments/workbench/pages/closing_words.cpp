@@ -52,13 +52,13 @@ std::string one_line(const Manifest& manifest, const Metrics& metrics) {
   std::string text;
   for (const auto& [words, value] : findings_in(manifest, metrics))
     text += (text.empty() ? "" : "; ") + words + " " + value;
-  const std::string unrest = unrest_words(metrics);
+  const std::string unrest = not_at_rest_warning(metrics);
   return text + (text.empty() || unrest.empty() ? "" : "; ") + unrest;
 }
 
 }  // namespace
 
-std::string unrest_words(const Metrics& metrics) {
+std::string not_at_rest_warning(const Metrics& metrics) {
   if (!metrics["settled"].is(false)) return "";
   std::string text = "NOT at rest";
   const MetricValue &fastest = metrics["fastest_m_per_s"], &limit = metrics["settling_limit_m_per_s"];
@@ -76,14 +76,14 @@ std::string result_words(const Manifest& manifest) {
     const std::string line = one_line(manifest, own);
     if (!line.empty()) text += row(name, line);
   }
-  const std::string unrest = unrest_words(metrics);
+  const std::string unrest = not_at_rest_warning(metrics);
   if (!unrest.empty()) text += "  " + unrest + "\n";
   if (metrics["settled"].is(true)) text += "  at rest\n";
   if (!manifest.complete) text += "  INCOMPLETE: the run did not come to its end\n";
   return text;
 }
 
-std::string closing_words(const std::filesystem::path& folder) {
+std::string closing_summary(const std::filesystem::path& folder) {
   const Manifest manifest = read_manifest(folder / "manifest.json");
   const std::string& fabric = manifest.scene.fabric.name;
   std::string text = manifest.experiment;

@@ -12,9 +12,9 @@ namespace {
 
 // "law prandtl", "laws prandtl, linear", "14 laws".
 std::string named_or_counted(const std::vector<std::string>& names, const std::string& one) {
-  constexpr std::size_t kMostNames = 4;
+  constexpr std::size_t kMaxNames = 4;
   if (names.empty()) return "";
-  if (names.size() > kMostNames) return counted(names.size(), one);
+  if (names.size() > kMaxNames) return counted(names.size(), one);
   return one + (names.size() > 1 ? "s " : " ") + join(names, ", ");
 }
 

@@ -137,8 +137,8 @@ std::string pictures_html(const Exhibit& exhibit, PageForm form) {
          html_group("grid", beside) + html_group("grid wide", plots);
 }
 
-constexpr std::size_t kMostCards = 4;
-constexpr std::size_t kMostWarnings = 4;  // of many runs in one, most are alike; the manifest has all
+constexpr std::size_t kMaxCards = 4;
+constexpr std::size_t kMaxWarnings = 4;  // of many runs in one, most are alike; the manifest has all
 
 // What the experiment is asked for, else the first of what it found; the manifest has all.
 std::string metrics_html(const Manifest& manifest) {
@@ -146,16 +146,16 @@ std::string metrics_html(const Manifest& manifest) {
   Metrics first;
   std::size_t cards = 0;
   for (const auto& [key, value] : manifest.metrics)
-    if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMostCards))
+    if (!headline_of(manifest.metrics, key).empty() || (!is_numerics(key) && cards++ < kMaxCards))
       first.set(key, value);
   return metric_cards(first);
 }
 
 std::vector<Fields> shown_warnings(const std::vector<std::string>& all) {
   std::vector<Fields> shown;
-  for (std::size_t i = 0; i < std::min(all.size(), kMostWarnings); ++i) shown.push_back({{"text", all[i]}});
-  if (all.size() > kMostWarnings)
-    shown.push_back({{"text", std::to_string(all.size() - kMostWarnings) + " more in manifest.json"}});
+  for (std::size_t i = 0; i < std::min(all.size(), kMaxWarnings); ++i) shown.push_back({{"text", all[i]}});
+  if (all.size() > kMaxWarnings)
+    shown.push_back({{"text", std::to_string(all.size() - kMaxWarnings) + " more in manifest.json"}});
   return shown;
 }
 

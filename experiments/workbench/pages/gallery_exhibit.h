@@ -10,7 +10,7 @@ namespace hysteron::experiments {
 std::string anchor_of(const Exhibit& exhibit);
 
 // Heading, contact sheet, metrics, pictures and plots, the command, links to the files.  Links are relative
-// to the gallery.  Throws Error::request, naming the file, if a picture is broken.
+// to the gallery.  Throws Error::invalid_input, naming the file, if a picture is broken.
 std::string exhibit_html(const Exhibit& exhibit, PageForm form);
 
 }  // namespace hysteron::experiments

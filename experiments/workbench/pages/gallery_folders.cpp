@@ -19,13 +19,13 @@ std::ptrdiff_t place_of(const std::string& name) {
 }
 
 // A link to a folder through which it was reached has no last subfolder.
-void refuse_loop(const fs::path& folder) {
+void throw_if_loop(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_symlink(folder, ignored)) return;
   const fs::path target = fs::canonical(folder, ignored);
   for (fs::path above = folder.parent_path(); !above.empty(); above = above.parent_path()) {
     if (fs::canonical(above, ignored) == target)
-      throw Error::request(folder.string() + " is a link back to " + above.string() + ": remove it");
+      throw Error::invalid_input(folder.string() + " is a link back to " + above.string() + ": remove it");
     if (above == above.parent_path()) return;
   }
 }
@@ -37,10 +37,10 @@ std::vector<fs::path> subfolders(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     const bool sequence = name == "frames" || name.starts_with("frames-") || name == "film" || name == "mesh";
     if (!entry.is_directory(ignored) || name.starts_with('.') || sequence) continue;
-    refuse_loop(entry.path());
+    throw_if_loop(entry.path());
     found.push_back(entry.path());
   }
-  if (failure) throw Error::machine("cannot read the folder " + folder.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot read the folder " + folder.string() + ": " + failure.message());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -84,8 +84,8 @@ std::vector<ExhibitGroup> exhibits_in(const fs::path& gallery) {
   std::vector<Exhibit> all;
   for (const fs::path& folder : subfolders(gallery)) collect(folder, folder.filename().string(), all);
   if (all.empty()) {
-    throw Error::request("nothing to show in " + gallery.string() +
-                         ": neither it nor its subfolders hold a manifest.json, pictures or tables");
+    throw Error::invalid_input("nothing to show in " + gallery.string() +
+                               ": neither it nor its subfolders hold a manifest.json, pictures or tables");
   }
   std::stable_sort(all.begin(), all.end(), [](const Exhibit& a, const Exhibit& b) {
     const auto key = [](const Exhibit& e) {

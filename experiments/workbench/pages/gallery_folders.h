@@ -28,8 +28,8 @@ struct ExhibitGroup {
 
 // Subfolders of a gallery's folder by experiment: first what is to be looked at, then what is measured.  The
 // subfolders of one without a manifest stand beside it, those of a run are its parts; empty folders and those
-// of sequences (frames/, frames-LOOK/, film/, mesh/) are passed over.  Throws Error::request, naming the
-// file, if a manifest is broken or if there is nothing to show.
+// of sequences (frames/, frames-LOOK/, film/, mesh/) are passed over.  Throws Error::invalid_input, naming
+// the file, if a manifest is broken or if there is nothing to show.
 std::vector<ExhibitGroup> exhibits_in(const std::filesystem::path& gallery);
 
 }  // namespace hysteron::experiments

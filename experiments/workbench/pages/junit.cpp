@@ -56,8 +56,7 @@ void write_junit(const std::filesystem::path& file, const std::string& subcomman
                  const std::vector<TestCase>& cases) {
   std::error_code failure;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
-  if (failure)
-    throw Error::machine("cannot create the folder of " + file.string() + ": " + failure.message());
+  if (failure) throw Error::system("cannot create the folder of " + file.string() + ": " + failure.message());
   write_text(file, junit_text(subcommand, suite, cases));
 }
 

@@ -19,7 +19,7 @@ struct TestCase {
 // One <testsuite> of that name within <testsuites>; a case's class is hysteron.<subcommand>.
 std::string junit_text(const std::string& subcommand, const std::string& suite,
                        const std::vector<TestCase>& cases);
-// Writes it, and the file's folder where it is missing.  Throws Error::machine.
+// Writes it, and the file's folder where it is missing.  Throws Error::system.
 void write_junit(const std::filesystem::path& file, const std::string& subcommand, const std::string& suite,
                  const std::vector<TestCase>& cases);
 

@@ -58,7 +58,7 @@ Card card_of(const Metrics& metrics, const Headline& headline) {
 
 // Of laws or fabrics the first headline that they have, a card each.
 std::vector<Card> column_cards(const Manifest& manifest) {
-  constexpr std::size_t kMost = 8;  // more are a table
+  constexpr std::size_t kMax = 8;  // more are a table
   const std::string& compared = manifest.scene.compared;
   const auto columns = columns_in(manifest.metrics);
   for (const Headline& headline : headlines_of(compared.empty() ? manifest.experiment : compared).all) {
@@ -68,7 +68,7 @@ std::vector<Card> column_cards(const Manifest& manifest) {
       cards.push_back(card_of(own, headline));
       cards.back().name = name + ": " + headline.words;
     }
-    if (!cards.empty()) return cards.size() <= kMost ? cards : std::vector<Card>{};
+    if (!cards.empty()) return cards.size() <= kMax ? cards : std::vector<Card>{};
   }
   return {};
 }

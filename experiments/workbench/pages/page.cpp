@@ -92,13 +92,13 @@ std::string html_details(const std::string& summary, const std::string& body, bo
 std::string line_chart(const std::string& title, const std::vector<double>& x, const std::string& x_name,
                        const std::vector<double>& y) {
   constexpr double kLeft = 12, kTop = 40, kWidth = 396, kHeight = 120;  // of the line in chart.svg
-  constexpr std::size_t kMostPoints = 600;
+  constexpr std::size_t kMaxPoints = 600;
   const auto [x_low, x_high] = std::minmax_element(x.begin(), x.end());
   const auto [y_low, y_high] = std::minmax_element(y.begin(), y.end());
   const double x_span = *x_high > *x_low ? *x_high - *x_low : 1,
                y_span = *y_high > *y_low ? *y_high - *y_low : 1;
   std::string points;
-  const std::size_t count = std::min(kMostPoints, x.size());
+  const std::size_t count = std::min(kMaxPoints, x.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t row = sampled(i, count, x.size());
     points += fmt::format("{:.1f},{:.1f} ", kLeft + kWidth * (x[row] - *x_low) / x_span,

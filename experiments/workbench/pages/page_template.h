@@ -28,7 +28,7 @@ class Fields {
 // The template of that file name, "table.html", filled.  std::logic_error if the file is no template.
 std::string filled(const std::string& name, const Fields& fields);
 
-// A file of templates/ as it is; Error::machine if a list forgotten in CMakeLists.txt has left it out.
+// A file of templates/ as it is; Error::system if a list forgotten in CMakeLists.txt has left it out.
 std::span<const unsigned char> embedded_file(std::string_view name);
 std::string embedded_text(const std::string& name);
 

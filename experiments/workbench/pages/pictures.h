@@ -17,12 +17,12 @@ bool is_there(const std::filesystem::path& file);
 std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
                                                 const std::string& ending);
 
-// Throws Error::machine if the file cannot be read.
+// Throws Error::system if the file cannot be read.
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file);
 
 bool is_plot(const std::filesystem::path& file);
 
-// A PNG file of a picture, shrunk to at most `width` pixels.  Error::request, naming
+// A PNG file of a picture, shrunk to at most `width` pixels.  Error::invalid_input, naming
 // the file, if it is no picture.
 std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width);
 
@@ -30,8 +30,8 @@ std::vector<std::uint8_t> thumbnail(const std::filesystem::path& file, int width
 render::ImageSize drawing_size(const std::filesystem::path& file);
 
 // An <img> of a PNG or SVG file.  `path` is where it lies, seen from the page; where the page is
-// self-contained, a PNG picture is shrunk to `width` pixels, 0: embedded as it is.  Throws Error::request,
-// naming the file, if a PNG picture that is linked or shrunk is broken.
+// self-contained, a PNG picture is shrunk to `width` pixels, 0: embedded as it is.  Throws
+// Error::invalid_input, naming the file, if a PNG picture that is linked or shrunk is broken.
 struct PagePicture {
   std::filesystem::path file;
   std::string path, words;

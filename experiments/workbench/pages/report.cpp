@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr int kMostFrames = 24;  // more would make a page of many megabytes
+constexpr int kMaxFrames = 24;  // more would make a page of many megabytes
 
 std::string title_of(const Manifest& manifest, const std::string& between) {
   const std::string& fabric = manifest.scene.fabric.name;
@@ -104,9 +104,9 @@ std::string pictures(const fs::path& folder, PageForm form) {
 
 // Kept geometry of a usual size stands in the page, which a script shows.
 std::string turning_cloth(const fs::path& folder) {
-  constexpr std::uintmax_t kMost = 400000;  // [byte]
+  constexpr std::uintmax_t kMax = 400000;  // [byte]
   const fs::path file = folder / kKeptSheet;
-  if (!is_there(file) || fs::file_size(file) > kMost) return "";
+  if (!is_there(file) || fs::file_size(file) > kMax) return "";
   return filled("turn.html",
                 {{"caption", "The cloth, to be turned: drag it, or use the arrow keys, + and -."},
                  {"data", base64(bytes_of(file))}});
@@ -133,7 +133,7 @@ std::string numerics_html(const fs::path& folder, const Manifest& manifest) {
 
 Manifest manifest_in(const fs::path& folder) {
   if (!has_manifest(folder))
-    throw Error::request("no run in " + folder.string() + ": it has no manifest.json");
+    throw Error::invalid_input("no run in " + folder.string() + ": it has no manifest.json");
   return read_manifest(folder / "manifest.json");
 }
 
@@ -152,7 +152,7 @@ std::string report_page(const fs::path& folder, PageForm form) {
       {"Pictures", pictures(folder, form)},
       {"Means", study ? study_means(folder) : ""},
       {"Runs", study ? study_runs(folder) : ""},
-      {"Sequence", player(folder, "", kMostFrames, form)},
+      {"Sequence", player(folder, "", kMaxFrames, form)},
       {"Study", study ? study_keys(manifest) : ""},
       {"Fabric", study ? "" : fabric_table(manifest.scene.fabric)}};
   std::string all = answer(folder, manifest, form);
@@ -163,7 +163,7 @@ std::string report_page(const fs::path& folder, PageForm form) {
   // A cloth that still moves has no shape that could be measured: the page says so before any number.
   const std::string body = filled("report.html", {{"title", title_of(manifest, ": ")},
                                                   {"badge", state_badge(manifest)},
-                                                  {"unrest", unrest_words(metrics)},
+                                                  {"unrest", not_at_rest_warning(metrics)},
                                                   {"warnings", warnings},
                                                   {"about", about_of(manifest)},
                                                   {"command", manifest.command},

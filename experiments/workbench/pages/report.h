@@ -11,10 +11,10 @@ namespace hysteron::experiments {
 
 // HTML from manifest.json, metrics.csv and the pictures that are there; nothing is computed again.  Pictures
 // are linked, or embedded, frames of a sequence as thumbnails.  The same folder gives the same bytes.  Throws
-// Error::request if the folder holds no run, or a picture of it is broken.
+// Error::invalid_input if the folder holds no run, or a picture of it is broken.
 std::string report_page(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
-// Writes it as FOLDER/report.html and returns that path.  Throws Error::machine if it cannot be written.
+// Writes it as FOLDER/report.html and returns that path.  Throws Error::system if it cannot be written.
 std::filesystem::path write_report(const std::filesystem::path& folder, PageForm form = PageForm::linked);
 
 // Ends a run with its page.

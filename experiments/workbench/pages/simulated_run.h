@@ -34,13 +34,13 @@ struct FigureCaption {
   std::string text;   // what it shows, in sentences; one paragraph without line ends
 };
 
-// A heading, an introduction, and each figure above its caption.  Throws Error::machine if the file cannot be
+// A heading, an introduction, and each figure above its caption.  Throws Error::system if the file cannot be
 // written.
 void write_captions(const std::filesystem::path& path, const std::string& heading,
                     const std::string& introduction, const std::vector<FigureCaption>& figures);
 
 // README.md of a finished run's folder: those of the figures that are there with their captions and, below
-// the first, the run's facts and its command from manifest.json.  Throws Error::machine if one cannot be read
+// the first, the run's facts and its command from manifest.json.  Throws Error::system if one cannot be read
 // or written.
 void write_run_captions(const std::filesystem::path& folder, std::vector<FigureCaption> figures);
 

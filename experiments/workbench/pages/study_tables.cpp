@@ -41,11 +41,11 @@ std::string shown_table(TextTable table) {
 
 // "1, 2, 3"; of many the first few and the last.
 std::string listed_values(const Json& values) {
-  constexpr std::size_t kMost = 16;
+  constexpr std::size_t kMax = 16;
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values.size() > kMost && i >= kMost / 2 && i + 1 < values.size()) continue;
-    const bool gap = values.size() > kMost && i + 1 == values.size();
+    if (values.size() > kMax && i >= kMax / 2 && i + 1 < values.size()) continue;
+    const bool gap = values.size() > kMax && i + 1 == values.size();
     text += (i ? gap ? ", ..., " : ", " : "") + values[i].get<std::string>();
   }
   return text;

@@ -56,11 +56,12 @@ class Table {
   }
 
   Error refusal(const TomlNode& node, const std::string& what) const {
-    return Error::request("look." + node.key + " " + what + " (" + place(file_, node) + ")");
+    return Error::invalid_input("look." + node.key + " " + what + " (" + place(file_, node) + ")");
   }
   const TomlNode& at(const char* key) const {
     const TomlNode* node = table_.find(key);
-    if (!node) throw Error::request("look needs " + std::string(key) + " (" + place(file_, table_) + ")");
+    if (!node)
+      throw Error::invalid_input("look needs " + std::string(key) + " (" + place(file_, table_) + ")");
     return *node;
   }
 

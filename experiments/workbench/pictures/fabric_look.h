@@ -16,8 +16,8 @@
 namespace hysteron::experiments {
 
 // `look`, in the colours and weave of a fabric of assets/fabrics or a file; looks that show something else
-// than cloth, and fabrics without [look], change nothing.  Throws Error::request with file and line for an
-// unknown key or a value out of range.
+// than cloth, and fabrics without [look], change nothing.  Throws Error::invalid_input with file and line for
+// an unknown key or a value out of range.
 render::Look dressed(render::Look look, const std::string& fabric);
 
 }  // namespace hysteron::experiments

@@ -54,7 +54,7 @@ void assign_all(const Keys& keys, const Json& tree, const std::string& above, co
 void append(const fs::path& file, std::ios::openmode mode, const std::string& text) {
   std::ofstream stream(file, mode | std::ios::binary);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.flush()) throw Error::machine("cannot write " + file.string());
+  if (!stream.flush()) throw Error::system("cannot write " + file.string());
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::vector<KeptRecord> chosen_records(const fs::path& frames, const std::vector
   }
   for (const int i : instants) {
     if (i < 0 || i >= static_cast<int>(found.size()))
-      throw Error::request(frames.string() + " keeps no instant " + std::to_string(i));
+      throw Error::invalid_input(frames.string() + " keeps no instant " + std::to_string(i));
     head.push_back(found[static_cast<std::size_t>(i)]);
   }
   return head;

@@ -17,7 +17,7 @@ class KeptFrames {
   KeptFrames(const Setup& setup, const DrawnMesh& mesh, const render::Box& bounds,
              std::optional<float> floor);
 
-  // Appends an instant; the first begins the file anew.  Throws Error::machine if it cannot be written.
+  // Appends an instant; the first begins the file anew.  Throws Error::system if it cannot be written.
   void add(const std::filesystem::path& file, KeptState instant);
   // Appends how the sheet of these instants is headed, as the file beside the sheet has it.
   static void end(const std::filesystem::path& file, const KeptRecord& sheet);
@@ -36,11 +36,11 @@ class KeptFrames {
 
 // What a sheet shows: mesh and cloth of a file of one run, and the instants of these numbers, as it has them.
 std::vector<KeptRecord> chosen_records(const std::filesystem::path& frames, const std::vector<int>& instants);
-// Throws Error::machine.
+// Throws Error::system.
 void write_records(const std::filesystem::path& file, const std::vector<KeptRecord>& records);
 
-// Scene and options that draw the cloth; `file` names it in messages.  Throws Error::request for what this
-// program does not know.
+// Scene and options that draw the cloth; `file` names it in messages.  Throws Error::invalid_input for what
+// this program does not know.
 Setup setup_of(const KeptCloth& cloth, const std::string& file);
 
 }  // namespace hysteron::experiments

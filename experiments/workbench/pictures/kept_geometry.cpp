@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFormat = 1;
-constexpr std::size_t kMostHead = 1 << 20;  // [byte] of a record's line
+constexpr std::size_t kMaxHead = 1 << 20;  // [byte] of a record's line
 
 std::vector<int> all_steps(std::span<const float> values, double quantum) {
   std::vector<int> steps;
@@ -29,10 +29,10 @@ std::vector<float> all_values(const std::vector<int>& steps, double quantum) {
 
 // The next record, taken off the text; nothing where it is not whole.
 std::optional<KeptRecord> next_record(std::string_view& text) {
-  const std::size_t end = text.substr(0, kMostHead).find('\n');
+  const std::size_t end = text.substr(0, kMaxHead).find('\n');
   if (end == text.npos) return {};
   KeptRecord record{Json::parse(text.substr(0, end), nullptr, false), {}};
-  if (!record.head.is_object()) throw Error::request("a record is no JSON");
+  if (!record.head.is_object()) throw Error::invalid_input("a record is no JSON");
   std::size_t at = end + 1;
   for (const Json& size : record.head.value("bytes", Json::array())) {
     const auto bytes = size.get<std::size_t>();
@@ -45,7 +45,7 @@ std::optional<KeptRecord> next_record(std::string_view& text) {
 }
 
 const std::string& block(const KeptRecord& record, std::size_t i) {
-  if (i >= record.blocks.size()) throw Error::request("a record lacks a block");
+  if (i >= record.blocks.size()) throw Error::invalid_input("a record lacks a block");
   return record.blocks[i];
 }
 
@@ -64,10 +64,10 @@ KeptCloth cloth_of(const KeptRecord& record, std::size_t meshes) {
   KeptCloth cloth;
   cloth.name = record.head.at("name");
   cloth.mesh = record.head.at("mesh");
-  if (cloth.mesh >= meshes) throw Error::request("a record names a mesh that is not there");
+  if (cloth.mesh >= meshes) throw Error::invalid_input("a record names a mesh that is not there");
   cloth.setup = Json::parse(inflated(block(record, 0), record.head.at("setup_bytes")));
   const auto corners = record.head.at("bounds").get<std::vector<float>>();
-  if (corners.size() != 6) throw Error::request("bounds have other than six numbers");
+  if (corners.size() != 6) throw Error::invalid_input("bounds have other than six numbers");
   cloth.bounds = render::box_of(corners);
   if (!record.head.at("floor").is_null()) cloth.floor = record.head.at("floor").get<float>();
   return cloth;
@@ -95,7 +95,7 @@ Kept kept_of(const std::vector<KeptRecord>& records) {
     } else if (kind == "cloth") {
       kept.cloths.push_back(cloth_of(record, kept.meshes.size()));
     } else if (kind == "instant") {
-      if (kept.cloths.empty()) throw Error::request("an instant stands before its cloth");
+      if (kept.cloths.empty()) throw Error::invalid_input("an instant stands before its cloth");
       KeptCloth& cloth = kept.cloths.back();
       cloth.instants.push_back(instant_of(record, kept.meshes[cloth.mesh], packers[cloth.mesh]));
     } else if (kind == "sheet") {
@@ -167,10 +167,10 @@ std::vector<KeptRecord> read_records(const fs::path& file) {
   try {
     while (auto record = next_record(text)) records.push_back(std::move(*record));
   } catch (const std::exception& e) {
-    throw Error::request(file.string() + ": " + e.what());
+    throw Error::invalid_input(file.string() + ": " + e.what());
   }
   if (records.empty() || records[0].head.value("format", 0) != kFormat)
-    throw Error::request(file.string() + " holds no kept geometry of this program's format");
+    throw Error::invalid_input(file.string() + " holds no kept geometry of this program's format");
   return records;
 }
 
@@ -179,7 +179,7 @@ Kept read_kept(const fs::path& file) {
   try {
     return kept_of(records);
   } catch (const std::exception& e) {
-    throw Error::request(file.string() + ": " + e.what());
+    throw Error::invalid_input(file.string() + ": " + e.what());
   }
 }
 

@@ -78,10 +78,10 @@ KeptRecord instant_record(const DrawnMesh& mesh, const MeshPacker& packer, const
                           const std::map<std::string, double>& quanta);
 
 std::string text_of(const KeptRecord& record);
-// Whole records; what stands behind the last one is left out.  Throws Error::request, naming the file, for
-// what is no file of these, Error::machine if it cannot be read.
+// Whole records; what stands behind the last one is left out.  Throws Error::invalid_input, naming the file,
+// for what is no file of these, Error::system if it cannot be read.
 std::vector<KeptRecord> read_records(const std::filesystem::path& file);
-// Throws Error::request, naming the file, for damaged records.
+// Throws Error::invalid_input, naming the file, for damaged records.
 Kept read_kept(const std::filesystem::path& file);
 
 // Of a run's or a recorded folder: all frames, else those of the sheet; "" if it keeps none.

@@ -22,7 +22,7 @@ double KeptInstants::add(KeptInstant instant) {
   last_ = instant.xyz;
   moved_.push_back(all_.empty() ? 0 : distance(instant.xyz, all_.back().xyz));
   all_.push_back(std::move(instant));
-  if (all_.size() <= kMost) return since;
+  if (all_.size() <= kMax) return since;
   const auto least = std::min_element(moved_.begin() + 1, moved_.end() - 1) - moved_.begin();
   all_.erase(all_.begin() + least);
   moved_.erase(moved_.begin() + least);

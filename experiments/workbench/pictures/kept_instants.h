@@ -33,7 +33,7 @@ class KeptInstants {
   void visit(Archive& archive);
 
  private:
-  static constexpr std::size_t kMost = 48;
+  static constexpr std::size_t kMax = 48;
 
   std::vector<KeptInstant> all_;
   std::vector<double> moved_;  // of each from the one before [m]

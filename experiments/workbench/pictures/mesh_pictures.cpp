@@ -76,7 +76,7 @@ render::Image MeshPictures::picture(const Surface& frame, const std::string& wha
     view_.set_values(curvature_);
   }
   render::Image image = view_.draw(camera());
-  if (!view_.shows_cloth()) throw Error::run(what + " is not in its picture: frame where it is");
+  if (!view_.shows_cloth()) throw Error::simulation(what + " is not in its picture: frame where it is");
   return image;
 }
 

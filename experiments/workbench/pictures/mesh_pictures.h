@@ -31,9 +31,9 @@ class MeshPictures {
   // The frames to come belong to another cloth.
   void begin_sequence() { face_.clear(); }
   // `frame` [m], still without letters; `what` names it in messages.  Threads follow the first frame that has
-  // these triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::request where
-  // curvature is to be computed and the triangles allow none (surface_curvature), Error::run where the
-  // picture shows nothing of it.
+  // these triangles.  A frame whose curvature is to be shown as stored has it.  Throws Error::invalid_input
+  // where curvature is to be computed and the triangles allow none (surface_curvature), Error::simulation
+  // where the picture shows nothing of it.
   render::Image picture(const Surface& frame, const std::string& what);
   // Caption, scale and colour bar.
   void letter_picture(render::Image& image, const std::string& caption) const;

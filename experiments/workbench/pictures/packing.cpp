@@ -9,10 +9,10 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kPlanes = 4;                   // bytes of a number, from the lowest
-constexpr std::size_t kMostInflated = 1032;  // bytes that one byte of zlib's can stand for
+constexpr int kPlanes = 4;                  // bytes of a number, from the lowest
+constexpr std::size_t kMaxInflated = 1032;  // bytes that one byte of zlib's can stand for
 
-Error damaged() { return Error::request("packed numbers are damaged"); }
+Error damaged() { return Error::invalid_input("packed numbers are damaged"); }
 
 std::uint32_t folded(std::int32_t value) {  // 0, -1, 1, -2 ... become 0, 1, 2, 3 ...
   return (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31);
@@ -69,7 +69,7 @@ std::string deflated(std::string_view bytes) {
 }
 
 std::string inflated(std::string_view bytes, std::size_t size) {
-  if (size / kMostInflated > bytes.size()) throw damaged();  // before memory is asked for
+  if (size / kMaxInflated > bytes.size()) throw damaged();  // before memory is asked for
   std::string plain(size, '\0');
   uLongf found = size;
   const int code = uncompress(reinterpret_cast<Bytef*>(plain.data()), &found,

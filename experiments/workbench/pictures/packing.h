@@ -21,12 +21,12 @@ namespace hysteron::experiments {
 
 // zlib's format (RFC 1950).
 std::string deflated(std::string_view bytes);
-// Throws Error::request unless the bytes stand for `size` others.
+// Throws Error::invalid_input unless the bytes stand for `size` others.
 std::string inflated(std::string_view bytes, std::size_t size);
 
 // Three vertices a triangle: the first less that of the triangle before, the others less the first.
 std::string packed_triangles(std::span<const int> triangles);
-// `count` triangles.  Throws Error::request if the bytes are not that many or name a vertex beyond
+// `count` triangles.  Throws Error::invalid_input if the bytes are not that many or name a vertex beyond
 // `vertices`.
 std::vector<int> unpacked_triangles(std::string_view bytes, std::size_t count, std::size_t vertices);
 
@@ -36,7 +36,7 @@ class MeshPacker {
 
   // `components` whole numbers a vertex.
   std::string packed(std::span<const int> values, int components) const;
-  // Throws Error::request if the bytes are not those of so many numbers.
+  // Throws Error::invalid_input if the bytes are not those of so many numbers.
   std::vector<int> unpacked(std::string_view bytes, int components) const;
 
  private:

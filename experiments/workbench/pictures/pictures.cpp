@@ -33,7 +33,7 @@ std::string frame_file(const std::string& look, bool first, int number) {
 }
 
 Error no_cloth_in(const std::string& picture, double time) {
-  return Error::run(
+  return Error::simulation(
       fmt::format("{} shows no cloth at t = {:.3f} s: frame where it is (--camera.box)", picture, time));
 }
 

@@ -46,12 +46,12 @@ class Pictures {
 
   // Has the present state drawn as the next of frames/, captioned with what is simulated and the time; in
   // further looks as the next of frames-LOOK/.  Returns when positions and values are taken; throws what went
-  // wrong with an earlier one, Error::run where it shows no cloth.  `x`: the positions, of which the first
-  // beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless it is
+  // wrong with an earlier one, Error::simulation where it shows no cloth.  `x`: the positions, of which the
+  // first beyond the picture's border is a warning; `loop`: of a probe so far, shown in a corner unless it is
   // empty.  What it is drawn from is added to frames.hyg.
   void frame(Run& run, const std::vector<Eigen::Vector3d>& x, const render::Path& loop = {});
-  // Draws the present state in a look of its own, with caption and colour bar.  Error::run where it shows no
-  // cloth.
+  // Draws the present state in a look of its own, with caption and colour bar.  Error::simulation where it
+  // shows no cloth.
   render::Image picture(const std::string& look, const render::Camera& camera, const std::string& caption);
   // The last instant from there too, as a further cell of the contact sheet; `words` say from where.
   void also_from(const Eigen::Vector3f& direction, const std::string& words) {
@@ -68,7 +68,7 @@ class Pictures {
   render::Camera camera() const;
   // The cloth's shadow from straight above; `metres_per_pixel` of the picture.
   render::Image silhouette(double half_width, int pixels, double& metres_per_pixel);
-  // Waits for the files so far.  Throws Error::machine.
+  // Waits for the files so far.  Throws Error::system.
   void visit(Archive& archive, Run& run);
   // Waits for the files and writes sheet.png: instants apart by what moves between them, framed by what they
   // show; and what its pictures were drawn from, sheet.hyg.

@@ -22,8 +22,8 @@ ReferenceRun::ReferenceRun(fs::path folder) : folder_(std::move(folder)) {
       for (const Frames::Instant& instant : manifest.frames->instants) time_.push_back(instant.time);
   std::error_code ignored;
   if (time_.empty() || !fs::exists(folder_ / "mesh" / "0000.ply", ignored))
-    throw Error::request("reference = " + folder_.string() +
-                         " must be the folder of a run with pictures and --export ply (--reference)")
+    throw Error::invalid_input("reference = " + folder_.string() +
+                               " must be the folder of a run with pictures and --export ply (--reference)")
         .of("reference", folder_.string());
 }
 
@@ -34,9 +34,10 @@ std::vector<float> ReferenceRun::curvature(const ClothMesh& mesh, double time) c
   const std::string name = fmt::format("{:04}.ply", nearest - time_.begin());
   const Surface surface = read_surface((folder_ / "mesh" / name).string());
   if (surface.face != mesh.face || surface.curvature.size() != mesh.rest.size())
-    throw Error::request("reference = " + folder_.string() + " has other triangles than this cloth (" +
-                         std::to_string(surface.face.size()) + " and " + std::to_string(mesh.face.size()) +
-                         "): run it with the same mesh (--reference)")
+    throw Error::invalid_input("reference = " + folder_.string() + " has other triangles than this cloth (" +
+                               std::to_string(surface.face.size()) + " and " +
+                               std::to_string(mesh.face.size()) +
+                               "): run it with the same mesh (--reference)")
         .of("reference", folder_.string());
   return {surface.curvature.begin(), surface.curvature.end()};
 }

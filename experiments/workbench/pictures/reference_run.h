@@ -11,11 +11,11 @@ namespace hysteron::experiments {
 
 class ReferenceRun {
  public:
-  // `folder`: of a run with pictures and `--export ply`.  Throws Error::request if it is none.
+  // `folder`: of a run with pictures and `--export ply`.  Throws Error::invalid_input if it is none.
   explicit ReferenceRun(std::filesystem::path folder);
 
   // One a vertex [1/m], at that run's instant nearest to `time` [s]: its last one where it ended before.
-  // Throws Error::request if its triangles are not those of `mesh`.
+  // Throws Error::invalid_input if its triangles are not those of `mesh`.
   std::vector<float> curvature(const ClothMesh& mesh, double time) const;
 
  private:

@@ -170,7 +170,7 @@ render::Image SceneRenderer::silhouette(const DrawnMesh& mesh, const std::vector
   view.set_look(render::look_named("silhouette"));
   view.set_positions(xyz);
   render::Image image = view.draw(camera);
-  if (!view.shows_cloth()) throw Error::run("the silhouette from above shows no cloth");
+  if (!view.shows_cloth()) throw Error::simulation("the silhouette from above shows no cloth");
   return image;
 }
 

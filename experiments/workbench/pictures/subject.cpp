@@ -95,8 +95,8 @@ std::vector<float> KeptSubject::values(const std::string& look) {
   const KeptState& instant = instants_[now_];
   if (const auto kept = instant.values.find(look); kept != instant.values.end()) return kept->second;
   if (look == "residual" || look == "friction" || look == "difference")
-    throw Error::request("look = " + look + " needs values that were not kept: run with --look " + look +
-                         " (--look)")
+    throw Error::invalid_input("look = " + look + " needs values that were not kept: run with --look " +
+                               look + " (--look)")
         .of("look", look);
   if (look != "curvature") return {};
   std::vector<Eigen::Vector3d> x;

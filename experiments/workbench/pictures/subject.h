@@ -46,7 +46,8 @@ class KeptSubject : public Subject {
   const DrawnMesh& mesh() const override { return mesh_; }
   double time() const override { return instants_[now_].time; }
   std::vector<float> positions() override { return instants_[now_].xyz; }
-  // Curvature that was not kept is that of the shape.  Throws Error::request for other values that were not.
+  // Curvature that was not kept is that of the shape.  Throws Error::invalid_input for other values that were
+  // not.
   std::vector<float> values(const std::string& look) override;
   std::unique_ptr<GlPositions> share_positions(unsigned, int, std::string& reason) override {
     reason = "kept geometry";

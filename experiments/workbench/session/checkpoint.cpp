@@ -13,11 +13,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "hysteron checkpoint ", kFormat = "1\n";
-constexpr std::size_t kMost = std::size_t{1} << 40;
+constexpr std::size_t kMax = std::size_t{1} << 40;
 constexpr const char* kAnew = "; without --resume the run begins anew";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
-  throw Error::request("cannot resume from " + file.string() + ": " + why + kAnew)
+  throw Error::invalid_input("cannot resume from " + file.string() + ": " + why + kAnew)
       .of("resume", file.string());
 }
 
@@ -62,7 +62,7 @@ CheckpointOwner owner_in(Archive& archive, const fs::path& file) {
   return owner;
 }
 
-void refuse_another(const fs::path& file, const CheckpointOwner& there, const CheckpointOwner& here) {
+void throw_if_another(const fs::path& file, const CheckpointOwner& there, const CheckpointOwner& here) {
   const auto compare = [&](const char* what, const std::string& a, const std::string& b) {
     if (a != b) refuse(file, "its " + std::string(what) + " is " + a + ", not " + b);
   };
@@ -117,10 +117,10 @@ void write_checkpoint(const fs::path& file, CheckpointOwner owner, const std::st
 std::optional<std::string> read_checkpoint(const fs::path& file, const CheckpointOwner& owner) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(file, ignored))) return {};
-  const std::string all = whole_file(file, "cannot resume from " + file.string(), kMost);
+  const std::string all = whole_file(file, "cannot resume from " + file.string(), kMax);
   const std::string_view body = checked_body(file, all);
   Archive archive(body);
-  refuse_another(file, owner_in(archive, file), owner);
+  throw_if_another(file, owner_in(archive, file), owner);
   return std::string(archive.rest());
 }
 

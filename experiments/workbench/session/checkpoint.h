@@ -20,11 +20,12 @@ struct CheckpointOwner {
 // "step, fabric.b2": paths of the keys whose values differ; at most a few of them, and how many more.
 std::string differing_keys(const std::string& json, const std::string& other);
 
-// Replaces the file atomically.  Throws Error::machine.
+// Replaces the file atomically.  Throws Error::system.
 void write_checkpoint(const std::filesystem::path& file, CheckpointOwner owner, const std::string& state);
 
-// The state that was written; nothing where there is no file.  Throws Error::request, in one line, for a file
-// that is not one of this program's, is cut off or damaged, or whose owner is another: what differs is named.
+// The state that was written; nothing where there is no file.  Throws Error::invalid_input, in one line, for
+// a file that is not one of this program's, is cut off or damaged, or whose owner is another: what differs is
+// named.
 std::optional<std::string> read_checkpoint(const std::filesystem::path& file, const CheckpointOwner& owner);
 
 }  // namespace hysteron::experiments

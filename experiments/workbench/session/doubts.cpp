@@ -96,13 +96,13 @@ std::string drawing_words(const Scene& scene, const Cloth& cloth) {
 }
 
 std::string integrator_words(double share, double step) {
-  constexpr double kMost = 0.25, kLeast = 0.01;
-  if (!(share > kMost) || share == 1) return "";
-  const double factor = kMost / (1 - kMost) * (1 - share) / share;
+  constexpr double kMax = 0.25, kMin = 0.01;
+  if (!(share > kMax) || share == 1) return "";
+  const double factor = kMax / (1 - kMax) * (1 - share) / share;
   const std::string text =
       fmt::format("the integrator took {:.0f} % of all energy that was dissipated", 100 * share);
-  if (factor < kLeast) return text + ": nearly all, so that no step can be named that would do";
-  return text + fmt::format(": steps of about {:.2g} s would take {:.0f} %", factor * step, 100 * kMost);
+  if (factor < kMin) return text + ": nearly all, so that no step can be named that would do";
+  return text + fmt::format(": steps of about {:.2g} s would take {:.0f} %", factor * step, 100 * kMax);
 }
 
 }  // namespace hysteron::experiments

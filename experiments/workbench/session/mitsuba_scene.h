@@ -32,7 +32,7 @@ std::string mitsuba_scene(const MitsubaView& view, const Scene& scene, double ti
                           const std::vector<std::string>& bodies);
 
 // An obstacle's surface, before it is placed, as a PLY file; smaller, as pictures draw it below cloth whose
-// triangles have sides of that length [m].  Throws Error::machine.
+// triangles have sides of that length [m].  Throws Error::system.
 void write_body(const std::string& file, render::TriangleMesh mesh, const render::Look& look, float side);
 
 }  // namespace hysteron::experiments

@@ -22,7 +22,7 @@ constexpr const char *kHeight = "plot_probe_height", *kCurvature = "plot_probe_c
                      *kMoment = "plot_probe_moment";
 
 Error refusal(const std::string& text, const std::string& what) {
-  return Error::request("probe = " + text + " " + what + " (--probe)").of("probe", text);
+  return Error::invalid_input("probe = " + text + " " + what + " (--probe)").of("probe", text);
 }
 
 Eigen::Vector2d place_of(const std::string& text) {

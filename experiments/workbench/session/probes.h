@@ -22,8 +22,8 @@ void probe_unless_told(Options& options, const Eigen::Vector2d& at);
 class Probes {
  public:
   // `text`: "x,y[;x,y...]" [m], on the flat cloth; "" and "none": no probes.  `dimension`: of the elements.
-  // Throws Error::request for other texts, cloth that is not flat at rest and points beside it, with where it
-  // lies.
+  // Throws Error::invalid_input for other texts, cloth that is not flat at rest and points beside it, with
+  // where it lies.
   Probes(const std::string& text, const ClothMesh& mesh, int dimension);
 
   bool empty() const { return all_.empty(); }
@@ -33,7 +33,7 @@ class Probes {
   // What begin() and plot() write, for Run::reserve().
   std::vector<std::string> files() const;
   std::vector<std::string> plots() const;
-  // Opens probes.csv.  Throws Error::machine where it cannot be written, as the others do.
+  // Opens probes.csv.  Throws Error::system where it cannot be written, as the others do.
   void begin(Run& run);
   void record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);
   void finish();

@@ -12,7 +12,7 @@ namespace hysteron::experiments {
 namespace {
 
 Error failure(const std::string& attempt, const std::filesystem::path& file, int code) {
-  return Error::machine("cannot " + attempt + " " + file.string() + ": " + std::strerror(code ? code : EIO));
+  return Error::system("cannot " + attempt + " " + file.string() + ": " + std::strerror(code ? code : EIO));
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ Record::~Record() {
 
 void Record::row(const std::vector<double>& values) {
   if (values.size() != columns_) {
-    throw Error::run(file_.string() + ": a row of " + std::to_string(values.size()) + " numbers for " +
-                     std::to_string(columns_) + " columns");
+    throw Error::simulation(file_.string() + ": a row of " + std::to_string(values.size()) + " numbers for " +
+                            std::to_string(columns_) + " columns");
   }
   write(exact_row_of(values));
 }
@@ -50,7 +50,7 @@ void Record::visit(Archive& archive) {
   const std::string head = text_;
   archive(text_);
   if (!archive.loads()) return;
-  if (!text_.starts_with(head)) throw Error::request(file_.string() + " had other columns");
+  if (!text_.starts_with(head)) throw Error::invalid_input(file_.string() + " had other columns");
   const std::string rows = text_.substr(head.size());
   text_ = head;
   write(rows);

@@ -17,7 +17,7 @@ namespace hysteron::experiments {
 // A file that could not be written (full disk) never gets it.
 class Record {
  public:
-  // Throws Error::machine if the file cannot be created or written, like the others below.
+  // Throws Error::system if the file cannot be created or written, like the others below.
   Record(std::filesystem::path file, const std::vector<std::string>& columns);
   ~Record();
   Record(const Record&) = delete;
@@ -26,7 +26,7 @@ class Record {
   // One number per column, with 17 significant digits.
   void row(const std::vector<double>& values);
   void finish();
-  // Rows so far, which a run that goes on begins with.  Throws Error::request where columns differ.
+  // Rows so far, which a run that goes on begins with.  Throws Error::invalid_input where columns differ.
   void visit(Archive& archive);
 
  private:

@@ -11,16 +11,16 @@
 namespace hysteron::experiments {
 namespace {
 
-constexpr int kMostSteps = 20;
+constexpr int kMaxSteps = 20;
 constexpr double kStill = 0.01;  // of the thickness
-constexpr int kCannotGoOn = 3;   // exit code of Error::run
+constexpr int kCannotGoOn = 3;   // exit code of Error::simulation
 
 Rest step_to_rest(Simulation& simulation, double still) {
   simulation.become_static();
   std::vector<Eigen::Vector3d> before = simulation.positions();
   Rest rest{INFINITY, ""};
   bool balanced = false;
-  for (int step = 0; step < kMostSteps && !(balanced && rest.moved <= still); ++step) {
+  for (int step = 0; step < kMaxSteps && !(balanced && rest.moved <= still); ++step) {
     const long unbalanced = simulation.unbalanced_steps();
     simulation.advance(1);
     balanced = simulation.unbalanced_steps() == unbalanced;
@@ -29,10 +29,10 @@ Rest step_to_rest(Simulation& simulation, double still) {
     before = std::move(x);
   }
   if (!balanced)
-    rest.failure = fmt::format("{} steps without inertia found no equilibrium", kMostSteps);
+    rest.failure = fmt::format("{} steps without inertia found no equilibrium", kMaxSteps);
   else if (!(rest.moved <= still))
-    rest.failure = fmt::format("the last of {} steps without inertia moved a vertex by {:.3g} m", kMostSteps,
-                               rest.moved);
+    rest.failure =
+        fmt::format("the last of {} steps without inertia moved a vertex by {:.3g} m", kMaxSteps, rest.moved);
   return rest;
 }
 
@@ -67,7 +67,7 @@ void wait_at_rest(Simulation& simulation, double seconds, double step) {
 }
 
 // What a search leads to that does not end is no state of the cloth: the last one in motion stays the run's.
-bool Session::find_rest(const Question& question, Record& series) {
+bool Session::find_rest(const RunPlan& question, Record& series) {
   const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {
     if (question.wait > 0) wait_at_rest(*simulation_, question.wait, setup_.scene.step);

@@ -47,15 +47,15 @@ CheckpointOwner owner_of(const CommandLine& line, const Setup& setup, const Clot
 }  // namespace
 
 // A run that is complete is not repeated; of one that is not, its checkpoint is read.
-void Session::look_back() {
+void Session::check_existing_run() {
   const fs::path folder = setup_.options.out;
   const std::optional<Manifest> before = manifest_or_none(folder / "manifest.json");
   if (before && before->complete) {
     const std::string keys = differing_keys(comparable(before->keys ? *before->keys : Json::object()),
                                             comparable(to_json(setup_.scene)));
     if (before->experiment != line_.experiment || !keys.empty())
-      throw Error::request(folder.string() + " has a complete run of other values" +
-                           (keys.empty() ? "" : " (" + keys + ")") + ": give another folder (--out)")
+      throw Error::invalid_input(folder.string() + " has a complete run of other values" +
+                                 (keys.empty() ? "" : " (" + keys + ")") + ": give another folder (--out)")
           .of("resume", folder.string());
     is_complete_ = true;
     if (setup_.options.json)
@@ -79,15 +79,15 @@ std::vector<std::string> Session::kept_files() const {
   return kept;
 }
 
-bool Session::takes_checkpoints(const Question& question) const {
+bool Session::takes_checkpoints(const RunPlan& question) const {
   const Options& options = setup_.options;
   if (options.checkpoint <= 0 && !options.resume) return false;
   if (!question.visit)
-    throw Error::request("--checkpoint and --resume: not built yet for " + line_.experiment);
+    throw Error::invalid_input("--checkpoint and --resume: not built yet for " + line_.experiment);
   return options.checkpoint > 0;
 }
 
-void Session::visit(Archive& archive, const Question& question, Record& series) {
+void Session::visit(Archive& archive, const RunPlan& question, Record& series) {
   run_->visit(archive);  // files first: kept_files()
   archive(resumed_at_);
   archive(folded_);
@@ -106,7 +106,7 @@ void Session::visit(Archive& archive, const Question& question, Record& series) 
 }
 
 // Says whether the run goes on from a checkpoint.
-bool Session::go_on(const Question& question, Record& series) {
+bool Session::go_on(const RunPlan& question, Record& series) {
   if (state_.empty()) {
     if (setup_.options.resume)
       run_->progress("no checkpoint in " + run_->folder().string() + ": from the start");
@@ -121,7 +121,7 @@ bool Session::go_on(const Question& question, Record& series) {
   return true;
 }
 
-void Session::take_checkpoint(const Question& question, Record& series) {
+void Session::take_checkpoint(const RunPlan& question, Record& series) {
   const auto stage = run_->stage("io");
   const fs::path file = run_->path(kFile);
   Archive archive;
@@ -130,14 +130,16 @@ void Session::take_checkpoint(const Question& question, Record& series) {
   checkpoint_taken_ = Clock::now();
 }
 
-// Between two instants: a checkpoint if one is due.  Throws Error::run where a signal has asked for the end.
-void Session::pause(const Question& question, Record& series, const Interrupts& interrupts) {
+// Between two instants: a checkpoint if one is due.  Throws Error::simulation where a signal has asked for
+// the end.
+void Session::pause(const RunPlan& question, Record& series, const Interrupts& interrupts) {
   const std::string signal = interrupts.seen();
   const double since = std::chrono::duration<double>(Clock::now() - checkpoint_taken_).count();
   if (!signal.empty() || since >= setup_.options.checkpoint) take_checkpoint(question, series);
   if (!signal.empty())
-    throw Error::run(fmt::format("{} at t = {:.4f} s: the same command with --resume goes on from there",
-                                 signal, simulation_->time()));
+    throw Error::simulation(
+        fmt::format("{} at t = {:.4f} s: the same command with --resume goes on from there", signal,
+                    simulation_->time()));
 }
 
 void Session::drop_checkpoint() {

@@ -136,7 +136,7 @@ Session::Session(const CommandLine& line, const Setup& setup, std::optional<Clot
     dump_scene(setup);
     return;
   }
-  if (setup.options.resume) look_back();
+  if (setup.options.resume) check_existing_run();
   if (is_complete_) return;
   run_ = std::make_unique<Run>(line, setup, kept_files());
   run_->begun_at(begun_);
@@ -261,7 +261,7 @@ void Session::note_integrator(const Ledger& ledger) {
   if (!doubt.empty()) run_->warn(doubt);
 }
 
-Snapshot Session::record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+Snapshot Session::record(const RunPlan& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                          double fastest, const std::string& left) {
   const Snapshot instant{simulation_->time(), x, fastest};
   std::vector<double> row = {instant.time, instant.fastest};
@@ -282,31 +282,31 @@ Snapshot Session::record(const Question& question, Record& series, const std::ve
 }
 
 // "cotton-broad, law prandtl, 6,000 triangles, 4 s in 480 steps on cpu"
-std::string Session::opening_words(const Question& question) const {
+std::string Session::opening_words(const RunPlan& question) const {
   const Scene& scene = setup_.scene;
   return scene.fabric.name + ", law " + scene.law + ", " + grouped(cloth_.mesh.faces()) + " triangles, " +
          number_text(scene.seconds) + " s in " + grouped(steps_of(question)) + " steps on " +
          simulation_->device();
 }
 
-long Session::steps_of(const Question& question) const {
-  return question.step_lengths.empty() ? std::lround(setup_.scene.seconds / setup_.scene.step)
-                                       : static_cast<long>(question.step_lengths.size());
+long Session::steps_of(const RunPlan& question) const {
+  return question.time_steps.empty() ? std::lround(setup_.scene.seconds / setup_.scene.step)
+                                     : static_cast<long>(question.time_steps.size());
 }
 
 // Returns how far it is [s].
-double Session::go_to_next_instant(const Question& question) {
+double Session::go_to_next_instant(const RunPlan& question) {
   const double step = setup_.scene.step;
   const long left = steps_of(question) - simulation_->steps();
   const int stride = static_cast<int>(std::min<long>(steps_per_frame(setup_), left));
-  if (question.step_lengths.empty()) {
+  if (question.time_steps.empty()) {
     simulation_->advance(stride);
     return steps_per_frame(setup_) * step;
   }
   double passed = 0;
   double length = step;
   for (int s = 0; s < stride && length <= step; ++s) {
-    length = question.step_lengths[simulation_->steps()];
+    length = question.time_steps[simulation_->steps()];
     length == step ? simulation_->advance(1) : simulation_->advance_by(length);
     passed += length;
   }
@@ -314,7 +314,7 @@ double Session::go_to_next_instant(const Question& question) {
 }
 
 // All instants; those before a checkpoint have been recorded.  Returns whether the question is settled.
-bool Session::go_through(const Question& question, Record& series) {
+bool Session::run_to_end(const RunPlan& question, Record& series) {
   const long steps = steps_of(question);
   std::optional<Interrupts> interrupts;
   if (takes_checkpoints(question)) interrupts.emplace();
@@ -342,7 +342,7 @@ bool Session::go_through(const Question& question, Record& series) {
   return settled;
 }
 
-render::Box Session::framed(const Question& question) {
+render::Box Session::framed(const RunPlan& question) {
   if (!question.wanders) return question.bounds;
   if (const Numbers& box = setup_.options.camera_box; !box.empty())
     return render::box_of(std::vector<float>(box.begin(), box.end()));
@@ -354,7 +354,7 @@ render::Box Session::framed(const Question& question) {
   return framing.box;
 }
 
-bool Session::simulate(const Question& question) {
+bool Session::simulate(const RunPlan& question) {
   run_->progress(opening_words(question));
   const bool staged = setup_.options.export_format == "mitsuba";
   const render::Box bounds = staged || !setup_.options.no_images ? framed(question) : question.bounds;
@@ -374,7 +374,7 @@ bool Session::simulate(const Question& question) {
   run_->manifest().series = question.columns;
   probes_.begin(*run_);
 
-  bool settled = go_through(question, series);
+  bool settled = run_to_end(question, series);
   if (question.to_rest && setup_.scene.is_implicit()) settled = find_rest(question, series);
   series.finish();
   probes_.finish();
@@ -382,7 +382,7 @@ bool Session::simulate(const Question& question) {
 }
 
 void Session::finish(const std::string& title) {
-  const std::string unrest = unrest_words(run_->metrics());
+  const std::string unrest = not_at_rest_warning(run_->metrics());
   if (pictures_) pictures_->finish(*run_, title + (unrest.empty() ? "" : ". " + unrest));
   if (pictures_) probes_.plot(*run_, setup_.scene.fabric.name + ", law " + setup_.scene.law);
   const Ledger ledger = simulation_->ledger();

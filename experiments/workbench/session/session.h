@@ -30,7 +30,7 @@ struct Snapshot {
 };
 
 // The experiment's own part of a run.
-struct Question {
+struct RunPlan {
   render::Box bounds;                // framed by the pictures [m]
   bool wanders = false;              // the scene may lead the cloth beyond: a trial widens them
   std::optional<float> floor;        // height of the visible ground [m]
@@ -38,7 +38,7 @@ struct Question {
   std::function<std::vector<double>(const Snapshot&)> measure;
   std::function<bool(const Snapshot&)> settled;  // ends the run early
   // Of every step, where they are not all the scene's [s]; one that is longer ends in an instant of its own.
-  std::vector<double> step_lengths;
+  std::vector<double> time_steps;
   bool to_rest = false;  // at the end, without inertia, on to the equilibrium nearby, where that can be
   double wait = 0;  // then, for laws that relax: so long at rest, by steps that grow with the time passed [s]
   std::function<bool(const Snapshot&)> pictured;  // which instants are drawn and exported; empty: all of them
@@ -70,33 +70,33 @@ class Session {
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
   // Simulates, records and draws, an instant per 1/fps, until the time is over or the question is settled,
   // and then to rest if the question asks for it.  Returns whether it is settled or, then, at rest.
-  bool simulate(const Question& question);
+  bool simulate(const RunPlan& question);
   void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
 
  private:
   // An instant of the series: its row, pictures and checks.
-  Snapshot record(const Question& question, Record& series, const std::vector<Eigen::Vector3d>& x,
+  Snapshot record(const RunPlan& question, Record& series, const std::vector<Eigen::Vector3d>& x,
                   double fastest, const std::string& left);
-  render::Box framed(const Question& question);
-  long steps_of(const Question& question) const;
-  double go_to_next_instant(const Question& question);
-  bool go_through(const Question& question, Record& series);
-  bool find_rest(const Question& question, Record& series);  // resting.cpp
+  render::Box framed(const RunPlan& question);
+  long steps_of(const RunPlan& question) const;
+  double go_to_next_instant(const RunPlan& question);
+  bool run_to_end(const RunPlan& question, Record& series);
+  bool find_rest(const RunPlan& question, Record& series);  // resting.cpp
   // resuming.cpp
-  void look_back();
+  void check_existing_run();
   std::vector<std::string> kept_files() const;
-  bool takes_checkpoints(const Question& question) const;
-  void visit(Archive& archive, const Question& question, Record& series);
-  bool go_on(const Question& question, Record& series);
-  void take_checkpoint(const Question& question, Record& series);
-  void pause(const Question& question, Record& series, const Interrupts& interrupts);
+  bool takes_checkpoints(const RunPlan& question) const;
+  void visit(Archive& archive, const RunPlan& question, Record& series);
+  bool go_on(const RunPlan& question, Record& series);
+  void take_checkpoint(const RunPlan& question, Record& series);
+  void pause(const RunPlan& question, Record& series, const Interrupts& interrupts);
   void drop_checkpoint();
   void watch_crossings();
   void see_crossings(const std::vector<Eigen::Vector3d>& x);
   void note_crossings();
-  std::string opening_words(const Question& question) const;
+  std::string opening_words(const RunPlan& question) const;
   void watch_folds(const std::vector<Eigen::Vector3d>& x);
   void note_folds();
   void note_integrator(const Ledger& ledger);

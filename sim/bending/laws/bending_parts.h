@@ -54,11 +54,11 @@ struct Spectrum {
 };
 
 // Most of them that a law takes.
-inline constexpr int kMostStops = 32, kMostBranches = 4;
+inline constexpr int kMaxStops = 32, kMaxBranches = 4;
 
 // Friction that saturates at k0 [1/m] as b1, b2 and k0 have it: stops spread evenly over [0, k0], alike,
 // which together have this stiffness, b1 - b2 [N m] (prandtl_stops.h).  None without k0.
-inline Spectrum even_stops(double stiffness, double k0, int count = kMostStops) {
+inline Spectrum even_stops(double stiffness, double k0, int count = kMaxStops) {
   Spectrum stops;
   for (int j = 0; k0 > 0 && j < count; ++j) {
     stops.thresholds.push_back((j + 0.5) * k0 / count);

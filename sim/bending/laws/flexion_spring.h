@@ -51,9 +51,9 @@ struct FlexionSpringLaw {
   static std::vector<LawParameter> parameters() { return {law_parameter::height()}; }
   static void check(const LawChoice& c, LawUse) {
     // Folded, the springs are 9/(k0 height)^2 times as rigid as where they are matched: here 90,000 times.
-    constexpr double kLeast = 0.01;
+    constexpr double kMin = 0.01;
     const double angle = c.curve.k0 * c.height;
-    if (!(angle >= kLeast && angle < 2 * std::numbers::pi))
+    if (!(angle >= kMin && angle < 2 * std::numbers::pi))
       c.refuse("height",
                "height = " + shown(c.height) + " m and k0 = " + shown(c.curve.k0) +
                    " 1/m must give a hinge angle k0 * height in [0.01, 2 pi), where the springs are matched; "

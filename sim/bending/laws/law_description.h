@@ -49,7 +49,7 @@ concept LawDescription = requires {
   std::string(Law::kName) + Law::kMeaning;
 };
 
-// Text of a parameter, to be read; what is not allowed is refused by Error::request.
+// Text of a parameter, to be read; what is not allowed is refused by Error::invalid_input.
 struct ParameterText {
   std::string law, key, text;
   LawUse use;

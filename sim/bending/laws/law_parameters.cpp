@@ -35,7 +35,7 @@ const LawEntry& law_named(const std::string& name) {
   if (const LawEntry* law = find_law(name)) return *law;
   std::string known;
   for (const LawEntry& law : law_catalogue()) known += (known.empty() ? "" : ", ") + law.name;
-  throw Error::request("unknown law '" + name + "'; known: " + known);
+  throw Error::invalid_input("unknown law '" + name + "'; known: " + known);
 }
 
 std::vector<std::string> names_of(const std::vector<LawParameter>& parameters) {
@@ -54,7 +54,7 @@ void check_fatigue(const LawChoice& choice) {
 }  // namespace
 
 void ParameterText::refuse(const std::string& allowed) const {
-  throw Error::request("law " + law + ": " + key + " = " + text + " must be " + allowed).of(key, text);
+  throw Error::invalid_input("law " + law + ": " + key + " = " + text + " must be " + allowed).of(key, text);
 }
 
 double ParameterText::number(double low, double high, const std::string& allowed) const {
@@ -124,7 +124,7 @@ std::string shown(double x) {
 }
 
 void LawChoice::refuse(const std::string& key, const std::string& what) const {
-  throw Error::request("law " + name + ": " + what).of(key, "");
+  throw Error::invalid_input("law " + name + ": " + what).of(key, "");
 }
 
 std::vector<std::string> law_parameter_names(const std::string& name) {
@@ -146,8 +146,8 @@ LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawPar
       std::string list;
       for (const std::string& allowed : names_of(law.parameters))
         list += (list.empty() ? "" : ", ") + allowed;
-      throw Error::request("law " + law.name + ": unknown parameter " + key + " = " + text +
-                           "; allowed: " + (list.empty() ? "none" : list))
+      throw Error::invalid_input("law " + law.name + ": unknown parameter " + key + " = " + text +
+                                 "; allowed: " + (list.empty() ? "none" : list))
           .of(key, text);
     }
     known->read({law.name, key, text, use}, choice);

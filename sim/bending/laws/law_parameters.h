@@ -39,7 +39,7 @@ struct LawChoice {
     const auto found = own.find(parameter);
     return found == own.end() ? otherwise : found->second;
   }
-  // Throws Error::request of a parameter: the law, and what is wrong with it.
+  // Throws Error::invalid_input of a parameter: the law, and what is wrong with it.
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 };
 
@@ -62,8 +62,8 @@ struct LawEntry {
   void (*check)(const LawChoice&, LawUse) = nullptr;
 };
 
-// Every value checked.  Error::request for unknown laws, parameters that the law does not have, and values
-// out of range; its message names the law and the parameter.
+// Every value checked.  Error::invalid_input for unknown laws, parameters that the law does not have, and
+// values out of range; its message names the law and the parameter.
 LawChoice choose_law(const std::string& name, const VirginCurve& curve, const LawParameters& parameters,
                      LawUse use = LawUse::cloth);
 LawChoice choose_law(const LawEntry& law, const VirginCurve& curve, const LawParameters& parameters,

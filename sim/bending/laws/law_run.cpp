@@ -84,7 +84,7 @@ struct Drive final : LawWalk::State {
 template <class Visit>
 void with_law(const LawRequest& request, const Visit& visit) {
   const LawChoice choice = choose_law(request.name, request.curve, request.parameters, LawUse::alone);
-  visit_groups<double, 1, AloneMemory>(LawGroups{}, choice, visit);
+  visit_groups<double, 1, LawMemorySizes>(LawGroups{}, choice, visit);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct LawRun {
 };
 
 // Drives the law through `rows` in double precision, D = 1; parameters as in choose_law() for a law alone.
-// Laws that cannot be edited ignore `edit`.  Throws Error::request as choose_law() does.
+// Laws that cannot be edited ignore `edit`.  Throws Error::invalid_input as choose_law() does.
 LawRun run_law(const LawRequest& request, const std::vector<LawRow>& rows);
 
 // What an accepted step leaves.
@@ -49,7 +49,7 @@ struct LawPoint {
 // the same state by itself.
 class LawWalk {
  public:
-  explicit LawWalk(const LawRequest& request);  // at rest, as run_law(); Error::request likewise
+  explicit LawWalk(const LawRequest& request);  // at rest, as run_law(); Error::invalid_input likewise
   ~LawWalk();
   LawWalk(const LawWalk& other);
   LawWalk(LawWalk&&) noexcept;

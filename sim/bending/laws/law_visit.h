@@ -12,10 +12,10 @@
 namespace hysteron {
 
 // Sizes of the memory of `prandtl` that exist: every one is a type of its own and takes its time to compile.
-struct AloneMemory {
+struct LawMemorySizes {
   using Stops = Sizes<4, 8, 16, 32>;
   using Depths = Sizes<4, 6, 8, 16, 32, 64>;
-  using Fatigued = AloneMemory;
+  using Fatigued = LawMemorySizes;
 };
 struct FatiguedClothMemory {
   using Stops = Sizes<8, 16>;
@@ -115,7 +115,7 @@ bool visit_group(const LawChoice& c, const Visit& visit) {
   else if constexpr (std::is_same_v<Group, PartsLaws>)
     return visit_laws_with_parts<Real, D, kFewStops>(Group{}, c, visit);
   else if constexpr (std::is_same_v<Group, ManyLaws>)
-    return visit_laws_with_parts<Real, D, kMostStops>(Group{}, c, visit);
+    return visit_laws_with_parts<Real, D, kMaxStops>(Group{}, c, visit);
   else
     return visit_laws<Real, D, Memory>(Group{}, c, visit);
 }

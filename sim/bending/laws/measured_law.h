@@ -127,14 +127,14 @@ struct Setting {
   // given it.  So that it holds it but once for each of step, potential and tangent, first look, steps and
   // halvings are one loop.
   HYST_HD Vec<Real, D> flow(const Vec<Real, D>& curvature, const Memory& before) const {
-    constexpr int kMostSteps = 40, kMostHalvings = 20;
+    constexpr int kMaxSteps = 40, kMaxHalvings = 20;
     constexpr Real kEnoughDescent = Real(1e-4);  // Armijo's fraction of the predicted decrease
     const Vec<Real, D> old = set_of(before);
     const auto past = part(before);
     Vec<Real, D> moved = Vec<Real, D>::Zero(), next = moved, newton = moved;
     Real fraction = 1, precise = 0, half_slope = 0, descent = 0;
     int halvings = 0;
-    for (int steps = -1; steps <= kMostSteps;) {
+    for (int steps = -1; steps <= kMaxSteps;) {
       const Vec<Real, D> set = old + next;
       const Vec<Real, D> driving = law.step(Vec<Real, D>(curvature - set), past).moment - hardening * set;
       if (steps < 0) {  // does it flow at all?
@@ -147,13 +147,13 @@ struct Setting {
       }
       const Vec<Real, D> slope = limit / next.norm() * next - driving;
       if (steps > 0 && !(slope.norm() <= half_slope) &&  // as it nearly always is; else the potential decides
-          !descends(next, moved, fraction * descent, curvature, before) && ++halvings < kMostHalvings) {
+          !descends(next, moved, fraction * descent, curvature, before) && ++halvings < kMaxHalvings) {
         fraction /= 2;
         next = moved + fraction * newton;
         continue;
       }
       moved = next;
-      if (steps == kMostSteps || !(slope.norm() > precise)) return moved;
+      if (steps == kMaxSteps || !(slope.norm() > precise)) return moved;
       const Tangent<Real, D> stiff =
           law.tangent(Vec<Real, D>(curvature - old - moved), past) + flow_stiffness(moved);
       newton = -solve_definite<Real, D>(stiff, slope);
@@ -314,13 +314,13 @@ struct Relaxing {
 // have, the most where it would remember by a stack.
 inline Spectrum measured_stops(const LawChoice& c) {
   if (!c.curve.parts.stops.empty()) return c.curve.parts.stops;
-  return even_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMostStops : c.stops);
+  return even_stops(c.curve.b1 - c.curve.b2, c.curve.k0, c.stack ? kMaxStops : c.stops);
 }
 
 // The law for few stops or for the most.
 constexpr int kFewStops = 8;
 inline int room_for_stops(const LawChoice& c) {
-  return measured_stops(c).size() <= kFewStops ? kFewStops : kMostStops;
+  return measured_stops(c).size() <= kFewStops ? kFewStops : kMaxStops;
 }
 
 // visit(law) with these branches around the stops, none of them if there are none.
@@ -329,7 +329,7 @@ void visit_relaxing(const Stops& stops, const RelaxingBranches& branches, const 
   if (branches.empty())
     visit(stops);
   else
-    visit(Relaxing<Stops, kMostBranches>::make(stops, branches));
+    visit(Relaxing<Stops, kMaxBranches>::make(stops, branches));
 }
 
 // The same with room for N stops, setting if the fabric does.

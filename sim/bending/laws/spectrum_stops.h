@@ -46,13 +46,13 @@ struct StopEllipsoid {
   // from l = 0 every step stays on one side (as for trust regions: More & Sorensen 1983).
   [[gnu::noinline]] HYST_HD StopReturn<Real> returned(const Vec<Real, 3>& offset) const {
     using std::sqrt;
-    constexpr int kMostSteps = 40;
+    constexpr int kMaxSteps = 40;
     constexpr Real kPrecision = Real(sizeof(Real) == 8 ? 1e-15 : 4e-7);
     if (!(offset.dot(bound.cwiseProduct(offset)) > 1)) return {offset, 0};
     if (!(stiffness[0] > 0)) return {offset / sqrt(offset.dot(bound.cwiseProduct(offset))), 0};
     Real multiplier = 0;
     Vec<Real, 3> elastic = offset;
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
       const Vec<Real, 3> softer = stiffness + multiplier * bound;
       elastic = stiffness.cwiseProduct(offset).cwiseQuotient(softer);
       const Real squared = elastic.dot(bound.cwiseProduct(elastic)), size = sqrt(squared);

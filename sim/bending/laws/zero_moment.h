@@ -30,19 +30,19 @@ HYST_HD Vec<Real, D> solve_definite(Tangent<Real, D> a, Vec<Real, D> b) {
 // Precision: last Newton step below 1e-12 (double) or 1e-5 (float) of the curvature, at most 60 steps.
 template <class Law, class Real, int D, int N>
 HYST_HD Vec<Real, D> zero_moment(const Law& law, const History<Real, N>& history, Vec<Real, D> start) {
-  constexpr int kMostSteps = 60, kMostHalvings = 30;
+  constexpr int kMaxSteps = 60, kMaxHalvings = 30;
   constexpr Real kPrecision = sizeof(Real) == 8 ? Real(1e-12) : Real(1e-5);
   constexpr Real kEnoughDescent = Real(1e-4);                 // Armijo's fraction of the predicted decrease
   const Real softest = law.largest_stiffness() * kPrecision;  // keeps the tangent invertible where b2 = 0
   Vec<Real, D> curvature = start, newton = Vec<Real, D>::Zero();
   Real fraction = 1, energy = 0, descent = 0;
   Real half_moment = 0;  // decides where the energy differs by rounding only
-  for (int step = 0, halving = kMostHalvings; step <= kMostSteps;) {
+  for (int step = 0, halving = kMaxHalvings; step <= kMaxSteps;) {
     const Vec<Real, D> tried = curvature + fraction * newton;
     const LawStep<Real, D, N> here = called_step(law, tried, history);
     const bool enough =
         here.stored + here.dissipated <= energy + fraction * descent || here.moment.norm() <= half_moment;
-    if (!enough && ++halving < kMostHalvings) {
+    if (!enough && ++halving < kMaxHalvings) {
       fraction /= 2;
       continue;
     }

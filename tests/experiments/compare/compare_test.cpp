@@ -147,7 +147,7 @@ TEST(ComparisonTable, HasAColumnForEveryMetricOfAnyRow) {
   options.out = folder.path().string();
   options.quiet = true;
   ExperimentRun run({"compare", "hysteron compare", {}, {}}, options, Json::object());
-  std::vector<SweepColumn> columns(2);
+  std::vector<ChildRun> columns(2);
   columns[0].name = "linear";
   columns[1].name = "prandtl";
   columns[1].stopped = "at 1 s, crushed";

@@ -177,7 +177,7 @@ TEST(CreaseInTime, KeepsWhatTheClosedFormOfOneBranchKeeps) {
     f.bending.branches = {{20}, {0.8 * f.b2}};
     crease.scene.law = "chapman";
     crease.times = {0.6, 1, 41, 41, 71};
-    crease.step_lengths = growing_steps(crease.times, step, 1.0 / 30);
+    crease.time_steps = growing_steps(crease.times, step, 1.0 / 30);
     const std::vector<double> largest(crease.cloth.mesh.faces(), 100.0);
     return (180 - crease.opening_of_law(largest)) * std::numbers::pi / 180 / crease.scene.cloth.length;
   };

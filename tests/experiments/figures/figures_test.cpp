@@ -21,7 +21,7 @@ const std::vector<Figure>& cotton_figures() {
 const render::Mark& mark(const Figure& figure, const std::string& text) {
   for (const render::Mark& mark : figure.plot.marks)
     if (mark.text == text) return mark;
-  throw Error::request(figure.name + " has no mark " + text);
+  throw Error::invalid_input(figure.name + " has no mark " + text);
 }
 
 // The smallest distance in moment from a point to a labelled curve over the same curvature.

@@ -1,4 +1,4 @@
-// Repeated folding: the flexed specimen, what is read from it, and what many bends make of a material.
+// ErrorRunResult folding: the flexed specimen, what is read from it, and what many bends make of a material.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -17,7 +17,7 @@ Setup defaults() {
 int run_still(const CommandLine& line) {
   Session session(line, set_up(line, defaults()));
   if (session.is_over()) return 0;
-  Question question;
+  RunPlan question;
   question.bounds = render::box_of(flat_points(session.cloth().start));
   question.columns = {"corner_height [m]"};
   question.measure = [](const Snapshot& m) { return std::vector{m.x[0].z()}; };

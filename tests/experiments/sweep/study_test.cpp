@@ -142,8 +142,8 @@ TEST(Study, RefusesInOneLineWithFileLineKeyAndRange) {
 }
 
 // A run that found these metrics.
-SweepColumn found(const Metrics& metrics) {
-  SweepColumn column;
+ChildRun found(const Metrics& metrics) {
+  ChildRun column;
   column.manifest.emplace();
   column.manifest->metrics = metrics;
   return column;
@@ -153,7 +153,7 @@ TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
   constexpr double kRounding = 1e-12;
   const Study study = study_of(
       "experiment = \"swing\"\nseeds = 4\n[[axis]]\nkey = \"law\"\nvalues = [\"dahl\", \"prandtl\"]\n");
-  std::vector<SweepColumn> runs;
+  std::vector<ChildRun> runs;
   for (const double x : {1, 2, 3, 4, 5, 5, 5, 5}) runs.push_back(found({{"x_m", x}}));
   runs.back().manifest.reset();  // one that is not complete
   const TextTable means = table_of_means(study, runs, {"x_m"});
@@ -166,7 +166,7 @@ TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
 
 TEST(Study, WritesARowForEachRunWithNumbersTruthsAndTexts) {
   const Study study = study_of("experiment = \"swing\"\nseeds = 2\n");
-  std::vector<SweepColumn> runs = {found({{"x_m", 0.1}, {"settled", true}}), found({{"shape", "plateau"}})};
+  std::vector<ChildRun> runs = {found({{"x_m", 0.1}, {"settled", true}}), found({{"shape", "plateau"}})};
   runs[1].exit_code = 3;
   runs[1].stopped = "no convergence";
   const TextTable table = table_of_runs(study, runs);

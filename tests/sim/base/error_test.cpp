@@ -6,7 +6,7 @@ namespace hysteron {
 namespace {
 
 TEST(Error, CarriesKeyValueAndExperimentBesideItsMessage) {
-  const Error error = Error::request("k0 = -1 1/m must be >= 0").of("k0", "-1").in("law").from("--k0");
+  const Error error = Error::invalid_input("k0 = -1 1/m must be >= 0").of("k0", "-1").in("law").from("--k0");
   EXPECT_STREQ(error.what(), "law: k0 = -1 1/m must be >= 0 (--k0)");
   EXPECT_EQ(error.exit_code(), 2);
   EXPECT_EQ(error.key(), "k0");
@@ -15,13 +15,13 @@ TEST(Error, CarriesKeyValueAndExperimentBesideItsMessage) {
 }
 
 TEST(Error, OfNothingInParticularHasItsMessageAlone) {
-  const Error error = Error::machine("disk: full");
+  const Error error = Error::system("disk: full");
   EXPECT_STREQ(error.what(), "disk: full");
   EXPECT_EQ(error.key() + error.value() + error.experiment(), "");
 }
 
 TEST(Error, IsOneLineWhateverItQuotes) {
-  EXPECT_STREQ(Error::request("law = a\r\n\tb must be c\n").in("swing").what(),
+  EXPECT_STREQ(Error::invalid_input("law = a\r\n\tb must be c\n").in("swing").what(),
                "swing: law = a   b must be c");
 }
 

@@ -46,7 +46,7 @@ Error error_of(const std::function<void()>& call) {
     return error;
   }
   ADD_FAILURE() << "no error was thrown";
-  return Error::run("none");
+  return Error::simulation("none");
 }
 
 }  // namespace hysteron::test

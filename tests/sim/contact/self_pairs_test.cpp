@@ -58,27 +58,27 @@ TEST_P(Figures, ClosestPointsAreThoseOfAFineSearch) {
 // Collision detection stops short of contact, and not much earlier than it has to.
 TEST_P(Figures, FeasibleStepsEndBeforeContact) {
   std::mt19937 random(2);
-  constexpr double kLeast = 0.05;
+  constexpr double kMin = 0.05;
   int stopped = 0;
   for (int k = 0; k < 2000; ++k) {
     Vector x[4], direction[4];
     for (Vector& v : x) v = random_vector(random);
     for (Vector& v : direction) v = random_vector(random);
-    if (distance_of(x, GetParam()) < 2 * kLeast) continue;
+    if (distance_of(x, GetParam()) < 2 * kMin) continue;
     Vector from[4], along[4];
     std::copy(x, x + 4, from);
     std::copy(direction, direction + 4, along);
     const double step_length =
-        feasible_step(approach(from, along, GetParam()), from, along, GetParam(), kLeast);
+        feasible_step(approach(from, along, GetParam()), from, along, GetParam(), kMin);
     const auto at = [&](double s) {
       Vector y[4];
       for (int i = 0; i < 4; ++i) y[i] = x[i] + s * direction[i];
       return distance_of(y, GetParam());
     };
-    for (int i = 0; i <= 100; ++i) EXPECT_GT(at(step_length * i / 100), kLeast) << k;
+    for (int i = 0; i <= 100; ++i) EXPECT_GT(at(step_length * i / 100), kMin) << k;
     if (step_length == 1) continue;
     ++stopped;
-    EXPECT_LT(at(step_length), kLeast + 0.11 * (distance_of(x, GetParam()) - kLeast)) << k;
+    EXPECT_LT(at(step_length), kMin + 0.11 * (distance_of(x, GetParam()) - kMin)) << k;
   }
   EXPECT_GT(stopped, 50);
 }

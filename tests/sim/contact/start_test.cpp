@@ -232,7 +232,7 @@ TEST(Obstacle, ThatAppearsWhereTheClothIsEndsTheRunWithPlaceAndTime) {
 
 TEST(Obstacles, AreAtMostTwelve) {
   Trial trial = sheet_with({ObstacleKind::box, {0.1, 0.1, -0.1}, 0});
-  trial.scene.obstacle.resize(kMostObstacles + 1, trial.scene.obstacle[0]);
+  trial.scene.obstacle.resize(kMaxObstacles + 1, trial.scene.obstacle[0]);
   const Failure failure = start_of(trial);
   EXPECT_EQ(failure.exit_code, 2);
   expect_naming(failure, {"13 obstacles, at most 12"});

@@ -141,7 +141,7 @@ TEST(Together, AMemberThatFailsLeavesTheOthersTheirStates) {
   const auto job = [&](int i) {
     if (i == kFails) {
       hash_after(member_scene(method, i), 1);
-      throw Error::run("this one fails");
+      throw Error::simulation("this one fails");
     }
     together[i] = hash_after(member_scene(method, i), kSteps);
   };

@@ -60,7 +60,7 @@ class NoisyLoop : public testing::TestWithParam<LoopCase> {};
 // three in one of 300.  The scatter of 100 values is known to 7 %: true standard errors are within 25 % of
 // it.
 TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
-  constexpr double kLeastShare = 0.97, kHonest = 0.25;
+  constexpr double kMinShare = 0.97, kHonest = 0.25;
   const LoopCase& loop = GetParam();
   Recovery b1{kCotton.b1, {}, {}}, b2{kCotton.b2, {}, {}}, k0{kCotton.k0, {}, {}};
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -72,7 +72,7 @@ TEST_P(NoisyLoop, GivesTheFabricBackWithinThreeStandardErrorsThatAreTrue) {
     k0.add(found.k0);
   }
   for (const auto& [name, recovery] : {std::pair{"b1", b1}, {"b2", b2}, {"k0", k0}}) {
-    EXPECT_GE(recovery.share_within(3), kLeastShare) << name;
+    EXPECT_GE(recovery.share_within(3), kMinShare) << name;
     EXPECT_NEAR(recovery.stated() / recovery.scatter(), 1, kHonest) << name;
   }
 }

@@ -137,7 +137,7 @@ struct ImplicitMatrix {
   template <class Apply>
   int iterations(Apply&& apply) {
     constexpr double kTolerance = 1e-4;
-    constexpr int kMost = 5000;
+    constexpr int kMax = 5000;
     const auto weighed = [&](const Field& r) {
       double sum = 0;
       for (int i = 0; i < mesh.vertices(); ++i)
@@ -147,7 +147,7 @@ struct ImplicitMatrix {
     Field r = load, z = apply(r), p = z;
     const double target = kTolerance * kTolerance * weighed(r);
     double residual = dot(r, z);
-    for (int iteration = 1; iteration < kMost; ++iteration) {
+    for (int iteration = 1; iteration < kMax; ++iteration) {
       const Field q = times(p);
       const double alpha = residual / dot(p, q);
       for (std::size_t i = 0; i < r.size(); ++i) r[i] -= alpha * q[i];
@@ -157,7 +157,7 @@ struct ImplicitMatrix {
       for (std::size_t i = 0; i < r.size(); ++i) p[i] = z[i] + next / residual * p[i];
       residual = next;
     }
-    return kMost;
+    return kMax;
   }
 };
 

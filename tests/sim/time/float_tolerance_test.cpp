@@ -20,8 +20,8 @@ double iterations(Precision precision) {
 
 // What is looked for beyond is the rounding of positions: it took 1.6 times as many here, and more the finer.
 TEST(SemiImplicitIntegrator, TakesNoMoreIterationsInSinglePrecisionThanInDouble) {
-  constexpr double kMost = 1.1;
-  EXPECT_LT(iterations(Precision::fp32), kMost * iterations(Precision::fp64));
+  constexpr double kMax = 1.1;
+  EXPECT_LT(iterations(Precision::fp32), kMax * iterations(Precision::fp64));
 }
 
 }  // namespace

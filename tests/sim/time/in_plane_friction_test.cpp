@@ -70,7 +70,7 @@ TEST(InPlaneFriction, LosesInTheChaptersStepsToo) {
 ScenePart history_of(const Simulation& simulation) {
   for (const ScenePart& part : simulation.parts())
     if (part.name == std::string("membrane history")) return part;
-  throw Error::run("no such part");
+  throw Error::simulation("no such part");
 }
 
 // Memory of one number for each stop and one for what is lost, of two for shear on triangles and of three for

@@ -59,7 +59,7 @@ TEST(Manifest, OfAnExperimentWithoutASceneHoldsItsOwnKeysAsTheScene) {
 TEST(Run, GoesOnWithoutAPlotThatFailsAndSaysSo) {
   const Folder folder;
   ExperimentRun run(drape_line(), setup_in(folder.path()));
-  run.plot("plot_a", [](const fs::path&) { throw Error::machine("no gnuplot"); });
+  run.plot("plot_a", [](const fs::path&) { throw Error::system("no gnuplot"); });
   run.plot("plot_b", [](const fs::path& base) { EXPECT_EQ(base.filename(), "plot_b"); });
   run.finish();
   const Json manifest = manifest_of(folder.path());
@@ -77,7 +77,7 @@ TEST(Run, LeavesItToOthersToSayThatItsManifestCouldNotBeWritten) {
     try {
       ExperimentRun run(drape_line(), setup_in(folder.path()));
       full.emplace(10);
-      throw Error::machine("cannot write metrics.csv: No space left on device");
+      throw Error::system("cannot write metrics.csv: No space left on device");
     } catch (const Error&) {
     }
     full.reset();
@@ -93,7 +93,7 @@ TEST(Manifest, OfARunThatCouldNotGoOnIsKeptAndIncomplete) {
   try {
     ExperimentRun run(drape_line(), setup_in(folder.path()));
     run.metric("steps_done", 7);
-    throw Error::run("no convergence");
+    throw Error::simulation("no convergence");
   } catch (const Error&) {
   }
   const Json manifest = manifest_of(folder.path());

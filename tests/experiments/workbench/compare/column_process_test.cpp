@@ -8,14 +8,14 @@
 namespace hysteron::experiments {
 namespace {
 
-SweepColumn column(const std::vector<Flag>& flags) {
-  SweepColumn result{"", {"swing", "", flags, {}}, "out"};
+ChildRun column(const std::vector<Flag>& flags) {
+  ChildRun result{"", {"swing", "", flags, {}}, "out"};
   result.line.flags.push_back({"no-images", "true"});
   return result;
 }
 
 TEST(Chunks, HaveColumnsInTheirOrderAndNoMoreThanIsAsked) {
-  const std::vector<SweepColumn> columns(5, column({}));
+  const std::vector<ChildRun> columns(5, column({}));
   EXPECT_EQ(chunks_of(columns, 2, -1), (std::vector<Chunk>{{0, 1}, {2, 3}, {4}}));
   EXPECT_EQ(chunks_of(columns, 8, -1), (std::vector<Chunk>{{0, 1, 2, 3, 4}}));
   EXPECT_EQ(chunks_of(columns, 1, -1), (std::vector<Chunk>{{0}, {1}, {2}, {3}, {4}}));
@@ -24,13 +24,13 @@ TEST(Chunks, HaveColumnsInTheirOrderAndNoMoreThanIsAsked) {
 
 // A process sees the GPUs that its first line leaves, and keeps signals for all of its runs.
 TEST(Chunks, AreOfOneDeviceAndOfOneKindOfEndBySignals) {
-  const std::vector<SweepColumn> columns = {column({{"device", "cuda:0"}}), column({{"device", "cuda:1"}}),
-                                            column({{"device", "cuda:0"}}), column({{"checkpoint", "60"}}),
-                                            column({{"device", "cuda:1"}}), column({{"checkpoint", "30"}})};
+  const std::vector<ChildRun> columns = {column({{"device", "cuda:0"}}), column({{"device", "cuda:1"}}),
+                                         column({{"device", "cuda:0"}}), column({{"checkpoint", "60"}}),
+                                         column({{"device", "cuda:1"}}), column({{"checkpoint", "30"}})};
   EXPECT_EQ(chunks_of(columns, 8, -1), (std::vector<Chunk>{{0, 2}, {1, 4}, {3, 5}}));
 }
 
-std::string refusal(const SweepColumn& of) {
+std::string refusal(const ChildRun& of) {
   try {
     check_batch({of}, 8);
   } catch (const Error& error) {
@@ -41,13 +41,13 @@ std::string refusal(const SweepColumn& of) {
 
 TEST(Chunks, AreOfRunsWithoutPicturesThatStepACloth) {
   EXPECT_EQ(refusal(column({})), "");
-  SweepColumn other = column({});
+  ChildRun other = column({});
   other.line.experiment = "kes";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of kes (--batch)");
   other.line.experiment = "bench";
   EXPECT_EQ(refusal(other), "batch = 8 is of runs that step a cloth, not of bench (--batch)");
   EXPECT_NE(refusal(column({{"errors", "true"}})).find("errors.batch"), std::string::npos);
-  SweepColumn drawn = column({});
+  ChildRun drawn = column({});
   drawn.line.flags.clear();
   EXPECT_NE(refusal(drawn).find("no-images"), std::string::npos);
   EXPECT_NO_THROW(check_batch({drawn}, 1));

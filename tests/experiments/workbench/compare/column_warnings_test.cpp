@@ -14,9 +14,9 @@ std::vector<std::string> said(const ColumnWarnings& warnings) {
   return run.manifest().warnings;
 }
 
-SweepColumn column(const std::string& name, const std::vector<std::string>& texts,
-                   const std::string& stopped = "") {
-  SweepColumn column{name, drape_line(), {}};
+ChildRun column(const std::string& name, const std::vector<std::string>& texts,
+                const std::string& stopped = "") {
+  ChildRun column{name, drape_line(), {}};
   column.stopped = stopped;
   column.manifest.emplace();
   column.manifest->warnings = texts;

@@ -28,9 +28,9 @@ Scene scene_on(const std::string& mesh, const std::string& shape) {
 }
 
 // "mesh: triangles=4000; step: step=0.005; ...".
-std::string words(const std::vector<Repeat>& repeats) {
+std::string words(const std::vector<ErrorRun>& repeats) {
   std::string text;
-  for (const Repeat& repeat : repeats) {
+  for (const ErrorRun& repeat : repeats) {
     text += (text.empty() ? "" : "; ") + repeat.name + ":";
     for (const Flag& flag : repeat.changes) text += " " + flag.path + "=" + flag.text;
   }
@@ -84,7 +84,7 @@ TEST(Repeats, AtHalfTheStepKeepAToleranceToMatch) {
 }
 
 TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
-  const std::vector<Repeat> repeats = repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2);
+  const std::vector<ErrorRun> repeats = repeats_of("crumple", scene_on("sheet.obj", "square"), "", 2);
   EXPECT_EQ(words(repeats), "mesh: cloth.subdivisions=1; step: step=0.005");
   const Metrics metrics = {{"curvature_rms_per_m", 5.0}};
   const Errors errors =
@@ -97,7 +97,7 @@ TEST(Repeats, OfAClothFromAFileSubdivideItAndHaveNoOtherDraws) {
   EXPECT_NE(errors.missing[0].find("from a file"), std::string::npos);
 }
 
-Repeated bent(const std::string& name, double length) {
+ErrorRunResult bent(const std::string& name, double length) {
   return {{name, {{"seed", "2"}}}, {{"bending_length_m", length}}};
 }
 
@@ -136,7 +136,7 @@ TEST(Errors, OfThreeDrawsHaveAMeanAndItsStandardError) {
 }
 
 TEST(Errors, ThatAreNotKnownAreNullAndSaidToBe) {
-  Repeated stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
+  ErrorRunResult stopped = bent("mesh", 7.5), same = bent("step", 8), without = bent("draw-1", 7);
   stopped.stopped = "no convergence";
   same.unchanged = true;
   without.metrics = {};

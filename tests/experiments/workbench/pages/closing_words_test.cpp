@@ -53,8 +53,8 @@ TEST(ResultWords, SayAloudThatTheClothDidNotComeToRest) {
                                                          {"settled", false}}));
   expect_in(words, "drape coefficient             86.0 % (not at rest)\n");
   expect_in(words, "published coefficient         82.9 %\n");
-  EXPECT_EQ(unrest_words({{"settled", true}}), "");
-  EXPECT_EQ(unrest_words({}), "") << "where no rest is asked for";
+  EXPECT_EQ(not_at_rest_warning({{"settled", true}}), "");
+  EXPECT_EQ(not_at_rest_warning({}), "") << "where no rest is asked for";
 }
 
 TEST(ResultWords, OfAComparisonHaveALineForEachColumn) {

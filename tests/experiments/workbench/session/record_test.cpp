@@ -36,7 +36,7 @@ TEST(Record, KeepsItsRowsWhenTheRunEndsEarly) {
   try {
     Record record(folder.path() / "metrics.csv", {"time [s]"});
     record.row({1});
-    throw Error::run("no convergence");
+    throw Error::simulation("no convergence");
   } catch (const Error&) {
   }
   EXPECT_EQ(text_of(folder.path() / "metrics.csv"), "time [s]\n1\n");

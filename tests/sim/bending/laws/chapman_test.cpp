@@ -14,7 +14,7 @@ constexpr double kK1 = 200;              // of the fold [1/m]
 constexpr double kTenthPercent = 1e-3;
 
 using Stops = SpectrumStops<double, 1, 8>;
-using Law = Relaxing<Stops, kMostBranches>;
+using Law = Relaxing<Stops, kMaxBranches>;
 
 Law law(const Spectrum& friction = {}, const RelaxingBranches& branches = {{kTau}, {kC}}) {
   return Law::make(Stops::make(kB, friction, {}), branches);

@@ -64,7 +64,7 @@ inline const LawEntry& law_or_example(const std::string& name) {
   static const std::vector<LawEntry> laws = laws_and_examples();
   for (const LawEntry& law : laws)
     if (law.name == name) return law;
-  throw Error::request("no law or example of a law is called " + name);
+  throw Error::invalid_input("no law or example of a law is called " + name);
 }
 
 // Fatigue here is strong: half of the friction moment is gone after a few full cycles of cotton broad.

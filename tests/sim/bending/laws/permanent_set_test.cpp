@@ -81,7 +81,7 @@ TEST(PermanentSet, IsTheSameInOneStepAsInManyOfOneDirection) {
 // Held for long, branches have let go: their share of the moment sets nothing any more, but it did when the
 // fold was fast.
 TEST(PermanentSet, IsLargerInAFastFoldThanInASlowOne) {
-  using Relaxed = Relaxing<Stops, kMostBranches>;
+  using Relaxed = Relaxing<Stops, kMaxBranches>;
   const auto folded = [](double seconds) {
     const Relaxed inner = Relaxed::make(Stops::make(kB2, {}, {}), {{1}, {5e-6}});
     Driven<Setting<Relaxed>> cloth(Setting<Relaxed>::make(inner, kB2, {kYield, kHardening}));
