@@ -80,6 +80,7 @@ SweepJobs jobs_of(const SweepChoice& choice, const std::vector<ChildRun>& runs) 
   jobs.checkpoints = jobs.resume;
   jobs.gpu = std::any_of(runs.begin(), runs.end(), [](const ChildRun& run) { return may_use_gpu(run.line); });
   jobs.go_on = true;
+  jobs.keep_reasons = true;
   return jobs;
 }
 

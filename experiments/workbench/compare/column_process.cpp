@@ -69,11 +69,11 @@ std::string reason_of(int exit_code, const std::string& first_error_line) {
   return exit_code < 0 ? "ended by a signal" : "ended with exit code " + std::to_string(exit_code);
 }
 
-// Of a run that could not make its folder nothing is left.
-void write_outcome(const ChildRun& column) {
-  std::error_code failure;
-  fs::create_directories(column.folder, failure);
-  if (failure) return;
+// Of a run without a folder nothing is left.
+void write_outcome(const ChildRun& column, bool make_folder) {
+  std::error_code ignored;
+  if (make_folder) fs::create_directories(column.folder, ignored);
+  if (!fs::is_directory(column.folder, ignored)) return;
   const Json outcome = {
       {"asked", asked(column)}, {"exit_code", column.exit_code}, {"stopped", column.stopped}};
   write_text(column.folder / kOutcome, outcome.dump(2) + "\n");
@@ -89,7 +89,7 @@ void take_back(ChildRun& column, const SweepJobs& jobs, int exit_code, const std
   }
   if (exit_code != 0) column.stopped = reason_of(exit_code, error);
   if (has_results) column.manifest = manifest_or_none(column.folder / "manifest.json");
-  write_outcome(column);
+  write_outcome(column, jobs.keep_reasons);
 }
 
 double seconds_since(Clock::time_point start) {

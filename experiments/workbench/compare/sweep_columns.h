@@ -39,12 +39,13 @@ struct SweepJobs {
   int at_once = 0;  // 0: one for each GPU, or for each core or `threads` of them
   int threads = 0;  // of each on the CPU; 0: its share of the cores
   bool resume = false;
-  bool gpu = true;           // may be used
-  int first = -1;            // a column that the others need: it ends before they start; -1: none
-  int cores = 0;             // that they share; 0: all
-  bool go_on = false;        // a run that is wrong or fails is only marked as stopped
-  bool checkpoints = false;  // a run that was interrupted goes on from its own, if it takes any
-  int batch = 1;             // the most that share a process and, on a GPU, its launches
+  bool gpu = true;            // may be used
+  int first = -1;             // a column that the others need: it ends before they start; -1: none
+  int cores = 0;              // that they share; 0: all
+  bool go_on = false;         // a run that is wrong or fails is only marked as stopped
+  bool checkpoints = false;   // a run that was interrupted goes on from its own, if it takes any
+  bool keep_reasons = false;  // a run that did not begin has a folder, too, for recall_outcome()
+  int batch = 1;              // the most that share a process and, on a GPU, its launches
 };
 // Of the key `batch` of what runs columns.
 inline constexpr int kLargestBatch = 1024;

@@ -50,6 +50,21 @@ TEST_F(Recorded, RunIsRepeatedToTheBit) {
   }
 }
 
+// Whose text is read only where an older program has noted nothing else.
+TEST_F(Recorded, RunIsRepeatedFromItsFlagsNotFromItsCommand) {
+  record("fold --fold.law-alone --fold.cycles 3 --no-images");
+  const Json before = json_in(run());
+  const std::string again = "rerun " + run().string() + " --quiet --out " + in("again");
+  edit([](Json& json) { json["command"] = "another program"; });
+  ASSERT_EQ(program(again).exit_code, 0);
+  EXPECT_EQ(json_in(in("again"))["metrics"], before["metrics"]);
+  edit([](Json& json) { json.erase("spec"); });
+  EXPECT_EQ(program(again).exit_code, 2);
+  edit([&](Json& json) { json["command"] = before["command"]; });
+  ASSERT_EQ(program(again).exit_code, 0);
+  EXPECT_EQ(json_in(in("again"))["metrics"], before["metrics"]);
+}
+
 TEST_F(Recorded, RunWithAnotherStateIsRepeatedWithAWarningThoughItIsQuiet) {
   record("swing --quick --no-images");
   edit([](Json& json) { json["state_hash"] = "0123456789abcdef"; });
