@@ -2,7 +2,7 @@
 // documentation.
 #pragma once
 
-#include "experiments/report/page.h"
+#include "experiments/report/documentation.h"
 
 namespace hysteron::experiments {
 

@@ -3,7 +3,7 @@
 // and title say where the number is and how it is written (number_source.h).
 #pragma once
 
-#include "experiments/report/page.h"
+#include "experiments/report/documentation.h"
 
 namespace hysteron::experiments {
 

@@ -14,7 +14,7 @@
 // of words.
 #pragma once
 
-#include "experiments/report/page.h"
+#include "experiments/report/documentation.h"
 
 namespace hysteron::experiments {
 
