@@ -20,7 +20,10 @@ std::vector<Manifest> results_of(const std::string& experiment, const std::vecto
   if (flags.options.no_images) line.flags.push_back({"no-images", "true"});
   std::vector<ChildRun> columns;
   for (const Variant& one : runs) columns.push_back(column_of(one.name, line, one.flags, run.folder()));
-  run_columns(run, columns, {.gpu = flags.device != "cpu"});
+  // A drape leaves most of a GPU idle; those that draw pictures cannot share its launches.
+  constexpr int kTogether = 8;
+  const bool gpu = flags.device != "cpu";
+  run_columns(run, columns, {.gpu = gpu, .batch = gpu && flags.options.no_images ? kTogether : 1});
   std::vector<Manifest> manifests;
   for (ChildRun& column : columns) {
     if (!column.stopped.empty()) throw Error::simulation(column.name + ": " + column.stopped);
