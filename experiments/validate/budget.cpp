@@ -91,6 +91,7 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
                  low,
                  high};
   std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
+  plot.key_inside = true;
   return plot;
 }
 
