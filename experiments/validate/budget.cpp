@@ -1,5 +1,6 @@
 #include "experiments/validate/budget.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/validate/named_table.h"
@@ -92,6 +93,13 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
                  high};
   std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
   plot.key_inside = true;
+  constexpr double kRoomForTheKey = 8, kAir = 2;  // [%]
+  plot.y.low = plot.y.high = measured;
+  for (const BudgetRow& row : rows) {
+    plot.y.low = std::min(plot.y.low, row.coefficient);
+    plot.y.high = std::max(plot.y.high, row.coefficient + kAir);
+  }
+  plot.y.low -= kRoomForTheKey;
   return plot;
 }
 
