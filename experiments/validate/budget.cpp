@@ -93,7 +93,7 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
                  high};
   std::erase_if(plot.series, [](const render::Series& series) { return series.x.empty(); });
   plot.key_inside = true;
-  constexpr double kRoomForTheKey = 8, kAir = 2;  // [%]
+  constexpr double kRoomForTheKey = 10, kAir = 2;  // [%]
   plot.y.low = plot.y.high = measured;
   for (const BudgetRow& row : rows) {
     plot.y.low = std::min(plot.y.low, row.coefficient);
