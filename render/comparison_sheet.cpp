@@ -4,63 +4,17 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 
+#include "render/sheet_layout.h"
 #include "sim/base/error.h"
 
 namespace hysteron::render {
 namespace {
 
 constexpr Rgb8 kPaper{255, 255, 255}, kInk{38, 40, 44}, kGrey{96, 99, 104};
-constexpr float kLine = 1.65f;                                  // from baseline to baseline, in letters
-constexpr float kTitle = 1.35f;                                 // letters of the title
-constexpr float kPlateEdge = 0.02f;                             // of an inset, around its frame
-constexpr float kInsetShare = 0.28f;                            // of a cell's shorter side
-constexpr int kMinCell = 32;                                    // [pixels]
-constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
-constexpr const char* kBetween = " · ";
-
-using Places = std::vector<std::size_t>;  // of columns
-
-// Where things are; decided before anything is drawn.
-struct Page {
-  int width, gap, margin, cell_width;  // [pixels]; `margin` is that of times
-  std::size_t numbers;                 // behind a name, or below it
-  int caption_lines;                   // 1, or 2 where no number finds room behind a name
-  float letters;
-  std::vector<Places> blocks;
-  std::vector<int> row_height;  // of pictures
-  bool families;
-  int title_lines, note_lines, foot;
-
-  int line() const { return static_cast<int>(std::lround(kLine * letters)); }
-  int left(std::size_t place) const { return gap + margin + static_cast<int>(place) * (cell_width + gap); }
-  int head() const {
-    return 2 * gap + title_lines * static_cast<int>(std::lround(kTitle * kLine * letters)) +
-           note_lines * line();
-  }
-  int block_height() const {
-    int height = (families ? line() : 0) + caption_lines * line() + gap / 2;
-    for (int row : row_height) height += row + gap;
-    return height + gap;
-  }
-  int height() const { return head() + static_cast<int>(blocks.size()) * block_height() + foot; }
-  double aspect() const { return 1.0 * width / height(); }
-};
-
-// Broken between words; a word longer than the room stays whole.
-std::vector<std::string> broken(const std::string& text, float letters, float room) {
-  std::vector<std::string> lines;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (!lines.empty() && text_width(longer, letters) <= room)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
+constexpr float kPlateEdge = 0.02f;   // of an inset, around its frame
+constexpr float kInsetShare = 0.28f;  // of a cell's shorter side
+constexpr int kMinCell = 32;          // [pixels]
 
 // Text that fits: its end gives way to an ellipsis.
 std::string fitting(std::string text, float letters, float room) {
@@ -70,178 +24,6 @@ std::string fitting(std::string text, float letters, float room) {
     text = text.substr(0, cut) + "…";
   }
   return text_width(text, letters) > room ? "" : text;
-}
-
-// What stands before numbers, and as many of them.
-std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers) {
-  for (std::size_t i = 0; i < std::min(numbers, column.numbers.size()); ++i)
-    text += (text.empty() ? "" : kBetween) + column.numbers[i];
-  return text;
-}
-
-float mark_width(const ComparisonColumn& column, float letters) { return column.color ? 1.6f * letters : 0; }
-
-// Of names with their marks and so many numbers, or of the numbers alone.
-float widest_caption(const ComparisonSheet& sheet, std::size_t numbers, float letters, bool named = true) {
-  float widest = 0;
-  for (const ComparisonColumn& column : sheet.columns)
-    widest =
-        std::max(widest, mark_width(column, letters) +
-                             text_width(with_numbers(named ? column.name : "", column, numbers), letters));
-  return widest;
-}
-
-std::size_t most_numbers(const ComparisonSheet& sheet) {
-  std::size_t most = 0;
-  for (const ComparisonColumn& column : sheet.columns) most = std::max(most, column.numbers.size());
-  return most;
-}
-
-// Families one after the other, in the order of their first columns.
-std::vector<Places> families_of(const ComparisonSheet& sheet) {
-  std::vector<Places> families;
-  for (std::size_t c = 0; c < sheet.columns.size(); ++c) {
-    const auto same = [&](const Places& f) { return sheet.columns[f[0]].family == sheet.columns[c].family; };
-    const auto found = std::find_if(families.begin(), families.end(), same);
-    found == families.end() ? families.push_back({c}) : found->push_back(c);
-  }
-  return families;
-}
-
-// A family that does not fit behind another begins a block; one that fits into none is spread evenly.
-std::vector<Places> blocks_of(const ComparisonSheet& sheet, std::size_t beside) {
-  std::vector<Places> blocks;
-  if (sheet.columns.size() <= beside) {
-    blocks.emplace_back();
-    for (std::size_t c = 0; c < sheet.columns.size(); ++c) blocks[0].push_back(c);
-    return blocks;
-  }
-  for (const Places& family : families_of(sheet)) {
-    if (!blocks.empty() && blocks.back().size() + family.size() <= beside) {
-      blocks.back().insert(blocks.back().end(), family.begin(), family.end());
-      continue;
-    }
-    const std::size_t parts = (family.size() + beside - 1) / beside;
-    const std::size_t size = sheet.in_sequence ? beside : (family.size() + parts - 1) / parts;
-    for (std::size_t i = 0; i < family.size(); i += size)
-      blocks.emplace_back(family.begin() + static_cast<std::ptrdiff_t>(i),
-                          family.begin() + static_cast<std::ptrdiff_t>(std::min(i + size, family.size())));
-  }
-  return blocks;
-}
-
-int margin_of(const ComparisonSheet& sheet, float letters) {
-  float widest = 0;
-  for (const ComparisonRow& row : sheet.rows) {
-    widest = std::max(widest, text_width(row.time, letters));
-    for (const std::string& word : broken(row.phase, letters, 0))
-      widest = std::max(widest, text_width(word, letters));
-  }
-  if (widest == 0) return 0;
-  return static_cast<int>(std::min(widest, 0.16f * static_cast<float>(sheet.width)) + letters);
-}
-
-std::vector<int> row_heights(const ComparisonSheet& sheet, int cell_width) {
-  std::vector<int> heights;
-  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    double aspect = 0;
-    for (const ComparisonColumn& column : sheet.columns)
-      if (const Image& image = column.cells[r].image; !image.empty())
-        aspect = std::max(aspect, static_cast<double>(image.height()) / image.width());
-    heights.push_back(std::max(1, static_cast<int>(std::lround(aspect * cell_width))));
-  }
-  return heights;
-}
-
-// Of the pictures in row r [m]; 0 of a row without scale or pictures.
-double metres_across(const ComparisonSheet& sheet, std::size_t r) {
-  for (const ComparisonColumn& column : sheet.columns)
-    if (const Image& image = column.cells[r].image; !image.empty())
-      return sheet.rows[r].metres_per_pixel * image.width();
-  return 0;
-}
-
-// Rows have a scale each, or one that stands for all at the foot.
-bool has_one_scale(const ComparisonSheet& sheet) {
-  constexpr double kSame = 0.02;
-  double first = 0;
-  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    const double across = metres_across(sheet, r);
-    if (across == 0) continue;
-    if (first > 0 && std::abs(across - first) > kSame * first) return false;
-    first = across;
-  }
-  return true;
-}
-
-// For words in the margin, whose last letter keeps off the pictures.
-float phase_room(const Page& page) { return static_cast<float>(page.margin) - page.letters; }
-
-Page page_with(const ComparisonSheet& sheet, std::size_t beside) {
-  Page page{};
-  page.width = sheet.width;
-  page.letters = sheet_letters(sheet.width);
-  page.gap = std::max(4, sheet.width / 120);
-  page.margin = margin_of(sheet, page.letters);
-  page.blocks = blocks_of(sheet, beside);
-  std::size_t columns = 1;
-  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
-  if (page.blocks.size() > 1) columns = std::max(columns, beside);
-  page.cell_width = (page.width - page.margin - page.gap) / static_cast<int>(columns) - page.gap;
-  page.families = page.blocks.size() > 1 && families_of(sheet).size() > 1;
-  const auto fitting_numbers = [&](bool named) {
-    std::size_t numbers = most_numbers(sheet);
-    while (numbers > 0 &&
-           widest_caption(sheet, numbers, page.letters, named) > static_cast<float>(page.cell_width))
-      --numbers;
-    return numbers;
-  };
-  page.numbers = fitting_numbers(true);
-  page.caption_lines = 1;
-  if (page.numbers == 0 && fitting_numbers(false) > 0)
-    page.numbers = fitting_numbers(false), page.caption_lines = 2;
-  page.row_height = row_heights(sheet, page.cell_width);
-  // Low pictures leave room for what stands beside them.
-  for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
-    const auto words = broken(sheet.rows[r].phase, page.letters, phase_room(page));
-    page.row_height[r] =
-        std::max(page.row_height[r], static_cast<int>(page.line() * static_cast<float>(1 + words.size())));
-  }
-  const float room = static_cast<float>(page.width - 2 * page.gap);
-  page.title_lines = static_cast<int>(broken(sheet.title, kTitle * page.letters, room).size());
-  for (const std::string& note : sheet.notes)
-    page.note_lines += static_cast<int>(broken(note, page.letters, room).size());
-  const bool scale = sheet.rows[0].metres_per_pixel > 0 && has_one_scale(sheet);
-  page.foot =
-      sheet.bars.empty() && !scale ? 0 : static_cast<int>((sheet.bars.empty() ? 3.f : 6.5f) * page.letters);
-  return page;
-}
-
-// How much a page leaves to be wished for: an aspect that is not allowed, names that are cut, headline
-// numbers that found no room, empty places.
-double want(const ComparisonSheet& sheet, const Page& page) {
-  const double aspect = page.aspect();
-  double want = 10 * std::max({0.0, std::log(aspect / kWidest), std::log(kTallest / aspect)});
-  std::size_t columns = 1;
-  for (const Places& block : page.blocks) columns = std::max(columns, block.size());
-  const double places = static_cast<double>(columns * page.blocks.size());
-  const double empty = 1 - static_cast<double>(sheet.columns.size()) / places;
-  want += sheet.in_sequence ? 2 * empty : empty;
-  if (sheet.in_sequence) return want + std::abs(std::log(aspect / kPleasant));
-  if (widest_caption(sheet, 0, page.letters) > static_cast<float>(page.cell_width)) want += 5;
-  if (page.numbers < std::min<std::size_t>(1, most_numbers(sheet))) want += 3;
-  return want + 0.3 * static_cast<double>(page.blocks.size() - 1);
-}
-
-Page best_page(const ComparisonSheet& sheet) {
-  if (sheet.beside > 0) return page_with(sheet, static_cast<std::size_t>(sheet.beside));
-  const std::size_t most = std::min<std::size_t>(kMaxBeside, sheet.columns.size());
-  Page best = page_with(sheet, most);
-  for (std::size_t beside = most - 1; beside >= 1; --beside) {
-    const Page page = page_with(sheet, beside);
-    if (want(sheet, page) < want(sheet, best)) best = page;
-  }
-  return best;
 }
 
 Image enlarged(const Image& source, int width, int height) {
@@ -344,13 +126,13 @@ Place emptiest_place(const std::vector<Darkness>& pictures) {
 
 class Drawing {
  public:
-  Drawing(const ComparisonSheet& sheet, Page page)
+  Drawing(const ComparisonSheet& sheet, SheetPage page)
       : sheet_(sheet), page_(std::move(page)), image_(page_.width, page_.height(), kPaper) {}
 
   Image draw() {
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) places_.push_back(inset_place(r));
     head();
-    for (const Places& block : page_.blocks) draw_block(block);
+    for (const SheetPlaces& block : page_.blocks) draw_block(block);
     foot();
     return std::move(image_);
   }
@@ -374,9 +156,9 @@ class Drawing {
   void head() {
     y_ = page_.gap;
     const float x = static_cast<float>(page_.gap), room = static_cast<float>(page_.width - 2 * page_.gap);
-    for (const std::string& line : broken(sheet_.title, kTitle * page_.letters, room)) {
-      text(line, x, y_, kInk, room, kTitle);
-      y_ += static_cast<int>(std::lround(kTitle * kLine * page_.letters));
+    for (const std::string& line : broken(sheet_.title, kSheetTitle * page_.letters, room)) {
+      text(line, x, y_, kInk, room, kSheetTitle);
+      y_ += static_cast<int>(std::lround(kSheetTitle * kSheetLine * page_.letters));
     }
     for (const std::string& note : sheet_.notes)
       for (const std::string& line : broken(note, page_.letters, room)) {
@@ -386,7 +168,7 @@ class Drawing {
     y_ += page_.gap;
   }
 
-  void draw_block(const Places& block) {
+  void draw_block(const SheetPlaces& block) {
     if (page_.families) {
       for (std::size_t i = 0; i < block.size(); ++i)
         if (const std::string& family = sheet_.columns[block[i]].family; family != family_)
@@ -395,7 +177,7 @@ class Drawing {
       y_ += page_.line();
     }
     for (std::size_t i = 0; i < block.size(); ++i) caption(sheet_.columns[block[i]], page_.left(i));
-    y_ += page_.caption_lines * page_.line() + page_.gap / 2;
+    y_ += page_.caption_lines() * page_.line() + page_.gap / 2;
     for (std::size_t r = 0; r < sheet_.rows.size(); ++r) {
       instant(sheet_.rows[r], r);
       for (std::size_t i = 0; i < block.size(); ++i)
@@ -410,9 +192,13 @@ class Drawing {
                 top = static_cast<float>(y_) + 0.3f * letters;
     if (column.color) draw_rectangle(image_, x, top, x + letters, top + letters, *column.color);
     const float room = static_cast<float>(page_.cell_width) - mark;
-    const bool below = page_.caption_lines == 2;
-    text(with_numbers(column.name, column, below ? 0 : page_.numbers), x + mark, y_, kInk, room);
-    if (below) text(with_numbers("", column, page_.numbers), x + mark, y_ + page_.line(), kGrey, room);
+    int y = y_;
+    for (const std::string& line : name_lines(column, letters, page_.cell_width)) {
+      const std::size_t behind = page_.numbers_below ? 0 : page_.numbers;
+      text(with_numbers(line, column, behind), x + mark, y, kInk, room);
+      y += page_.line();
+    }
+    if (page_.numbers_below) text(with_numbers("", column, page_.numbers), x + mark, y, kGrey, room);
   }
 
   // In the margin: its time, and what is happening; a scale where rows differ in it.
@@ -487,7 +273,7 @@ class Drawing {
   }
 
   const ComparisonSheet& sheet_;
-  Page page_;
+  SheetPage page_;
   Image image_;
   std::vector<Place> places_;  // of insets, by row
   std::string family_;         // that was named last
@@ -515,7 +301,7 @@ float sheet_letters(int width) { return std::ceil(static_cast<float>(width) / 84
 
 Image draw_comparison(const ComparisonSheet& sheet) {
   check(sheet);
-  Page page = best_page(sheet);
+  SheetPage page = best_page(sheet);
   if (page.cell_width < kMinCell)
     throw Error::invalid_input("comparison: columns in " + std::to_string(sheet.width) + " pixels leave " +
                                std::to_string(page.cell_width) + " for a picture; at least " +

@@ -102,6 +102,17 @@ TEST(ComparisonSheet, SetsNumbersBelowNamesWhereNoneFindsRoomBehind) {
   EXPECT_NEAR(first.top - extent_of(draw_comparison(sheet), color_of(0, 0)).top, line, 1);
 }
 
+TEST(ComparisonSheet, BreaksALongNameBeforeTheKeysThatItCarries) {
+  ComparisonSheet sheet = sheet_of(5, 2);
+  for (ComparisonColumn& column : sheet.columns) column.numbers.clear();
+  const Extent first = extent_of(draw_comparison(sheet), color_of(0, 0));
+  sheet.columns[1].name = "linear+fabric.damping=0.006378";
+  const Image page = draw_comparison(sheet);
+  const double line = 1.65 * sheet_letters(sheet.width);
+  EXPECT_NEAR(extent_of(page, color_of(0, 0)).top - first.top, line, 1);
+  EXPECT_EQ(extent_of(page, color_of(4, 0)).top, extent_of(page, color_of(0, 0)).top) << "all in one block";
+}
+
 // Words in the margin make their row as high as they are, however low its pictures.
 TEST(ComparisonSheet, KeepsWordsOfARowAboveTheNext) {
   ComparisonSheet sheet = sheet_of(4, 2, 400, 20);
