@@ -37,7 +37,7 @@ std::vector<std::string> name_lines(const ComparisonColumn& column, float letter
   const float room = static_cast<float>(cell_width) - mark_width(column, letters);
   std::vector<std::string> lines = {""};
   for (std::size_t start = 0; start < column.name.size();) {
-    const std::size_t end = std::min(column.name.find('+', start + 1), column.name.size());
+    const std::size_t end = std::min(column.name.find_first_of("+=", start + 1), column.name.size());
     const std::string part = column.name.substr(start, end - start);
     if (!lines.back().empty() && text_width(lines.back() + part, letters) > room) lines.emplace_back();
     lines.back() += part;

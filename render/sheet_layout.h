@@ -47,7 +47,7 @@ struct SheetPage {
 std::vector<std::string> broken(const std::string& text, float letters, float room);
 // Of the mark before a name.
 float mark_width(const ComparisonColumn& column, float letters);
-// A name that is too long is broken before the keys that it carries: "linear", "+fabric.damping=1e-3".
+// A name that is too long is broken before its keys and values: "linear", "+fabric.damping", "=1e-3".
 std::vector<std::string> name_lines(const ComparisonColumn& column, float letters, int cell_width);
 // What stands before numbers, and as many of them.
 std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers);
