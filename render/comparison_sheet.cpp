@@ -51,10 +51,10 @@ Image enlarged(const Image& source, int width, int height) {
   return result;
 }
 
-// As large as the place allows; the cell's own aspect stays.
+// As large as the place and its pixels allow; the cell's own aspect stays.
 Image fitted(const Image& image, int width, int height) {
-  const double scale =
-      std::min(static_cast<double>(width) / image.width(), static_cast<double>(height) / image.height());
+  const double scale = std::min({static_cast<double>(width) / image.width(),
+                                 static_cast<double>(height) / image.height(), kMaxEnlarged});
   const int w = std::clamp(static_cast<int>(std::lround(scale * image.width())), 1, width),
             h = std::clamp(static_cast<int>(std::lround(scale * image.height())), 1, height);
   return w <= image.width() && h <= image.height() ? shrink(image, w, h) : enlarged(image, w, h);

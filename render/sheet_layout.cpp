@@ -121,11 +121,11 @@ int margin_of(const ComparisonSheet& sheet, float letters) {
 std::vector<int> row_heights(const ComparisonSheet& sheet, int cell_width) {
   std::vector<int> heights;
   for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    double aspect = 0;
+    double height = 1;
     for (const ComparisonColumn& column : sheet.columns)
       if (const Image& image = column.cells[r].image; !image.empty())
-        aspect = std::max(aspect, static_cast<double>(image.height()) / image.width());
-    heights.push_back(std::max(1, static_cast<int>(std::lround(aspect * cell_width))));
+        height = std::max(height, image.height() * std::min(kMaxEnlarged, 1.0 * cell_width / image.width()));
+    heights.push_back(static_cast<int>(std::lround(height)));
   }
   return heights;
 }

@@ -12,6 +12,7 @@ namespace hysteron::render {
 
 inline constexpr float kSheetLine = 1.65f;   // from baseline to baseline, in letters
 inline constexpr float kSheetTitle = 1.35f;  // letters of the title
+inline constexpr double kMaxEnlarged = 1.5;  // of a picture on the page: more shows its pixels
 
 using SheetPlaces = std::vector<std::size_t>;  // of columns
 

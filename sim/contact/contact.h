@@ -40,7 +40,6 @@ class Contact {
   int energies_count() const { return static_cast<int>(energy_.size()); }
   void add_stiffness(const Vec3<Real>* position, const Vec3<Real>* before, BlockRowsView<Real> matrix,
                      Real sliding_share);
-  bool has_faces() const { return faces_.has_value(); }
 
   // Free vertices, and triangles of free vertices beside sharp obstacles, do not pass through a solid that
   // has another side, nor it through them (sweep.h, face_sweep.cpp).  clip_to_obstacles() ends each path of
