@@ -1,48 +1,17 @@
-// Every law of the catalogue, and those of tests/examples, with every parameter that changes what they do, as
-// types: for tests that must hold for all of them.
+// Every law of the catalogue, and those of tests/examples, with every parameter that changes what they do,
+// behind one face: tests that must hold for all of them are compiled once.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "sim/base/error.h"
-#include "sim/bending/laws/law_commands.h"
-#include "sim/bending/laws/law_visit.h"
-#include "tests/examples/law/exponential.h"
+#include "sim/bending/laws/law_parameters.h"
+#include "tests/sim/bending/laws/law_fixtures.h"
 
 namespace hysteron::testing {
-
-using ExampleLaws = LawList<ExponentialLaw>;  // a law that no program ships
-
-// What a fabric has beyond three numbers, on the scale of these, so that extreme fabrics have it as well.
-enum Part { kStops = 1, kManyStops = 2, kWeft = 4, kBranches = 8, kSet = 16 };
-
-inline Spectrum spectrum_of(const VirginCurve& curve, int count) {
-  const double scale = curve.k0 > 0 ? curve.k0 : 1;
-  Spectrum stops;
-  for (int j = 0; j < count; ++j) {
-    stops.thresholds.push_back(scale * 1.7 * (j + 0.3) * (j + 1) / (count * count));  // beyond k0 as well
-    stops.stiffnesses.push_back((curve.b1 - curve.b2) * (1.5 - 1.0 * j / count) / count);
-  }
-  return stops;
-}
-
-// Yields at 1.2 k0, branches of a third and a half of the friction's stiffness.
-inline BendingParts parts_of(int which, const VirginCurve& curve) {
-  BendingParts parts;
-  const double g = curve.b1 - curve.b2;
-  if (which & (kStops | kManyStops)) parts.stops = spectrum_of(curve, which & kManyStops ? 12 : 5);
-  if (which & kWeft) {
-    parts.weft_stops = parts.stops;
-    for (double& r : parts.weft_stops.thresholds) r *= 0.6;
-    for (double& p : parts.weft_stops.stiffnesses) p *= 1.3;
-  }
-  if ((which & kBranches) && g > 0) parts.branches = {{0.2, 5}, {g / 3, g / 2}};
-  if (which & kSet) parts.set = {1.2 * curve.k0, curve.b2 / 2};
-  return parts;
-}
 
 struct LawCase {
   std::string name;  // of the law, with its variant
@@ -50,52 +19,11 @@ struct LawCase {
   LawParameters parameters;
   bool passive = true;  // gives no energy back
   bool timed = false;
-  int parts = 0;  // of enum Part
-  bool radial() const { return !(parts & kWeft); }
+  int parts = 0;                     // what its fabric has beyond three numbers, of every_law.cpp's enum Part
+  bool slips_on_ellipsoids = false;  // warp and weft have stops of their own
 };
 
-inline std::vector<LawEntry> laws_and_examples() {
-  std::vector<LawEntry> laws = law_catalogue();
-  for (const LawEntry& law : law_entries(ExampleLaws{})) laws.push_back(law);
-  return laws;
-}
-
-inline const LawEntry& law_or_example(const std::string& name) {
-  static const std::vector<LawEntry> laws = laws_and_examples();
-  for (const LawEntry& law : laws)
-    if (law.name == name) return law;
-  throw Error::invalid_input("no law or example of a law is called " + name);
-}
-
-// Fatigue here is strong: half of the friction moment is gone after a few full cycles of cotton broad.
-inline std::vector<LawCase> law_cases() {
-  std::vector<LawCase> cases;
-  for (const LawEntry& law : laws_and_examples()) cases.push_back({law.name, law.name, {}});
-  cases.push_back({"exponential-soft", "exponential", {{"softness", "0.2"}}});
-  cases.push_back({"wong-reversible", "wong", {{"recovery", "reversible"}}});
-  cases.push_back({"prandtl-stack", "prandtl", {{"memory", "stack"}, {"stack", "16"}}});
-  cases.push_back({"obrien-bounded", "obrien", {{"max-set", "20"}}});
-  cases.push_back({"narain-bounded", "narain", {{"max-set", "20"}, {"weakening", "2"}}});
-  cases.push_back({"kim-bounded", "kim", {{"max-set", "20"}, {"tau", "0.1"}}});
-  for (const char* law : {"bilinear", "wong", "prandtl"})
-    cases.push_back({std::string(law) + "-fatigue", law, {{"fatigue.dc", "0.5"}, {"fatigue.m-inf", "1e-4"}}});
-  const auto measured = [&](const char* name, const char* law, int parts) {
-    cases.push_back({name, law, {}});
-    cases.back().parts = parts;
-  };
-  measured("prandtl-spectrum", "prandtl", kStops);
-  measured("prandtl-spectrum-of-many", "prandtl", kManyStops);
-  measured("prandtl-two-spectra", "prandtl", kStops | kWeft);
-  measured("prandtl-set", "prandtl", kSet);
-  measured("chapman-branches", "chapman", kBranches);
-  measured("chapman-spectrum-branches-set", "chapman", kStops | kBranches | kSet);
-  measured("chapman-two-spectra-branches-set", "chapman", kStops | kWeft | kBranches | kSet);
-  for (LawCase& c : cases) {
-    c.passive = c.law != "wong";
-    c.timed = c.law == "terzopoulos" || c.law == "kim" || c.law == "gong" || c.parts & kBranches;
-  }
-  return cases;
-}
+std::vector<LawCase> law_cases();
 
 inline std::string case_name(const ::testing::TestParamInfo<LawCase>& c) {
   std::string name = c.param.name;
@@ -103,18 +31,56 @@ inline std::string case_name(const ::testing::TestParamInfo<LawCase>& c) {
   return name;
 }
 
-// visit(law) with the case's law for this fabric; steps take `seconds`.
-template <class Real, int D, class Visit>
-void with_law(const LawCase& c, VirginCurve curve, double seconds, const Visit& visit) {
-  curve.parts = parts_of(c.parts, curve);
-  const LawChoice choice = choose_law(law_or_example(c.law), curve, c.parameters);
-  const auto timed = [&](auto law) {
-    set_step_time(law, Real(seconds));
-    visit(law);
+// A law with its history, scalar or tensor.  Scalar laws take the first component of a curvature; all that
+// they give is 0 in the others.
+class AnyLaw {
+ public:
+  struct Step {
+    Vec<double, 3> moment;
+    double stored, dissipated;
   };
-  const bool found = visit_groups<Real, D, ClothMemory>(LawGroups{}, choice, timed) ||
-                     visit_laws<Real, D, ClothMemory>(ExampleLaws{}, choice, timed);
-  ASSERT_TRUE(found) << c.name;
+  explicit AnyLaw(int dimension) : dimension_(dimension) {}
+  virtual ~AnyLaw() = default;
+
+  virtual void set_seconds(double seconds) = 0;                  // of the coming steps
+  virtual Step to(const Vec<double, 3>& curvature) = 0;          // goes there
+  virtual Step step(const Vec<double, 3>& curvature) const = 0;  // tries it
+  virtual Tangent<double, 3> tangent(const Vec<double, 3>& curvature) const = 0;
+  virtual Tangent<double, 3> convex_tangent(const Vec<double, 3>& curvature) const = 0;
+  virtual double potential(const Vec<double, 3>& curvature) const = 0;
+  virtual Vec<double, 3> residual() const = 0;
+  virtual double largest_stiffness() const = 0;
+  virtual bool runs_along_four_directions() const = 0;
+
+  // What of a tensor the law takes.
+  Vec<double, 3> component(Vec<double, 3> tensor) const {
+    tensor.tail(3 - dimension_).setZero();
+    return tensor;
+  }
+  Path<double, 3> random_path(int count, double amplitude, unsigned seed) const {
+    Path<double, 3> path = random_tensors(count, amplitude, seed);
+    for (Vec<double, 3>& k : path) k = component(k);
+    return path;
+  }
+
+ private:
+  int dimension_;
+};
+
+// The case's law for this fabric, virgin; steps take `seconds`.
+enum class As { kScalar, kTensor, kTensorInSinglePrecision };
+std::unique_ptr<AnyLaw> any_law(const LawCase& c, As as, double seconds,
+                                const VirginCurve& curve = cotton_broad());
+
+constexpr double kSeconds = 0.05;  // of a step, where time matters
+
+// test(law) with the case's law, scalar and tensor.
+template <class Test>
+void for_scalar_and_tensor(const LawCase& c, double seconds, const Test& test) {
+  for (const As as : {As::kScalar, As::kTensor}) {
+    SCOPED_TRACE(as == As::kScalar ? "scalar" : "tensor");
+    test(*any_law(c, as, seconds));
+  }
 }
 
 }  // namespace hysteron::testing

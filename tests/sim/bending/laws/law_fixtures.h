@@ -57,24 +57,4 @@ struct Driven {
   double moment(double curvature) requires(D == 1) { return to(Vec<Real, 1>(Real(curvature))).moment[0]; }
 };
 
-// |int M dK - stored - dissipated| along straight pieces by the trapezium rule; the whole way takes 10 s.
-template <class Law>
-double balance_error(Law law, const Path<double, Law::kDimension>& corners, int pieces) {
-  constexpr double kWholeWay = 10;
-  set_step_time(law, kWholeWay / (static_cast<double>(corners.size()) * pieces));
-  Driven<Law> cloth(law);
-  Vec<double, Law::kDimension> at = Vec<double, Law::kDimension>::Zero(), moment = at;
-  double work = 0;
-  for (const auto& corner : corners) {
-    const Vec<double, Law::kDimension> way = (corner - at) / pieces;
-    for (int i = 1; i <= pieces; ++i) {
-      cloth.to(Vec<double, Law::kDimension>(at + way * i));
-      work += (moment + cloth.last.moment).dot(way) / 2;
-      moment = cloth.last.moment;
-    }
-    at = corner;
-  }
-  return std::abs(work - cloth.last.stored - cloth.dissipated);
-}
-
 }  // namespace hysteron::testing

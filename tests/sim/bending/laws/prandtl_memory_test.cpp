@@ -204,26 +204,5 @@ TEST(PrandtlStops, EachStopEnclosesFourLimitsTimesTheSlippedWay) {
   EXPECT_NEAR(loop_area(law, amplitude), area, kRounding * c.friction_moment() * c.k0);
 }
 
-template <class Law>
-void expect_balance(const Law& law, const Path<double, Law::kDimension>& corners, double order) {
-  const VirginCurve c = cotton_broad();
-  constexpr int kCoarse = 400, kFine = 1600;
-  const double scale = c.friction_moment() * c.k0;
-  const double coarse = balance_error(law, corners, kCoarse), fine = balance_error(law, corners, kFine);
-  EXPECT_LE(coarse, 0.1 * scale);
-  constexpr double kOrderSlack = 0.25, kQuadratureRounding = 1e-11;
-  if (fine > kQuadratureRounding * scale) {
-    EXPECT_GE(std::log2(coarse / fine) / 2, order - kOrderSlack);
-  }
-}
-
-TEST(EnergyBalance, HoldsForABoundedStackThatDropsPairs) {
-  const VirginCurve c = cotton_broad();
-  const auto law = PrandtlStack<double, 4>::make(c);
-  Path<double, 1> corners;
-  for (double k : random_turns(60, 2 * c.k0, 12)) corners.push_back(Vec<double, 1>(k));
-  expect_balance(law, corners, 2);
-}
-
 }  // namespace
 }  // namespace hysteron::testing
