@@ -90,5 +90,32 @@ TEST(Residual, OfStopsInTheThirdCaseIsTheFrictionMomentOverTheRigidity) {
               kRounding * c.k0);
 }
 
+// Goes there and looks: the moment at the residual curvature must vanish.
+template <class Law, class Walk>
+void expect_no_moment_at_residual(const Law& law, const Walk& walk, double scale) {
+  constexpr double kSolved = 1e-10;  // of b1 K0
+  Driven<Law> cloth(law);
+  for (const auto& k : walk) {
+    cloth.to(Vec<double, Law::kDimension>(k));
+    const auto there = law.step(law.residual(cloth.history), cloth.history);
+    ASSERT_LE(there.moment.norm(), kSolved * scale);
+  }
+}
+
+TEST(Residual, CarriesNoMomentAfterAnyHistory) {
+  const VirginCurve c = cotton_broad();
+  const double scale = c.b1 * c.k0;
+  const auto turns = random_turns(300, 3 * c.k0, 21);
+  expect_no_moment_at_residual(PrandtlStack<double, 32>::make(c), turns, scale);
+  expect_no_moment_at_residual(PrandtlStack<double, 4>::make(c), turns, scale);
+  expect_no_moment_at_residual(PrandtlStops<double, 1, 8>::make(c), turns, scale);
+  expect_no_moment_at_residual(Wong<double>::make(c), turns, scale);
+  expect_no_moment_at_residual(Wong<double>::make(c, Recovery::kReversible), turns, scale);
+  const auto tensors = random_tensors(100, 3 * c.k0, 22);
+  expect_no_moment_at_residual(PrandtlStops<double, 3, 8>::make(c), tensors, scale);
+  expect_no_moment_at_residual(FourDirections<Wong<double>>::make(c), tensors, scale);
+  expect_no_moment_at_residual(FourDirections<PrandtlStack<double, 16>>::make(c), tensors, scale);
+}
+
 }  // namespace
 }  // namespace hysteron::testing
