@@ -10,44 +10,6 @@ namespace {
 constexpr double kTallest = 0.5, kWidest = 3, kPleasant = 1.5;  // aspects of a page
 constexpr const char* kBetween = " · ";
 
-}  // namespace
-
-std::vector<std::string> broken(const std::string& text, float letters, float room) {
-  std::vector<std::string> lines;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (!lines.empty() && text_width(longer, letters) <= room)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-  }
-  return lines;
-}
-
-std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers) {
-  for (std::size_t i = 0; i < std::min(numbers, column.numbers.size()); ++i)
-    text += (text.empty() ? "" : kBetween) + column.numbers[i];
-  return text;
-}
-
-float mark_width(const ComparisonColumn& column, float letters) { return column.color ? 1.6f * letters : 0; }
-
-std::vector<std::string> name_lines(const ComparisonColumn& column, float letters, int cell_width) {
-  const float room = static_cast<float>(cell_width) - mark_width(column, letters);
-  std::vector<std::string> lines = {""};
-  for (std::size_t start = 0; start < column.name.size();) {
-    const std::size_t end = std::min(column.name.find_first_of("+=", start + 1), column.name.size());
-    const std::string part = column.name.substr(start, end - start);
-    if (!lines.back().empty() && text_width(lines.back() + part, letters) > room) lines.emplace_back();
-    lines.back() += part;
-    start = end;
-  }
-  return lines;
-}
-
-namespace {
-
 bool cuts_a_name(const ComparisonSheet& sheet, float letters, int cell_width) {
   for (const ComparisonColumn& column : sheet.columns)
     for (const std::string& line : name_lines(column, letters, cell_width))
@@ -138,24 +100,6 @@ double metres_across(const ComparisonSheet& sheet, std::size_t r) {
   return 0;
 }
 
-}  // namespace
-
-bool has_one_scale(const ComparisonSheet& sheet) {
-  constexpr double kSame = 0.02;
-  double first = 0;
-  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
-    const double across = metres_across(sheet, r);
-    if (across == 0) continue;
-    if (first > 0 && std::abs(across - first) > kSame * first) return false;
-    first = across;
-  }
-  return true;
-}
-
-float phase_room(const SheetPage& page) { return static_cast<float>(page.margin) - page.letters; }
-
-namespace {
-
 SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
   SheetPage page{};
   page.width = sheet.width;
@@ -180,8 +124,10 @@ SheetPage page_with(const ComparisonSheet& sheet, std::size_t beside) {
     page.name_lines =
         std::max(page.name_lines, static_cast<int>(name_lines(column, page.letters, page.cell_width).size()));
   page.numbers = page.name_lines == 1 ? fitting_numbers(true) : 0;
-  page.numbers_below = page.numbers == 0 && fitting_numbers(false) > 0;
-  if (page.numbers_below) page.numbers = fitting_numbers(false);
+  if (page.numbers == 0) {
+    page.numbers = fitting_numbers(false);
+    page.numbers_below = page.numbers > 0;
+  }
   page.row_height = row_heights(sheet, page.cell_width);
   // Low pictures leave room for what stands beside them.
   for (std::size_t r = 0; page.margin > 0 && r < sheet.rows.size(); ++r) {
@@ -216,6 +162,54 @@ double want(const ComparisonSheet& sheet, const SheetPage& page) {
 }
 
 }  // namespace
+
+std::vector<std::string> broken(const std::string& text, float letters, float room) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (!lines.empty() && text_width(longer, letters) <= room)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+std::string with_numbers(std::string text, const ComparisonColumn& column, std::size_t numbers) {
+  for (std::size_t i = 0; i < std::min(numbers, column.numbers.size()); ++i)
+    text += (text.empty() ? "" : kBetween) + column.numbers[i];
+  return text;
+}
+
+float mark_width(const ComparisonColumn& column, float letters) { return column.color ? 1.6f * letters : 0; }
+
+std::vector<std::string> name_lines(const ComparisonColumn& column, float letters, int cell_width) {
+  const float room = static_cast<float>(cell_width) - mark_width(column, letters);
+  std::vector<std::string> lines = {""};
+  for (std::size_t start = 0; start < column.name.size();) {
+    const std::size_t end = std::min(column.name.find_first_of("+=", start + 1), column.name.size());
+    const std::string part = column.name.substr(start, end - start);
+    if (!lines.back().empty() && text_width(lines.back() + part, letters) > room) lines.emplace_back();
+    lines.back() += part;
+    start = end;
+  }
+  return lines;
+}
+
+bool has_one_scale(const ComparisonSheet& sheet) {
+  constexpr double kSame = 0.02;
+  double first = 0;
+  for (std::size_t r = 0; r < sheet.rows.size(); ++r) {
+    const double across = metres_across(sheet, r);
+    if (across == 0) continue;
+    if (first > 0 && std::abs(across - first) > kSame * first) return false;
+    first = across;
+  }
+  return true;
+}
+
+float phase_room(const SheetPage& page) { return static_cast<float>(page.margin) - page.letters; }
 
 SheetPage best_page(const ComparisonSheet& sheet) {
   if (sheet.beside > 0) return page_with(sheet, static_cast<std::size_t>(sheet.beside));
