@@ -179,6 +179,26 @@ TEST(EnergyBalance, HoldsToSecondOrderForABoundedStackThatDropsPairs) {
   EXPECT_GE(std::log2(coarse / fine) / 2, 1.75);
 }
 
+// Stored and dissipated of a step from one state are its potential: their slope is the moment, which
+// increases along any way.  Creep and fatigue lose energy at the end of a step, beside the potential.
+TEST_P(EveryLaw, StoresAndLosesAConvexPotentialWithinAStep) {
+  const bool late_losses = GetParam().name.ends_with("fatigue") || GetParam().timed;
+  for_scalar_and_tensor(GetParam(), kSeconds, [&](AnyLaw& law) {
+    for (const auto& k : law.random_path(7, 1.5 * kCloth.k0, 30)) law.to(k);
+    const double step = kCloth.k0 / 37,  // 37: unrelated to any threshold
+        rounding = 1e-12 * kCloth.b1 * kCloth.k0 * kCloth.k0;
+    const Vec<double, 3> way = step * law.component(Vec<double, 3>::Ones());
+    for (const auto& here : law.random_path(100, 2 * kCloth.k0, 31)) {
+      const auto at = [&](double t) { return law.step(here + t * way); };
+      ASSERT_GE(at(1).moment.dot(way) - at(-1).moment.dot(way), -rounding);
+      if (late_losses) continue;
+      const double h = 1e-4, rise = at(h).stored + at(h).dissipated - at(-h).stored - at(-h).dissipated;
+      ASSERT_NEAR(rise / (2 * h), at(0).moment.dot(way),
+                  2 * law.largest_stiffness() * way.squaredNorm() * h + rounding / h);
+    }
+  });
+}
+
 // Measurements evaluate the law again where it is; they must find what the step left.
 TEST_P(EveryLaw, IsFoundAsItWasLeft) {
   for_scalar_and_tensor(GetParam(), kSeconds, [](AnyLaw& law) {
