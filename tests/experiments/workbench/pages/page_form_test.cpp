@@ -1,5 +1,6 @@
 // Pages that link their pictures, and pages that hold them.
 #include <algorithm>
+#include <regex>
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pages/gallery.h"
@@ -150,6 +151,16 @@ TEST(Results, PageIsBelow300KilobytesAndItsPicturesExist) {
   const fs::path results = HYSTERON_RESULTS;
   EXPECT_LT(fs::file_size(results / "index.html"), 300000u);
   expect_all_there(text_of(results / "index.html"), results);
+}
+
+TEST(Results, NameNoFolderOfTheMachineThatMadeThem) {
+  const std::regex absolute(R"(["\s=]/\w+/)");
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(HYSTERON_RESULTS)) {
+    if (entry.path().extension() != ".json") continue;
+    const std::string text = text_of(entry.path());
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(text, found, absolute)) << entry.path() << ":" << found.str();
+  }
 }
 
 }  // namespace
