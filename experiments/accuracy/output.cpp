@@ -14,50 +14,50 @@ namespace {
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 void write_table(Run& run, const std::vector<Solution>& solutions) {
-  CsvFile file(run.path("table.csv"),
-               "problem,factor,setting,mesh,element,law,load,integrator,implicit every,step [s],tolerance,"
-               "precision,device,triangles,value,reference,error,reference uncertainty,steps,computing [s],"
-               "memory [byte],on front,failed");
+  Table table(
+      "problem,factor,setting,mesh,element,law,load,integrator,implicit every,step [s],tolerance,"
+      "precision,device,triangles,value,reference,error,reference uncertainty,steps,computing [s],"
+      "memory [byte],on front,failed");
   for (const Solution& solution : solutions) {
     const auto front = pareto_front(solution);
     for (std::size_t i = 0; i < solution.solved.size(); ++i) {
       const auto& [s, f] = solution.solved[i];
       const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
-      file.row({solution.problem.name,
-                s.factor,
-                describe(solution, s),
-                s.mesh,
-                name_of(s.element),
-                s.law,
-                number(s.load),
-                name_of(s.integrator),
-                name_of(s.implicit_every),
-                number(s.step),
-                number(s.tolerance),
-                name_of(s.precision),
-                name_of(s.device),
-                number(f.triangles),
-                number(f.value),
-                number(f.reference),
-                number(f.error),
-                number(f.uncertainty),
-                f.steps,
-                number(f.seconds),
-                f.bytes,
-                on_front ? "yes" : "no",
-                f.failed});
+      table.row({solution.problem.name,
+                 s.factor,
+                 describe(solution, s),
+                 s.mesh,
+                 name_of(s.element),
+                 s.law,
+                 number(s.load),
+                 name_of(s.integrator),
+                 name_of(s.implicit_every),
+                 number(s.step),
+                 number(s.tolerance),
+                 name_of(s.precision),
+                 name_of(s.device),
+                 number(f.triangles),
+                 number(f.value),
+                 number(f.reference),
+                 number(f.error),
+                 number(f.uncertainty),
+                 f.steps,
+                 number(f.seconds),
+                 f.bytes,
+                 on_front ? "yes" : "no",
+                 f.failed});
     }
   }
-  file.commit();
+  table.write(run.path("table.csv"));
 }
 
 void write_orders(Run& run, const std::vector<Solution>& solutions) {
-  CsvFile file(run.path("orders.csv"), "problem,in,group,from,to,error from,error to,order");
+  Table table("problem,in,group,from,to,error from,error to,order");
   for (const Solution& solution : solutions)
     for (const Order& o : observed_orders(solution))
-      file.row({solution.problem.name, o.in, o.group, number(o.from), number(o.to), number(o.error_from),
-                number(o.error_to), number(o.order)});
-  file.commit();
+      table.row({solution.problem.name, o.in, o.group, number(o.from), number(o.to), number(o.error_from),
+                 number(o.error_to), number(o.order)});
+  table.write(run.path("orders.csv"));
 }
 
 // Cell of the table: what it takes.
@@ -69,13 +69,13 @@ std::string cheapest_text(const Solution& solution, double target) {
 }
 
 void write_cheapest(Run& run, const std::vector<Solution>& solutions) {
-  CsvFile file(run.path("cheapest.csv"), "problem,10 %,3 %,1 %,0.3 %");
+  Table table("problem,10 %,3 %,1 %,0.3 %");
   for (const Solution& solution : solutions) {
-    std::vector<CsvField> row = {solution.problem.name};
+    std::vector<Cell> row = {solution.problem.name};
     for (double target : kTargets) row.push_back(cheapest_text(solution, target));
-    file.row(row);
+    table.row(row);
   }
-  file.commit();
+  table.write(run.path("cheapest.csv"));
 }
 
 // Errors below this are at the end of the digits; on a logarithmic scale they would stretch it.

@@ -48,16 +48,16 @@ void print_json(const std::vector<Metrics>& rows) {
 }
 
 void write_table(Run& run, const std::vector<Metrics>& rows) {
-  std::vector<CsvField> head;
+  std::vector<std::string> head;
   for (const auto& [key, value] : rows.front()) head.push_back(key);
-  CsvFile file(run.path("table.csv"), head);
+  Table table(head);
   for (const Metrics& row : rows) {
-    std::vector<CsvField> fields;
+    std::vector<Cell> fields;
     for (const auto& [key, value] : row)
-      fields.push_back(value.is_text() ? CsvField(value.text()) : CsvField(value.number()));
-    file.row(fields);
+      fields.push_back(value.is_text() ? Cell(value.text()) : Cell(value.number()));
+    table.row(fields);
   }
-  file.commit();
+  table.write(run.path("table.csv"));
 }
 
 }  // namespace hysteron::experiments

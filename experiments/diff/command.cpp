@@ -178,18 +178,18 @@ Json json_of(const FolderDiff& diff) {
 
 // A row for each picture.
 void write_table(const fs::path& path, const FolderDiff& diff) {
-  std::vector<CsvField> head = {"picture"};
+  std::vector<std::string> head = {"picture"};
   for (const Measure& m : all_measures()) head.push_back(m.column);
   head.push_back("error");
-  CsvFile file(path, head);
+  Table table(head);
   for (const FolderDiff::Row& row : diff.rows) {
-    std::vector<CsvField> fields = {row.name};
+    std::vector<Cell> fields = {row.name};
     for (const Measure& m : all_measures())
-      fields.push_back(row.error.empty() ? CsvField(row.measures.*m.value) : CsvField(""));
+      fields.push_back(row.error.empty() ? Cell(row.measures.*m.value) : Cell(""));
     fields.push_back(row.error);
-    file.row(fields);
+    table.row(fields);
   }
-  file.commit();
+  table.write(path);
 }
 
 int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {

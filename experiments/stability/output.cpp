@@ -30,8 +30,7 @@ std::vector<std::string> integrators_in(const std::vector<Cell>& cells) {
 }  // namespace
 
 void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<Cell>& cells) {
-  CsvFile file(
-      run.path("cells.csv"),
+  Table table(
       "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
       "ledger remainder,largest stretch,seconds asked [s],seconds simulated [s],steps,substeps per step,"
       "retried steps,wall [s],message");
@@ -40,29 +39,29 @@ void write_cells(Run& run, const std::vector<Sweep>& sweeps, const std::vector<C
     const Scene& scene = cell.attempt.scene;
     const Finding& f = cell.finding;
     const bool ran = f.outcome != Outcome::refused;
-    const auto if_ran = [&](const CsvField& field) { return ran ? field : CsvField(""); };
-    file.row({sweep.name,
-              cell.integrator,
-              sweep.variants[cell.variant],
-              sweep.x.ticks[cell.column],
-              sweep.y.ticks[cell.row],
-              scene.law,
-              name_of(scene.element),
-              name_of(scene.precision),
-              scene.step,
-              name_of(f.outcome),
-              if_ran(f.energy_growth),
-              if_ran(f.remainder),
-              if_ran(f.largest_stretch),
-              f.seconds_asked,
-              if_ran(f.seconds_simulated),
-              if_ran(f.steps),
-              if_ran(f.substeps),
-              if_ran(f.retried_steps),
-              f.wall_seconds,
-              f.message});
+    const auto if_ran = [&](const hysteron::Cell& field) { return ran ? field : hysteron::Cell(""); };
+    table.row({sweep.name,
+               cell.integrator,
+               sweep.variants[cell.variant],
+               sweep.x.ticks[cell.column],
+               sweep.y.ticks[cell.row],
+               scene.law,
+               name_of(scene.element),
+               name_of(scene.precision),
+               scene.step,
+               name_of(f.outcome),
+               if_ran(f.energy_growth),
+               if_ran(f.remainder),
+               if_ran(f.largest_stretch),
+               f.seconds_asked,
+               if_ran(f.seconds_simulated),
+               if_ran(f.steps),
+               if_ran(f.substeps),
+               if_ran(f.retried_steps),
+               f.wall_seconds,
+               f.message});
   }
-  file.commit();
+  table.write(run.path("cells.csv"));
 }
 
 void write_counts(Run& run, const std::vector<Cell>& cells) {
@@ -91,21 +90,21 @@ void print_counts(const std::vector<Cell>& cells) {
 }
 
 void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
-  CsvFile file(
-      run.path("limit.csv"),
+  Table table(
       "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound");
   double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
   for (const MeasuredLimit& limit : limits) {
     const LimitCase& of = limit.of;
-    file.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law, of.condition.damping,
-              of.condition.amplitudes.back(), limit.bound, limit.measured, limit.ratio()});
+    table.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
+               of.condition.damping, of.condition.amplitudes.back(), limit.bound, limit.measured,
+               limit.ratio()});
     if (of.condition.resonates() && of.condition.damping == 0) {
       least_resonant = std::min(least_resonant, limit.ratio());
       continue;
     }
     least = std::min(least, limit.ratio()), most = std::max(most, limit.ratio());
   }
-  file.commit();
+  table.write(run.path("limit.csv"));
   run.metric("limit_smallest_ratio", least);
   run.metric("limit_largest_ratio", most);
   if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
