@@ -2,7 +2,7 @@
 #include <fmt/core.h>
 
 #include "experiments/bench/sizes.h"
-#include "experiments/bench/table.h"
+#include "experiments/bench/step_profile.h"
 #include "experiments/workbench/pages/simulated_run.h"
 #include "render/color_map.h"
 #include "render/plot.h"
@@ -65,7 +65,7 @@ FigureCaption caption_of(const SizeTable& table) {
 }  // namespace
 
 void write_sizes(Run& run, const SizeTable& table, bool pictures) {
-  write_table(run, table.rows);
+  table_of(table.rows).write(run.path("table.csv"));
   if (table.device.empty()) return;
   run.manifest().device = table.device;
   run.metric("copy_bandwidth_GB_per_s", 1e-9 * table.copy_bandwidth);

@@ -222,11 +222,7 @@ bool names_a_file(const std::string& word) { return word.ends_with(".csv") || wo
 std::vector<std::string> values_of_column(const std::string& target, const std::string& column,
                                           const fs::path& folder) {
   const Table table = table_at(folder / target, target);
-  const std::size_t at = place_of(table, column);
-  std::vector<std::string> values;
-  for (const auto& row : table.rows)
-    if (std::find(values.begin(), values.end(), row[at]) == values.end()) values.push_back(row[at]);
-  return values;
+  return table.values(table.head[place_of(table, column)]);
 }
 
 std::string number_from(const NumberSource& source, const fs::path& folder) {

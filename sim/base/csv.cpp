@@ -211,6 +211,14 @@ std::vector<double> Table::numbers(std::size_t column) const {
   return values;
 }
 
+std::vector<std::string> Table::values(const std::string& column) const {
+  const std::size_t place = at(column);
+  std::vector<std::string> found;
+  for (const auto& fields : rows)
+    if (std::find(found.begin(), found.end(), fields[place]) == found.end()) found.push_back(fields[place]);
+  return found;
+}
+
 Table Table::where(const std::string& column, const std::string& value) const {
   const std::size_t place = at(column);
   const std::optional<double> number = number_of(value);

@@ -66,6 +66,8 @@ struct Table {
   std::vector<double> numbers(std::size_t column) const;
   std::vector<double> numbers(const std::string& column) const { return numbers(at(column)); }
 
+  // Each value of a column once, in the order in which they come.
+  std::vector<std::string> values(const std::string& column) const;
   // The rows whose cell in `column` is `value`, or the same number.
   Table where(const std::string& column, const std::string& value) const;
   // These columns, of those that there are.
