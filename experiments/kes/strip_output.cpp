@@ -53,9 +53,9 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
 std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  fmt::print("{:<19}", name);
-  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
-  fmt::print("\n");
+  std::vector<std::string> row = {name};
+  row.insert(row.end(), cells.begin(), cells.end());
+  fmt::print("{}\n", aligned(row, {-19, 13}));
 }
 
 StripDifference difference(const StripTest& strip, double amplitude) {

@@ -106,7 +106,7 @@ Table table_of(const std::vector<SweepCell>& cells) {
 
 // cells, ended, retried, refused, diverged of all and of each integrator, also on stdout; diverged_default.
 void count(Run& run, const Table& cells, bool print) {
-  const std::vector<int> widths = {-14, 9, 9, 9, 9};
+  const std::vector<int> widths = {-14, 9};
   const auto outcomes = names(Outcome{});
   const auto count_of = [&](const Table& rows, const std::string& prefix) {
     std::vector<std::string> counts = {prefix.substr(0, prefix.find('.'))};

@@ -304,9 +304,11 @@ std::string exact_row_of(const std::vector<double>& numbers) {
 
 std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    line += (i ? " " : "") + (widths[i] < 0 ? fmt::format("{:<{}}", cells[i], -widths[i])
-                                            : fmt::format("{:>{}}", cells[i], widths[i]));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int width = i < widths.size() ? widths[i] : widths.back();
+    line += (i ? " " : "") +
+            (width < 0 ? fmt::format("{:<{}}", cells[i], -width) : fmt::format("{:>{}}", cells[i], width));
+  }
   return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 

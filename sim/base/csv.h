@@ -93,8 +93,8 @@ std::string row_of(const std::vector<std::string>& fields);
 // Of numbers with 17 significant digits.
 std::string exact_row_of(const std::vector<double>& numbers);
 
-// Cells beside each other on a terminal, each in its width: to the right, or to the left of a negative one.
-// What stands behind the last one's text is left out.
+// Cells beside each other on a terminal, each in its width, to the left of a negative one; further ones are
+// as wide as the last.  Blanks at the end are left out.
 std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths);
 
 }  // namespace hysteron
