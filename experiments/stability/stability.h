@@ -65,13 +65,6 @@ struct NamedAttempt {
   Attempt (*make)();
 };
 
-template <std::size_t count>
-render::CellAxis axis_of(const std::string& label, const NamedAttempt (&table)[count]) {
-  render::CellAxis axis{label, {}};
-  for (const NamedAttempt& entry : table) axis.ticks.push_back(entry.name);
-  return axis;
-}
-
 inline Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
   Obstacle obstacle;
   obstacle.kind = kind;
@@ -87,6 +80,23 @@ struct Sweep {
   std::vector<std::string> variants;  // "prandtl", "hinge"
   std::function<Attempt(int variant, int column, int row)> at;
 };
+
+// Of named attempts, a row each, under some laws; `set` makes the variant.
+template <std::size_t count>
+Sweep named_sweep(const std::string& name, const std::string& title, const std::string& label,
+                  const NamedAttempt (&rows)[count], const std::vector<std::string>& laws,
+                  const std::vector<std::string>& variants,
+                  const std::function<void(Scene&, int variant)>& set) {
+  Sweep sweep{name, title, {"law", laws}, {label, {}}, variants, {}};
+  for (const NamedAttempt& row : rows) sweep.y.ticks.push_back(row.name);
+  sweep.at = [&rows, laws, set](int variant, int column, int row) {
+    Attempt attempt = rows[row].make();
+    attempt.scene.law = laws[column];
+    set(attempt.scene, variant);
+    return attempt;
+  };
+  return sweep;
+}
 
 // What the sweeps cover.
 struct SweepChoice {
