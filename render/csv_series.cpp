@@ -35,7 +35,7 @@ double number_in(const std::string& cell, const std::string& attempt, int line) 
 Series series_from_csv(const std::filesystem::path& csv, const std::string& x, const std::string& y,
                        const std::string& label) {
   const std::string attempt = "reading " + csv.string();
-  const TextTable table = words_in(file_named(csv, attempt), csv.string());
+  const Table table = table_in(file_named(csv, attempt), csv.string());
   if (table.head.empty()) throw Error::invalid_input(attempt + ": the file is empty");
   const size_t x_column = column_named(table.head, x, attempt),
                y_column = column_named(table.head, y, attempt);

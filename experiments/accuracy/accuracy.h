@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "sim/scene/scene.h"
@@ -33,6 +34,13 @@ Setting varied(Setting base, const std::string& factor, const Change& change) {
   base.factor = factor;
   change(base);
   return base;
+}
+
+// Adds one to the list for each value of a factor that is a member of the setting.
+template <class T>
+void vary(std::vector<Setting>& list, const Setting& base, const std::string& factor, T Setting::*member,
+          const std::vector<std::type_identity_t<T>>& values) {
+  for (const T& value : values) list.push_back(varied(base, factor, [&](Setting& s) { s.*member = value; }));
 }
 
 // What came of it.

@@ -65,27 +65,29 @@ Problem bend_problem(const Effort& effort) {
   base.tolerance = 1e-6;
   std::vector<Setting>& list = problem.settings;
   list.push_back(base);
-  for (const char* mesh : {"aligned-45", "flipped", "unionjack", "equilateral", "random"})
-    if (!effort.quick || std::string(mesh) == "random")
-      list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-  for (const char* mesh : {"aligned", "unionjack", "random"})
-    for (int triangles : {24, 96, 1360}) {
-      if (effort.quick && (triangles > 96 || std::string(mesh) != "aligned")) continue;
-      if (triangles == base.triangles || (triangles > kTriangles && std::string(mesh) != "aligned")) continue;
-      list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
-    }
-  for (const char* mesh : {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"})
-    if (!effort.quick || std::string(mesh) == "aligned")
-      list.push_back(
-          varied(base, "element", [&](Setting& s) { s.element = BendingElement::hinge, s.mesh = mesh; }));
-  if (effort.quick) return problem;
-  for (const char* law : {"linear", "bilinear", "dahl", "obrien"})
-    list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
+  Setting hinge = base;
+  hinge.element = BendingElement::hinge;
+  if (effort.quick) {
+    vary(list, base, "mesh", &Setting::mesh, {"random"});
+    vary(list, base, "size", &Setting::triangles, {24});
+    vary(list, hinge, "element", &Setting::mesh, {base.mesh});
+    return problem;
+  }
+  vary(list, base, "mesh", &Setting::mesh, {"aligned-45", "flipped", "unionjack", "equilateral", "random"});
+  vary(list, base, "size", &Setting::triangles, {24, 96, 1360});
+  for (const char* mesh : {"unionjack", "random"}) {
+    Setting other = base;
+    other.mesh = mesh;
+    vary(list, other, "size", &Setting::triangles, {24, 96});
+  }
+  vary(list, hinge, "element", &Setting::mesh,
+       {"aligned", "aligned-45", "flipped", "unionjack", "equilateral", "random"});
+  vary(list, base, "law", &Setting::law, {"linear", "bilinear", "dahl", "obrien"});
   // Laws of scalar form run along four directions of the fabric: as good as where these lie.
-  for (double angle : {0.0, 11.25, 22.5, 33.75, 45.0})
-    list.push_back(varied(base, "warp angle", [&](Setting& s) { s.law = "wong", s.load = angle; }));
-  for (double step : {1.0 / 13, 1.0 / 28})
-    list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
+  Setting wong = base;
+  wong.law = "wong";
+  vary(list, wong, "warp angle", &Setting::load, {0, 11.25, 22.5, 33.75, 45});
+  vary(list, base, "step", &Setting::step, {1.0 / 13, 1.0 / 28});
   list.push_back(
       varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   return problem;

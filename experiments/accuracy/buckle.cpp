@@ -30,16 +30,16 @@ Found solve(const Setting& setting) {
   return found;
 }
 
-void vary(const Setting& base, bool quick, std::vector<Setting>& list) {
+void vary_all(const Setting& base, bool quick, std::vector<Setting>& list) {
   list.push_back(base);
   for (const std::string& mesh : strip_meshes()) {
-    if (mesh != base.mesh) list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-    for (int triangles : {kTriangles / 4, 4 * kTriangles})
-      if (!quick || (triangles < kTriangles && mesh == base.mesh))
-        list.push_back(varied(base, "size", [&](Setting& s) { s.mesh = mesh, s.triangles = triangles; }));
-    if (!quick || mesh == base.mesh)
-      list.push_back(
-          varied(base, "element", [&](Setting& s) { s.mesh = mesh, s.element = BendingElement::hinge; }));
+    Setting on = base;
+    on.mesh = mesh;
+    if (mesh != base.mesh) vary(list, base, "mesh", &Setting::mesh, {mesh});
+    if (quick && mesh != base.mesh) continue;
+    vary(list, on, "size", &Setting::triangles, {kTriangles / 4});
+    if (!quick) vary(list, on, "size", &Setting::triangles, {4 * kTriangles});
+    vary(list, on, "element", &Setting::element, {BendingElement::hinge});
   }
 }
 
@@ -60,7 +60,7 @@ Problem buckle_problem(const Effort& effort) {
   base.triangles = kTriangles;
   for (double kind : {0.0, 1.0}) {
     base.load = kind;
-    vary(base, effort.quick, problem.settings);
+    vary_all(base, effort.quick, problem.settings);
   }
   return problem;
 }

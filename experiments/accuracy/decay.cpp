@@ -28,42 +28,32 @@ Setting base_of(DecayKind kind, const Effort& effort) {
   return base;
 }
 
-void vary_integrators(const Setting& base, std::vector<Setting>& list) {
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::semi_implicit; }));
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::implicit; }));
-}
-
 // `times` the base's step.  Those of semi-implicit follow from the mesh.
 void vary_step(const Setting& base, Integrator integrator, double times, std::vector<Setting>& list) {
   list.push_back(varied(base, "step", [&](Setting& s) { s.integrator = integrator, s.step *= times; }));
 }
 
-void vary_size(const Setting& base, int triangles, std::vector<Setting>& list) {
-  list.push_back(varied(base, "size", [&](Setting& s) { s.triangles = triangles; }));
-}
-
 // Everything for one kind, time and size for the others.
 void vary_all(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
-  vary_integrators(base, list);
+  vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit, Integrator::implicit});
   for (double times : {2.0, 0.5}) vary_step(base, Integrator::bdf2, times, list);
-  for (int triangles : {32, 192}) vary_size(base, triangles, list);
+  vary(list, base, "size", &Setting::triangles, {32, 192});
   if (kind_of(base) != DecayKind::hyperbolic) return;
   list.push_back(varied(base, "integrator", [](Setting& s) {
     s.integrator = Integrator::semi_implicit, s.implicit_every = ImplicitEvery::step;
   }));
   vary_step(base, Integrator::bdf2, 4, list);
   for (double times : {4.0, 0.5}) vary_step(base, Integrator::implicit, times, list);
-  vary_size(base, 64, list);
-  for (const char* mesh : {"aligned", "aligned-45", "flipped", "equilateral", "random"})
-    list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-  list.push_back(varied(base, "element", [](Setting& s) { s.element = BendingElement::hinge; }));
+  vary(list, base, "size", &Setting::triangles, {64});
+  vary(list, base, "mesh", &Setting::mesh, {"aligned", "aligned-45", "flipped", "equilateral", "random"});
+  vary(list, base, "element", &Setting::element, {BendingElement::hinge});
 }
 
 void vary_a_few(const Setting& base, std::vector<Setting>& list) {
   list.push_back(base);
   if (kind_of(base) != DecayKind::hyperbolic) return;
-  list.push_back(varied(base, "integrator", [](Setting& s) { s.integrator = Integrator::semi_implicit; }));
+  vary(list, base, "integrator", &Setting::integrator, {Integrator::semi_implicit});
   vary_step(base, Integrator::implicit, 3, list);
 }
 

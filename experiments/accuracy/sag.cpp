@@ -94,7 +94,7 @@ Setting base_of(const Effort& effort) {
 
 void vary_meshes_and_sizes(const Setting& base, bool quick, std::vector<Setting>& list) {
   for (const std::string& mesh : strip_meshes()) {
-    if (mesh != base.mesh) list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
+    if (mesh != base.mesh) vary(list, base, "mesh", &Setting::mesh, {mesh});
     if (quick && mesh != "unionjack" && mesh != "random") continue;
     for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64 / 4, kAlong64, 4 * kAlong64}) {
       if (triangles == base.triangles || (quick && triangles > base.triangles)) continue;
@@ -134,15 +134,12 @@ Problem sag_problem(const Effort& effort) {
       if (effort.quick && (gamma == 0.1 || gamma == 1000 || mesh != base.mesh)) continue;
       list.push_back(varied(base, "heaviness", [&](Setting& s) { s.mesh = mesh, s.load = gamma; }));
     }
-  for (const char* law : {"prandtl", "bilinear", "dahl", "wong", "pabst", "obrien"}) {
-    if (effort.quick && std::string(law) != "prandtl") continue;
-    list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
+  vary(list, base, "law", &Setting::law, {"prandtl"});
+  if (!effort.quick) {
+    vary(list, base, "law", &Setting::law, {"bilinear", "dahl", "wong", "pabst", "obrien"});
+    vary(list, base, "step", &Setting::step, {1, 0.2, 0.0125});
+    vary(list, base, "tolerance", &Setting::tolerance, {1e-2, 1e-4, 1e-8});
   }
-  for (double step : {1.0, 0.2, 0.0125})
-    if (!effort.quick) list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
-  for (double tolerance : {1e-2, 1e-4, 1e-8})
-    if (!effort.quick)
-      list.push_back(varied(base, "tolerance", [&](Setting& s) { s.tolerance = tolerance; }));
   list.push_back(
       varied(base, "precision", [&](Setting& s) { s.precision = Precision::fp32, s.tolerance = 1e-4; }));
   problem.load = "Gamma";
@@ -170,17 +167,16 @@ Problem droop_problem(const Effort& effort) {
   base.triangles = kAlong64 / 4;
   std::vector<Setting>& list = problem.settings;
   list.push_back(base);
-  for (const std::string& mesh : strip_meshes())
-    if (mesh != base.mesh && !effort.quick)
-      list.push_back(varied(base, "mesh", [&](Setting& s) { s.mesh = mesh; }));
-  for (int triangles : {kAlong64 / 64, kAlong64 / 16, kAlong64})
-    if (!effort.quick || triangles < base.triangles)
-      list.push_back(varied(base, "size", [&](Setting& s) { s.triangles = triangles; }));
-  list.push_back(varied(base, "element", [&](Setting& s) { s.element = BendingElement::hinge; }));
-  for (const char* law : {"bilinear", "dahl", "obrien", "wong"})
-    if (!effort.quick) list.push_back(varied(base, "law", [&](Setting& s) { s.law = law; }));
-  for (double step : {0.2, 0.0125})
-    if (!effort.quick) list.push_back(varied(base, "step", [&](Setting& s) { s.step = step; }));
+  std::vector<std::string> meshes = strip_meshes();
+  std::erase(meshes, base.mesh);
+  if (!effort.quick) vary(list, base, "mesh", &Setting::mesh, meshes);
+  vary(list, base, "size", &Setting::triangles, {kAlong64 / 64, kAlong64 / 16});
+  if (!effort.quick) vary(list, base, "size", &Setting::triangles, {kAlong64});
+  vary(list, base, "element", &Setting::element, {BendingElement::hinge});
+  if (!effort.quick) {
+    vary(list, base, "law", &Setting::law, {"bilinear", "dahl", "obrien", "wong"});
+    vary(list, base, "step", &Setting::step, {0.2, 0.0125});
+  }
   problem.load = "Gamma";
   problem.solve = [curves = std::make_shared<Curves>()](const Setting& setting) {
     Found found;

@@ -8,11 +8,11 @@
 #include "experiments/bench/element_costs.h"
 #include "experiments/bench/sizes.h"
 #include "experiments/bench/step_profile.h"
-#include "experiments/bench/table.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/manifest_file.h"
 #include "sim/base/comma_list.h"
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/scene/scene_reader.h"
 
@@ -72,32 +72,66 @@ struct Request {
   }
 };
 
+// A number or a text of every row on stdout, to the right.
+struct ShownColumn {
+  const char *key, *head;
+  int width, digits = 0;  // of numbers, behind the point
+};
+
+// Prints rows on stdout as they are measured, what is not known left blank; nothing if JSON follows.
+std::function<void(const Metrics&)> printer(const std::vector<ShownColumn>& columns, bool silent) {
+  if (silent) return [](const Metrics&) {};
+  std::vector<std::string> heads;
+  std::vector<int> widths;
+  for (const ShownColumn& column : columns) heads.emplace_back(column.head), widths.push_back(column.width);
+  const auto print = [widths](const std::vector<std::string>& cells) {
+    std::cout << aligned(cells, widths) << std::endl;
+  };
+  print(heads);
+  return [columns, print](const Metrics& row) {
+    std::vector<std::string> cells;
+    for (const ShownColumn& column : columns) {
+      const MetricValue& value = row[column.key];
+      cells.push_back(value.is_text()     ? value.text()
+                      : value.is_number() ? fmt::format("{:.{}f}", value.number(), column.digits)
+                                          : "");
+    }
+    print(cells);
+  };
+}
+
+void print_json(const std::vector<Metrics>& rows) {
+  Json list = Json::array();
+  for (const Metrics& row : rows) list.push_back(to_json(row));
+  std::cout << list.dump(2) << std::endl;
+}
+
 void bench_elements(const Request& request) {
-  const RowPrinter print({{"triangles", "triangles", 9},
-                          {"precision", "precision", 9},
-                          {"element", "element", 7},
-                          {"law", "law", 8},
-                          {"substeps", "substeps", 8},
-                          {"solver_iterations", "iterations", 10, 1},
-                          {"ms_per_step", "ms/step", 8, 3},
-                          {"bytes_per_triangle", "bytes/triangle", 14},
-                          {"device", "device", 0}},
-                         request.json());
+  const auto print = printer({{"triangles", "triangles", 9},
+                              {"precision", "precision", 9},
+                              {"element", "element", 7},
+                              {"law", "law", 8},
+                              {"substeps", "substeps", 8},
+                              {"solver_iterations", "iterations", 10, 1},
+                              {"ms_per_step", "ms/step", 8, 3},
+                              {"bytes_per_triangle", "bytes/triangle", 14},
+                              {"device", "device", -1}},
+                             request.json());
   const std::vector<Metrics> rows = element_costs(request.setup.scene, request.steps(), print);
   if (request.json()) print_json(rows);
 }
 
 void bench_sizes(const Request& request) {
-  const RowPrinter print({{"triangles", "triangles", 9},
-                          {"integrator", "integrator", 13},
-                          {"step_s", "step [s]", 9, 7},
-                          {"ms_per_step", "ms/step", 9, 3},
-                          {"newton_iterations_per_step", "newton", 6, 1},
-                          {"solver_iterations_per_step", "linear", 6, 1},
-                          {"floor_ms_per_step", "floor ms", 9, 4},
-                          {"fraction_of_copy_bandwidth", "fraction", 8, 3},
-                          {"skipped", "left out since it", 0}},
-                         request.json());
+  const auto print = printer({{"triangles", "triangles", 9},
+                              {"integrator", "integrator", 13},
+                              {"step_s", "step [s]", 9, 7},
+                              {"ms_per_step", "ms/step", 9, 3},
+                              {"newton_iterations_per_step", "newton", 6, 1},
+                              {"solver_iterations_per_step", "linear", 6, 1},
+                              {"floor_ms_per_step", "floor ms", 9, 4},
+                              {"fraction_of_copy_bandwidth", "fraction", 8, 3},
+                              {"skipped", "left out since it", -1}},
+                             request.json());
   SizeChoice choice{request.own.sizes_triangles, {}, request.single_steps(), request.own.budget};
   for (const std::string& name : split(request.own.sizes_integrators))
     choice.integrators.push_back(value_named<Integrator>(name));
@@ -117,7 +151,7 @@ void bench_kernels(const Request& request) {
   for (const auto& [key, value] : profile.step) run.metric(key, value);
   run.manifest().device = simulation->device();
   run.manifest().state_hash = fmt::format("{:016x}", simulation->state_hash());
-  write_table(run, profile.kernels);
+  table_of(profile.kernels).write(run.path("table.csv"));
   run.finish();
   if (request.json()) {
     Json all = to_json(profile.step);
@@ -125,13 +159,13 @@ void bench_kernels(const Request& request) {
     std::cout << all.dump(2) << std::endl;
     return;
   }
-  const RowPrinter print({{"calls_per_step", "calls", 7, 1},
-                          {"us_per_call", "us/call", 9, 1},
-                          {"us_per_step", "us/step", 9, 1},
-                          {"share_percent", "share %", 7, 1},
-                          {"fraction_of_copy_bandwidth", "of copy", 7, 3},
-                          {"kernel", "kernel", 0}},
-                         false);
+  const auto print = printer({{"calls_per_step", "calls", 7, 1},
+                              {"us_per_call", "us/call", 9, 1},
+                              {"us_per_step", "us/step", 9, 1},
+                              {"share_percent", "share %", 7, 1},
+                              {"fraction_of_copy_bandwidth", "of copy", 7, 3},
+                              {"kernel", "kernel", -1}},
+                             false);
   for (const Metrics& row : profile.kernels) print(row);
   for (const auto& [key, value] : profile.step) fmt::print("{} {:.6g}\n", key, value.number());
 }

@@ -56,6 +56,18 @@ void set(Metrics& row, const StepCost& cost) {
   row.set("solver_iterations_per_step", cost.solver_iterations);
 }
 
+Table table_of(const std::vector<Metrics>& rows) {
+  Table table;
+  for (const auto& [key, value] : rows.front()) table.head.push_back(key);
+  for (const Metrics& row : rows) {
+    std::vector<Cell> cells;
+    for (const auto& [key, value] : row)
+      cells.push_back(value.is_text() ? Cell(value.text()) : Cell(value.number()));
+    table.row(cells);
+  }
+  return table;
+}
+
 KernelCosts loops_of_steps(Simulation& simulation, int steps) {
   simulation.profile();
   simulation.advance(steps);

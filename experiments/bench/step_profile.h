@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/workbench/app/manifest.h"
+#include "sim/base/csv.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
@@ -33,6 +34,9 @@ struct StepCost {
 StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts = 1);
 // Sets all of it in a row: "ms_per_step", "launches_per_step", ...
 void set(Metrics& row, const StepCost& cost);
+
+// Rows of the keys that the first has.
+Table table_of(const std::vector<Metrics>& rows);
 
 // Loops by their names, of so many steps.  From then on the simulation is profiled, and slower for it.
 KernelCosts loops_of_steps(Simulation& simulation, int steps);

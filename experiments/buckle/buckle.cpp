@@ -102,17 +102,16 @@ void picture(Session& session, const BucklingStrip& strip, double reference) {
 }
 
 // Gamma to the power in which the last of the plot is a straight line, and Gamma over the deflection.
-Table table_of(const Southwell& found, int power) {
-  Table table{{{"gamma [1]", found.gamma},
-               {"deflection [1]", found.deflection},
-               {power == 1 ? "load [1]" : "load squared [1]", {}},
-               {"load over deflection [1]", {}}},
-              {}};
+std::vector<Column> columns_of(const Southwell& found, int power) {
+  std::vector<Column> columns = {{"gamma [1]", found.gamma},
+                                 {"deflection [1]", found.deflection},
+                                 {power == 1 ? "load [1]" : "load squared [1]", {}},
+                                 {"load over deflection [1]", {}}};
   for (std::size_t k = 0; k < found.gamma.size(); ++k) {
-    table.columns[2].values.push_back(std::pow(found.gamma[k], power));
-    table.columns[3].values.push_back(found.gamma[k] / found.deflection[k]);
+    columns[2].values.push_back(std::pow(found.gamma[k], power));
+    columns[3].values.push_back(found.gamma[k] / found.deflection[k]);
   }
-  return table;
+  return columns;
 }
 
 // The curve through the last three states down to the threshold: load over deflection = (1 - x/critical)/(a +
@@ -135,8 +134,9 @@ render::Series fitted(const Southwell& found, int power) {
   return series;
 }
 
-void plot(Session& session, const Table& table, const Southwell& found, double reference, int power) {
-  const std::vector<double>&x = table.columns[2].values, &y = table.columns[3].values;
+void plot(Session& session, const std::vector<Column>& columns, const Southwell& found, double reference,
+          int power) {
+  const std::vector<double>&x = columns[2].values, &y = columns[3].values;
   render::Plot southwell{"Southwell plot, law " + session.scene().law,
                          {power == 1 ? "Gamma" : "square of Gamma"},
                          {"Gamma/(deflection over length)"}};
@@ -168,15 +168,15 @@ int run_buckle(const CommandLine& line) {
   session.reserve({"southwell.csv"}, {"plot_southwell", "plot_deflection"});
 
   const Southwell found = measure(measured, kind, length, session);
-  const Table table = table_of(found, power_of_load(kind));
-  write_csv(session.run().path("southwell.csv"), table);
+  const std::vector<Column> columns = columns_of(found, power_of_load(kind));
+  Table(columns).write(session.run().path("southwell.csv"));
   picture(session, pictured, reference);
   Run& run = session.run();
   run.metric("critical_gamma", found.critical_gamma);
   run.metric("reference_gamma", reference);
   run.metric("error_percent", 100 * (found.critical_gamma / reference - 1));
   run.metric("clamp_effect_percent", 100 * share_of_width(kind, measured, length));
-  if (session.pictures()) plot(session, table, found, reference, power_of_load(kind));
+  if (session.pictures()) plot(session, columns, found, reference, power_of_load(kind));
   session.finish("Buckling, " + choice.kind + ": law " + setup.scene.law);
   return 0;
 }

@@ -185,11 +185,10 @@ constexpr const char* kRecoveryCaption =
     "the load went: friction and set keep what they keep, relaxing branches give it back in time.";
 
 void write_recovery(Run& run, const Recovered& recovered) {
-  CsvFile file(run.path("recovery.csv"),
-               std::vector<CsvField>{"time since the load went [s]", kLogarithm, "opening [degree]"});
+  Table table({"time since the load went [s]", kLogarithm, "opening [degree]"});
   for (std::size_t i = 0; i < recovered.seconds.size(); ++i)
-    file.row({recovered.seconds[i], std::log10(recovered.seconds[i]), recovered.angle[i]});
-  file.commit();
+    table.row({recovered.seconds[i], std::log10(recovered.seconds[i]), recovered.angle[i]});
+  table.write(run.path("recovery.csv"));
   run.manifest().curves = {
       {"plot_recovery", "recovery.csv", kLogarithm, "opening [degree]", false, kRecoveryCaption}};
 }

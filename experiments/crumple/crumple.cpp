@@ -122,9 +122,9 @@ void write_histogram(Session& session) {
   const double bin = 2 * session.scene().fabric.friction_curvature() / kBins;
   const std::vector<double> share =
       area_shares(curvature_size(session.simulation().residual_curvature(), dimension), area, bin, kBins);
-  CsvFile file(session.run().path("residual.csv"), "residual_curvature [1/m],share [%]");
-  for (int k = 0; k < kBins; ++k) file.row({(k + 0.5) * bin, share[k] > 0 ? 100 * share[k] : NAN});
-  file.commit();
+  Table table("residual_curvature [1/m],share [%]");
+  for (int k = 0; k < kBins; ++k) table.row({(k + 0.5) * bin, share[k] > 0 ? 100 * share[k] : NAN});
+  table.write(session.run().path("residual.csv"));
 }
 
 std::vector<TablePlot> plots_of(const std::string& title) {

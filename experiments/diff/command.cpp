@@ -123,13 +123,12 @@ void require_outside(const fs::path& out, const fs::path& folder) {
         .of("out", out.string());
 }
 
-void print_row(const std::string& name, std::size_t width, const std::vector<std::string>& cells) {
-  std::cout << name << std::string(width - name.size(), ' ');
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t column = std::max<std::size_t>(10, std::string(all_measures()[i].name).size());
-    std::cout << "  " << std::string(column - std::min(column, cells[i].size()), ' ') << cells[i];
-  }
-  std::cout << std::endl;
+void print_row(const std::string& name, std::size_t width, std::vector<std::string> cells) {
+  std::vector<int> widths = {-static_cast<int>(width)};
+  for (const Measure& m : all_measures())
+    widths.push_back(static_cast<int>(1 + std::max<std::size_t>(10, std::string(m.name).size())));
+  cells.insert(cells.begin(), name);
+  std::cout << aligned(cells, widths) << std::endl;
 }
 
 std::vector<std::string> cells(const Measures& measures) {
@@ -178,18 +177,18 @@ Json json_of(const FolderDiff& diff) {
 
 // A row for each picture.
 void write_table(const fs::path& path, const FolderDiff& diff) {
-  std::vector<CsvField> head = {"picture"};
+  std::vector<std::string> head = {"picture"};
   for (const Measure& m : all_measures()) head.push_back(m.column);
   head.push_back("error");
-  CsvFile file(path, head);
+  Table table(head);
   for (const FolderDiff::Row& row : diff.rows) {
-    std::vector<CsvField> fields = {row.name};
+    std::vector<Cell> fields = {row.name};
     for (const Measure& m : all_measures())
-      fields.push_back(row.error.empty() ? CsvField(row.measures.*m.value) : CsvField(""));
+      fields.push_back(row.error.empty() ? Cell(row.measures.*m.value) : Cell(""));
     fields.push_back(row.error);
-    file.row(fields);
+    table.row(fields);
   }
-  file.commit();
+  table.write(path);
 }
 
 int diff_folders(const fs::path& a, const fs::path& b, const DiffFlags& flags) {

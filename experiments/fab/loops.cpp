@@ -101,24 +101,24 @@ void add_metrics(Run& run, const ComparedLoops& compared) {
 
 void write_loops(Run& run, const std::string& name, const ComparedLoops& compared) {
   const FabLoops& loops = compared.loops;
-  std::vector<CsvField> head = {"direction", "test",           "branch", "clamp_distance_m",
-                                "force_N",   "gauge_length_m", "width_m"};
+  std::vector<std::string> head = {"direction", "test",           "branch", "clamp_distance_m",
+                                   "force_N",   "gauge_length_m", "width_m"};
   if (compared.measured) head.emplace_back("measured_force_N");
-  CsvFile file(run.path(name), head);
+  Table table(head);
   const BranchForces measured = compared.measured_forces();
   for (std::size_t b = 0; b < loops.branches.size(); ++b)
     for (std::size_t i = 0; i < loops.branches[b].distance.size(); ++i) {
-      std::vector<CsvField> row = {loops.direction,
-                                   loops.test,
-                                   b,
-                                   loops.branches[b].distance[i],
-                                   compared.run.force[b][i] * loops.width,
-                                   loops.gauge,
-                                   loops.width};
+      std::vector<Cell> row = {loops.direction,
+                               loops.test,
+                               b,
+                               loops.branches[b].distance[i],
+                               compared.run.force[b][i] * loops.width,
+                               loops.gauge,
+                               loops.width};
       if (compared.measured) row.emplace_back(measured[b][i] * loops.width);
-      file.row(row);
+      table.row(row);
     }
-  file.commit();
+  table.write(run.path(name));
 }
 
 void draw_loops(Run& run, const std::string& name, const std::string& title, const ComparedLoops& compared) {

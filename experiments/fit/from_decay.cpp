@@ -56,8 +56,8 @@ std::string report_decay(Run& run, const DecayFlags& flags, double density, doub
   std::vector<double> saturated;
   for (const FabForm& form : answer.forms[0])
     if (form.name == "k0 = 50/m") saturated = by(form.found);
-  write_csv(run.path("decay.csv"),
-            {{{"time [s]", series.time}, {"amplitude [m]", series.amplitude}, {"fitted [m]", found}}, {}});
+  Table({{"time [s]", series.time}, {"amplitude [m]", series.amplitude}, {"fitted [m]", found}})
+      .write(run.path("decay.csv"));
   if (pictures) draw_decay(run, series, found, saturated);
   return summary(answer);
 }

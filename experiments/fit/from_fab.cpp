@@ -119,20 +119,20 @@ std::string where_from(const FabFlags& flags, const std::vector<std::string>& di
 }
 
 void write_spectrum(Run& run, const FabIdentification& found) {
-  CsvFile file(run.path("spectrum.csv"), "direction,kind,threshold,stiffness,standard error,unit,determined");
+  Table table("direction,kind,threshold,stiffness,standard error,unit,determined");
   const auto rows = [&](const std::string& direction, const char* kind, const StopsLaw& law,
                         double spring_error, const std::vector<double>& errors,
                         const std::vector<bool>& determined, const char* unit) {
-    file.row({direction, kind, "", law.spring, spring_error, unit, determined[0] ? 1 : 0});
+    table.row({direction, kind, "", law.spring, spring_error, unit, determined[0] ? 1 : 0});
     for (int j = 0; j < law.stops(); ++j)
-      file.row({direction, kind, law.thresholds[j], law.stiffnesses[j], errors[j], unit,
-                determined[j + 1] ? 1 : 0});
+      table.row({direction, kind, law.thresholds[j], law.stiffnesses[j], errors[j], unit,
+                 determined[j + 1] ? 1 : 0});
   };
   for (const FabBending& b : found.bending)
     rows(b.direction, "bending", b.law, b.spring_error, b.stiffness_errors, b.determined, "N m");
   for (const FabTension& t : found.tension)
     rows(t.direction, "tension", t.law, t.spring_error, t.stiffness_errors, t.determined, "N/m");
-  file.commit();
+  table.write(run.path("spectrum.csv"));
 }
 
 void add_fab_metrics(Run& run, const FabAnswer& answer) {
@@ -170,20 +170,19 @@ void add_fab_metrics(Run& run, const FabAnswer& answer) {
 }  // namespace
 
 void write_forms(Run& run, const FabAnswer& answer) {
-  CsvFile file(run.path("forms.csv"),
-               "direction,form,numbers,rms over noise,misfit,excluded (95 %),b2 [N m],HB [N]");
+  Table table("direction,form,numbers,rms over noise,misfit,excluded (95 %),b2 [N m],HB [N]");
   for (std::size_t i = 0; i < answer.found.bending.size(); ++i) {
     const FabBending& best = answer.found.bending[i];
     std::vector<FabForm> all = {{best.is_shaped() ? "shaped" : "stops", best}};
     all.insert(all.end(), answer.forms[i].begin(), answer.forms[i].end());
     for (const FabForm& form : all) {
       const double misfit = form.misfit(best);
-      file.row({best.direction, form.name, static_cast<int>(form.found.form.size()), form.found.residual_rms,
-                misfit, misfit > kLikelihoodFall ? "yes" : "no", form.found.law.spring,
-                form.found.law.friction()});
+      table.row({best.direction, form.name, static_cast<int>(form.found.form.size()), form.found.residual_rms,
+                 misfit, misfit > kLikelihoodFall ? "yes" : "no", form.found.law.spring,
+                 form.found.law.friction()});
     }
   }
-  file.commit();
+  table.write(run.path("forms.csv"));
 }
 
 void add_shape(Run& run, const FabBending& b, const std::string& prefix) {

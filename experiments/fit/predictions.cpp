@@ -81,10 +81,10 @@ std::vector<FabPrediction> predict(const FabAnswer& answer, double density) {
 }
 
 void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) {
-  CsvFile file(run.path("predictions.csv"),
-               "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],error [%],error [uJ/cm],"
-               "one stop area [uJ/cm],one stop error [%],force range [N/m],measured force range [N/m],"
-               "force range error [%],one stop force range error [%]");
+  Table table(
+      "loop,fitted on,is fitted,area [uJ/cm],measured area [uJ/cm],error [%],error [uJ/cm],"
+      "one stop area [uJ/cm],one stop error [%],force range [N/m],measured force range [N/m],"
+      "force range error [%],one stop force range error [%]");
   for (const FabPrediction& p : predictions) {
     const FabLoops& loops = p.stops.loops;
     const BranchForces measured = p.stops.measured_forces();
@@ -94,12 +94,12 @@ void write_predictions(Run& run, const std::vector<FabPrediction>& predictions) 
       const double one = kMicroPerCentimetre * loop_area(loops, p.one_stop.run.force, cycle);
       const double range = force_range(p.stops.run.force, cycle), seen_range = force_range(measured, cycle);
       const double one_range = force_range(p.one_stop.run.force, cycle);
-      file.row({loops.name() + " cycle " + std::to_string(cycle + 1), p.fitted_on, p.fitted[cycle] ? 1 : 0,
-                area, seen, 100 * (area / seen - 1), area - seen, one, 100 * (one / seen - 1), range,
-                seen_range, 100 * (range / seen_range - 1), 100 * (one_range / seen_range - 1)});
+      table.row({loops.name() + " cycle " + std::to_string(cycle + 1), p.fitted_on, p.fitted[cycle] ? 1 : 0,
+                 area, seen, 100 * (area / seen - 1), area - seen, one, 100 * (one / seen - 1), range,
+                 seen_range, 100 * (range / seen_range - 1), 100 * (one_range / seen_range - 1)});
     }
   }
-  file.commit();
+  table.write(run.path("predictions.csv"));
 }
 
 void write_compared_loops(Run& run, const std::vector<FabPrediction>& predictions) {

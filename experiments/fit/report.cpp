@@ -37,16 +37,15 @@ void add_metrics(Run& run, const Identification& found, const std::string& prefi
 }
 
 void write_rows(Run& run, const std::vector<Identification>& fits) {
-  Table table;
-  table.columns = {{"curvature [1/m]", fits[0].curvature}, {"moment [N]", fits[0].moment}};
+  std::vector<Column> columns = {{"curvature [1/m]", fits[0].curvature}, {"moment [N]", fits[0].moment}};
   for (const Identification& fit : fits) {
     const std::string law = fits.size() > 1 ? "_" + fit.law : "";
     Column residual{"residual" + law + " [N]", fit.moment};
     for (std::size_t i = 0; i < fit.model.size(); ++i) residual.values[i] -= fit.model[i];
-    table.columns.push_back({"model" + law + " [N]", fit.model});
-    table.columns.push_back(residual);
+    columns.push_back({"model" + law + " [N]", fit.model});
+    columns.push_back(residual);
   }
-  write_csv(run.path("fit.csv"), table);
+  Table(columns).write(run.path("fit.csv"));
 }
 
 std::string percent_text(const Identification& fit) {
@@ -85,18 +84,17 @@ void report_fits(Run& run, const std::vector<Identification>& fits, const Fabric
 }
 
 void report_stops(Run& run, const std::vector<Stop>& stops) {
-  Table table;
-  table.columns = {{"threshold [1/m]", {}}, {"stiffness [N m]", {}}};
+  Column threshold{"threshold [1/m]", {}}, stiffness{"stiffness [N m]", {}};
   for (std::size_t j = 0; j < stops.size(); ++j) {
     const std::string name = "stop" + std::to_string(j + 1);
-    table.columns[0].values.push_back(stops[j].threshold);
-    table.columns[1].values.push_back(stops[j].stiffness);
+    threshold.values.push_back(stops[j].threshold);
+    stiffness.values.push_back(stops[j].stiffness);
     run.metric(name + "_threshold_per_m", stops[j].threshold);
     run.metric(name + "_threshold_per_m_stderr", stops[j].threshold_error);
     run.metric(name + "_stiffness_N_m", stops[j].stiffness);
     run.metric(name + "_stiffness_N_m_stderr", stops[j].stiffness_error);
   }
-  write_csv(run.path("stops.csv"), table);
+  Table({threshold, stiffness}).write(run.path("stops.csv"));
 }
 
 std::string summary(const std::vector<Identification>& fits) {

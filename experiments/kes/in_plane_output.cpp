@@ -118,23 +118,22 @@ void write_in_plane_metrics(Run& run, const std::vector<InPlaneResult>& results)
 }
 
 void write_in_plane_tables(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {
-  CsvFile file(run.path("table.csv"),
-               "fabric,number,published,law,strip,strip of a quarter of the triangles");
+  Table table("fabric,number,published,law,strip,strip of a quarter of the triangles");
   for (const InPlaneResult& result : results) {
     const auto write = [&](const std::string& name, const InPlaneLoop& loop) {
-      write_csv(run.path(name + ending(results, result) + ".csv"),
-                {{{axis_of(test), loop.x}, {"force per width [N/m]", loop.force}}, {}});
+      Table({{axis_of(test), loop.x}, {"force per width [N/m]", loop.force}})
+          .write(run.path(name + ending(results, result) + ".csv"));
     };
     write("loops", result.law);
     const bool cloth = !result.cloth.numbers.empty();
     if (cloth) write("strip", result.cloth);
     for (std::size_t i = 0; i < result.law.numbers.size(); ++i) {
       const InPlaneNumber& n = result.law.numbers[i];
-      file.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
-                cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
+      table.row({result.fabric.name, n.label, published(result.fabric, n.key), n.value,
+                 cloth ? result.cloth.numbers[i].value : NAN, cloth ? result.coarse.numbers[i].value : NAN});
     }
   }
-  file.commit();
+  table.write(run.path("table.csv"));
 }
 
 void write_in_plane_plots(Run& run, const std::vector<InPlaneResult>& results, InPlaneTest test) {

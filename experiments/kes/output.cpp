@@ -40,57 +40,57 @@ std::vector<std::size_t> shown_rows(const KesWalk& walk, int steps) {
 void write_loops(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& protocol) {
   const KesWalk& walk = fabrics.front().reference.walk;
   const std::vector<std::size_t> rows = shown_rows(walk, protocol.steps);
-  Table table{{{"curvature [1/m]", {}}, {"time [s]", {}}}, {}};
+  std::vector<Column> columns = {{"curvature [1/m]", {}}, {"time [s]", {}}};
   std::vector<double> time;
   for (const LawRow& row : walk.rows) time.push_back((time.empty() ? 0 : time.back()) + row.seconds);
   for (std::size_t i : rows) {
-    table.columns[0].values.push_back(walk.rows[i].curvature);
-    table.columns[1].values.push_back(time[i]);
+    columns[0].values.push_back(walk.rows[i].curvature);
+    columns[1].values.push_back(time[i]);
   }
   for (const KesFabric& fabric : fabrics) {
     for (const KesResult& result : fabric.results) {
-      table.columns.push_back({moment_column(result), {}});
-      for (std::size_t i : rows) table.columns.back().values.push_back(result.test.moment[i]);
+      columns.push_back({moment_column(result), {}});
+      for (std::size_t i : rows) columns.back().values.push_back(result.test.moment[i]);
     }
   }
-  write_csv(run.path("loops.csv"), table);
+  Table(columns).write(run.path("loops.csv"));
 }
 
 void write_minor_loops(Run& run, const std::vector<KesFabric>& fabrics, const KesProtocol& protocol) {
   const std::vector<MinorLoop>& shape = fabrics.front().reference.minor_loops;
   const std::size_t stride = std::max(1, protocol.steps / kShownSteps);
-  Table table{{{"family", {}}, {"reversal [1/m]", {}}, {"curvature [1/m]", {}}}, {}};
+  std::vector<Column> columns = {{"family", {}}, {"reversal [1/m]", {}}, {"curvature [1/m]", {}}};
   for (const KesFabric& fabric : fabrics)
-    for (const KesResult& result : fabric.results) table.columns.push_back({moment_column(result), {}});
+    for (const KesResult& result : fabric.results) columns.push_back({moment_column(result), {}});
   for (std::size_t loop = 0; loop < shape.size(); ++loop) {
     for (std::size_t i = 0; i < shape[loop].curvature.size(); i += stride) {
-      table.columns[0].values.push_back(static_cast<int>(shape[loop].family));
-      table.columns[1].values.push_back(shape[loop].reversal);
-      table.columns[2].values.push_back(shape[loop].curvature[i]);
+      columns[0].values.push_back(static_cast<int>(shape[loop].family));
+      columns[1].values.push_back(shape[loop].reversal);
+      columns[2].values.push_back(shape[loop].curvature[i]);
       std::size_t column = 3;
       for (const KesFabric& fabric : fabrics)
         for (const KesResult& result : fabric.results)
-          table.columns[column++].values.push_back(result.test.minor_loops[loop].moment[i]);
+          columns[column++].values.push_back(result.test.minor_loops[loop].moment[i]);
     }
   }
-  write_csv(run.path("minor_loops.csv"), table);
+  Table(columns).write(run.path("minor_loops.csv"));
 }
 
 void write_readings(Run& run, const std::vector<KesFabric>& fabrics) {
-  CsvFile file(run.path("table.csv"),
-               "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
-               "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma");
+  Table table(
+      "fabric,law,B [N m],2HB [N],residual curvature [1/m],residual by formula [1/m],"
+      "loop area [J/m2],reversals |M| <= Ma,reversals |M| <= 2Ma,reversals |M| > 2Ma");
   for (const KesFabric& fabric : fabrics) {
     for (const KesResult& result : fabric.results) {
       const KesReading& r = result.test.reading;
-      std::vector<CsvField> fields = {fabric.fabric.name, result.law};
+      std::vector<Cell> fields = {fabric.fabric.name, result.law};
       for (double value : {r.rigidity, r.loop_width, r.residual, r.residual_by_formula, r.loop_area})
         fields.push_back(std::isnan(value) ? "" : fmt::format("{:.9g}", value));
       for (int count : result.test.recovery_cases) fields.push_back(count);
-      file.row(fields);
+      table.row(fields);
     }
   }
-  file.commit();
+  table.write(run.path("table.csv"));
 }
 
 // B and 2HB in SI as the fabric's source prints them; NaN where it does not.

@@ -53,9 +53,9 @@ void write_metrics_of(Run& run, const std::string& p, const StripResult& strip, 
 std::string four_digits(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_row(const std::string& name, const std::vector<std::string>& cells) {
-  fmt::print("{:<19}", name);
-  for (const std::string& cell : cells) fmt::print(" {:>13}", cell);
-  fmt::print("\n");
+  std::vector<std::string> row = {name};
+  row.insert(row.end(), cells.begin(), cells.end());
+  fmt::print("{}\n", aligned(row, {-19, 13}));
 }
 
 StripDifference difference(const StripTest& strip, double amplitude) {
@@ -83,18 +83,18 @@ void write_strip_metrics(Run& run, const std::string& prefix, double amplitude,
 }
 
 void write_strip_table(Run& run, const std::string& ending, const std::vector<StripResult>& strips) {
-  Table table;
+  std::vector<Column> columns;
   for (const StripResult& strip : strips) {
     if (!strip.failure.empty()) continue;
-    if (table.columns.empty()) {
-      table.columns = {{"curvature [1/m]", {}}, {"law moment [N]", strip.test.law_moment}};
-      for (const LawRow& row : strip.walk.rows) table.columns[0].values.push_back(row.curvature);
+    if (columns.empty()) {
+      columns = {{"curvature [1/m]", {}}, {"law moment [N]", strip.test.law_moment}};
+      for (const LawRow& row : strip.walk.rows) columns[0].values.push_back(row.curvature);
     }
-    table.columns.push_back({strip.mesh + " moment [N]", strip.test.moment});
+    columns.push_back({strip.mesh + " moment [N]", strip.test.moment});
     if (!strip.test.free_curvature.empty())
-      table.columns.push_back({strip.mesh + " free curvature [1/m]", strip.test.free_curvature});
+      columns.push_back({strip.mesh + " free curvature [1/m]", strip.test.free_curvature});
   }
-  if (!table.columns.empty()) write_csv(run.path("strip" + ending + ".csv"), table);
+  if (!columns.empty()) Table(columns).write(run.path("strip" + ending + ".csv"));
 }
 
 void print_strips(double amplitude, const std::vector<StripResult>& strips) {

@@ -32,23 +32,26 @@ void check_curve(const VirginCurve& curve) {
   if (!(curve.k0 >= 0) || !std::isfinite(curve.k0)) refuse("k0", curve.k0, "1/m", "finite and >= 0");
 }
 
+// None where the column is not there.
+std::vector<double> numbers_of(const Table& table, const std::string& column) {
+  return table.find(column) ? table.numbers(column) : std::vector<double>{};
+}
+
 void check_time(const Table& table) {
-  const Column* time = table.find(kTime);
-  if (!time) return;
-  for (size_t row = 1; row < time->values.size(); ++row) {
-    if (time->values[row] < time->values[row - 1]) {
-      throw table.refusal(row, "time = " + with_unit(time->values[row], "s") + " must be >= " +
-                                   with_unit(time->values[row - 1], "s") + ", the time of the row before");
+  const std::vector<double> time = numbers_of(table, kTime);
+  for (size_t row = 1; row < time.size(); ++row) {
+    if (time[row] < time[row - 1]) {
+      throw table.refusal(row, "time = " + with_unit(time[row], "s") + " must be >= " +
+                                   with_unit(time[row - 1], "s") + ", the time of the row before");
     }
   }
 }
 
 void check_edit(const Table& table) {
-  const Column* edit = table.find(kEdit);
-  if (!edit) return;
-  for (size_t row = 0; row < edit->values.size(); ++row) {
-    if (edit->values[row] != 0 && edit->values[row] != 1) {
-      throw table.refusal(row, "edit = " + with_unit(edit->values[row], "must be 0 or 1"));
+  const std::vector<double> edit = numbers_of(table, kEdit);
+  for (size_t row = 0; row < edit.size(); ++row) {
+    if (edit[row] != 0 && edit[row] != 1) {
+      throw table.refusal(row, "edit = " + with_unit(edit[row], "must be 0 or 1"));
     }
   }
 }
@@ -56,7 +59,7 @@ void check_edit(const Table& table) {
 constexpr double kSharpest = 1e6;  // [1/m] of a bend; fibres are thicker than its radius, 1 um
 
 void check_curvature(const Table& table) {
-  const std::vector<double>& curvature = table.find(kCurvature)->values;
+  const std::vector<double> curvature = table.numbers(kCurvature);
   for (size_t row = 0; row < curvature.size(); ++row) {
     if (std::abs(curvature[row]) > kSharpest)
       throw table.refusal(row, "curvature = " + with_unit(curvature[row], "1/m") + " must be within +-" +
@@ -65,11 +68,11 @@ void check_curvature(const Table& table) {
 }
 
 // Parameters of any size are allowed; what they make of a curvature may be beyond all numbers.
-void check_results(const Table& results, const Table& table) {
+void check_results(const std::vector<Column>& results, const Table& table) {
   for (size_t row = 0; row < table.lines.size(); ++row) {
-    for (const Column& column : results.columns) {
+    for (const Column& column : results) {
       if (!std::isfinite(column.values[row]))
-        throw table.refusal(row, "at curvature = " + with_unit(results.columns[0].values[row], "1/m") +
+        throw table.refusal(row, "at curvature = " + with_unit(results[0].values[row], "1/m") +
                                      " the law's " + column.name +
                                      " is no finite number; take smaller b1, b2, k0 or parameters");
     }
@@ -77,13 +80,13 @@ void check_results(const Table& results, const Table& table) {
 }
 
 std::vector<LawRow> rows_of(const Table& table) {
-  const std::vector<double>& curvature = table.find(kCurvature)->values;
-  const Column *time = table.find(kTime), *edit = table.find(kEdit);
+  const std::vector<double> curvature = table.numbers(kCurvature), time = numbers_of(table, kTime),
+                            edit = numbers_of(table, kEdit);
   std::vector<LawRow> rows;
   for (size_t i = 0; i < curvature.size(); ++i) {
     LawRow row{curvature[i]};
-    if (time) row.seconds = i == 0 ? 0 : time->values[i] - time->values[i - 1];
-    if (edit) row.edit = edit->values[i] == 1;
+    if (!time.empty()) row.seconds = i == 0 ? 0 : time[i] - time[i - 1];
+    if (!edit.empty()) row.edit = edit[i] == 1;
     rows.push_back(row);
   }
   return rows;
@@ -123,16 +126,15 @@ int run_law_command(const LawOptions& options) {
   check_edit(table);
   const std::vector<LawRow> rows = rows_of(table);
   const LawRun run = run_law(request, rows);
-  Table results{{{kCurvature, table.find(kCurvature)->values},
-                 {"moment [N]", run.moment},
-                 {"tangent [N m]", run.tangent},
-                 {"stored [J/m2]", run.stored},
-                 {"dissipated [J/m2]", run.dissipated}},
-                {}};
-  if (!run.relaxed.empty()) results.columns.push_back({"relaxed [J/m2]", run.relaxed});
+  std::vector<Column> results = {{kCurvature, table.numbers(kCurvature)},
+                                 {"moment [N]", run.moment},
+                                 {"tangent [N m]", run.tangent},
+                                 {"stored [J/m2]", run.stored},
+                                 {"dissipated [J/m2]", run.dissipated}};
+  if (!run.relaxed.empty()) results.push_back({"relaxed [J/m2]", run.relaxed});
   check_results(results, table);
   std::cout << recovery_summary(request, rows, run) << stops_summary(request);
-  write_csv(options.out, results);
+  Table(results).write(options.out);
   return 0;
 }
 

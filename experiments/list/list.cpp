@@ -2,12 +2,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 
 #include "experiments/list/list_json.h"
 #include "experiments/list/tried_devices.h"
 #include "experiments/workbench/app/experiment.h"
+#include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_run.h"
 #include "sim/reference/kes.h"
@@ -21,10 +21,7 @@ namespace {
 std::string short_number(double x, int digits = 4) { return fmt::format("{:.{}g}", x, digits); }
 
 void print_row(const std::vector<std::string>& cells, const std::vector<int>& widths) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool last = i + 1 == cells.size();
-    std::cout << std::left << std::setw(last ? 0 : widths[i]) << cells[i] << (last ? "\n" : " ");
-  }
+  std::cout << aligned(cells, widths) << "\n";
 }
 
 // Who measured the bending: the source of the first published number, else that of B or b2.
@@ -76,7 +73,7 @@ void print_parts(const FabricFile& file) {
 }
 
 void list_fabrics_table() {
-  const std::vector<int> widths = {20, 11, 10, 11, 9, 17};
+  const std::vector<int> widths = {-20, -11, -10, -11, -9, -17};
   print_row({"fabric", "B [N m]", "2HB [N]", "HB/B [1/m]", "K0 [1/m]", "density [kg/m^2]", "bending from"},
             widths);
   for (const FabricFile& file : list_fabrics()) {
@@ -95,7 +92,7 @@ void list_fabrics_table() {
 // Every number of one fabric with its unit, how it is known, between which numbers it may lie, and its
 // source.
 void list_numbers(const FabricFile& file) {
-  const std::vector<int> widths = {25, 24, 11, 10, 16};
+  const std::vector<int> widths = {-25, -24, -11, -10, -16};
   std::cout << file.fabric.name << ": " << file.description << "\n";
   print_row({"number", "value", "unit", "known", "range", "from"}, widths);
   for (const StatedNumber& number : stated_numbers(file))
@@ -115,17 +112,17 @@ void list_laws() {
     std::string parameters;
     for (const std::string& name : law_parameter_names(law.name))
       parameters += (parameters.empty() ? "" : " ") + name;
-    print_row({law.name, law.description + (parameters.empty() ? "" : " [" + parameters + "]")}, {15});
+    print_row({law.name, law.description + (parameters.empty() ? "" : " [" + parameters + "]")}, {-15});
   }
 }
 
 void list_scenes() {
-  for (const std::string& name : list_assets("scenes")) print_row({name}, {});
+  for (const std::string& name : list_assets("scenes")) print_row({name}, {-1});
 }
 
 void list_devices() {
   for (const TriedDevice& device : tried_devices())
-    print_row({device.kind, device.name + (device.failure.empty() ? "" : ": " + device.failure)}, {10});
+    print_row({device.kind, device.name + (device.failure.empty() ? "" : ": " + device.failure)}, {-10});
 }
 
 struct ListFlags {

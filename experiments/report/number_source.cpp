@@ -96,15 +96,17 @@ Found metric_of(const Json& manifest, const std::string& key, const std::string&
 std::string text_in(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 // A CSV file, or a list of objects of which each is a row.
-TextTable table_at(const fs::path& path, const std::string& file) {
-  if (path.extension() == ".csv") return read_words(path);
+Table table_at(const fs::path& path, const std::string& file) {
+  Table table;
+  if (path.extension() == ".csv") table = read_table(path);
+  table.file = file;
+  if (path.extension() == ".csv") return table;
   const Json list = read_json(path);
-  TextTable table;
   if (!list.is_array())
     throw Error::invalid_input(file + " is no list: it needs a JSON pointer such as /steps");
   for (const Json& object : list)
     for (const auto& [key, value] : object.items())
-      if (std::find(table.head.begin(), table.head.end(), key) == table.head.end()) table.head.push_back(key);
+      if (!table.find(key)) table.head.push_back(key);
   for (const Json& object : list) {
     table.rows.emplace_back();
     for (const std::string& key : table.head)
@@ -113,48 +115,36 @@ TextTable table_at(const fs::path& path, const std::string& file) {
   return table;
 }
 
-std::size_t column_of(const TextTable& table, const std::string& name, const std::string& file) {
-  for (std::size_t c = 0; c < table.head.size(); ++c)
-    if (table.head[c] == name) return c;
-  throw Error::invalid_input(file + " has no column " + name + hint(name, table.head));
+std::size_t place_of(const Table& table, const std::string& column) {
+  if (const auto place = table.find(column)) return *place;
+  throw Error::invalid_input(table.file + " has no column " + column + hint(column, table.head));
 }
 
 // "10" is the row that starts so, "law=wong&element=hinge" the one with these fields.
-std::vector<std::pair<std::size_t, std::string>> conditions(const TextTable& table, const std::string& row,
-                                                            const std::string& file) {
-  std::vector<std::pair<std::size_t, std::string>> wanted;
-  for (const auto& r : table.rows)
-    if (r[0] == row) return {{0, row}};
-  if (row.find('=') == row.npos) return {{0, row}};
+Table rows_at(const Table& table, const std::string& row) {
+  const auto begins = [&](const auto& fields) { return fields[0] == row; };
+  if (std::any_of(table.rows.begin(), table.rows.end(), begins) || row.find('=') == row.npos)
+    return table.where(table.head[0], row);
+  Table found = table;
   std::istringstream parts(row);
   for (std::string part; std::getline(parts, part, '&');) {
-    const std::size_t equals = std::min(part.find('='), part.size());
-    if (equals == part.size()) throw Error::invalid_input("\"" + part + "\" must be column=value");
-    wanted.emplace_back(column_of(table, part.substr(0, equals), file), part.substr(equals + 1));
+    const std::size_t equals = part.find('=');
+    if (equals == part.npos) throw Error::invalid_input("\"" + part + "\" must be column=value");
+    const std::string& column = table.head[place_of(table, part.substr(0, equals))];
+    found = found.where(column, part.substr(equals + 1));
   }
-  return wanted;
+  return found;
 }
 
-// Whether a field of a table is the one that is asked for; "4.0" is 4.
-bool same(const std::string& field, const std::string& asked) {
-  return field == asked || (as_number(field) && as_number(field) == as_number(asked));
-}
-
-Found cell_of(const TextTable& table, const std::string& row, const std::string& column,
-              const std::string& file) {
-  const auto wanted = conditions(table, row, file);
-  const std::size_t at = column_of(table, column, file);
-  const std::vector<std::string>* found = nullptr;
-  for (const auto& candidate : table.rows) {
-    bool fits = true;
-    for (const auto& [c, value] : wanted) fits = fits && same(candidate[c], value);
-    if (fits && found) throw Error::invalid_input(file + " has several rows " + row);
-    if (fits) found = &candidate;
-  }
-  if (!found) throw Error::invalid_input(file + " has no row " + row);
-  Found cell{as_number((*found)[at]).value_or(std::nan("")), (*found)[at], column, {}};
+Found cell_of(const Table& table, const std::string& row, const std::string& column) {
+  const Table fitting = rows_at(table, row);
+  const std::size_t at = place_of(table, column);
+  if (fitting.rows.size() > 1) throw Error::invalid_input(table.file + " has several rows " + row);
+  if (fitting.rows.empty()) throw Error::invalid_input(table.file + " has no row " + row);
+  const std::vector<std::string>& found = fitting.rows[0];
+  Found cell{as_number(found[at]).value_or(std::nan("")), found[at], column, {}};
   for (std::size_t c = 0; c < table.head.size(); ++c)
-    if (const auto value = as_number((*found)[c])) cell.beside[table.head[c]] = *value;
+    if (const auto value = as_number(found[c])) cell.beside[table.head[c]] = *value;
   return cell;
 }
 
@@ -167,10 +157,10 @@ Found found_in(const std::string& file, const fs::path& folder, Words& words) {
     if (!fs::exists(path)) throw Error::invalid_input("no file " + file);
     return metric_of(read_json(path.parent_path() / "manifest.json"), words.next("a metric"), file);
   }
-  const TextTable table = table_at(path, file);
+  const Table table = table_at(path, file);
   std::string row = words.next("a row");
   while (words.ahead().find('=') != std::string::npos) row += "&" + words.next("a column");
-  return cell_of(table, row, words.next("a column"), file);
+  return cell_of(table, row, words.next("a column"));
 }
 
 struct Format {
@@ -231,12 +221,8 @@ bool names_a_file(const std::string& word) { return word.ends_with(".csv") || wo
 
 std::vector<std::string> values_of_column(const std::string& target, const std::string& column,
                                           const fs::path& folder) {
-  const TextTable table = table_at(folder / target, target);
-  const std::size_t at = column_of(table, column, target);
-  std::vector<std::string> values;
-  for (const auto& row : table.rows)
-    if (std::find(values.begin(), values.end(), row[at]) == values.end()) values.push_back(row[at]);
-  return values;
+  const Table table = table_at(folder / target, target);
+  return table.values(table.head[place_of(table, column)]);
 }
 
 std::string number_from(const NumberSource& source, const fs::path& folder) {

@@ -1,13 +1,19 @@
 // `hysteron stability`: maps of what stays stable, and the explicit limit against the bound in use.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "experiments/stability/output.h"
+#include "experiments/stability/limit.h"
+#include "experiments/stability/stability.h"
 #include "experiments/workbench/app/experiment.h"
 #include "experiments/workbench/app/run.h"
+#include "experiments/workbench/compare/table_maps.h"
 #include "experiments/workbench/pages/report.h"
 #include "sim/base/comma_list.h"
+#include "sim/base/csv.h"
+#include "sim/scene/scene_reader.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -53,8 +59,8 @@ SweepChoice choice_of(const F& flags) {
   return choice;
 }
 
-std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& run) {
-  std::vector<Cell> cells = cells_of(sweeps, choice_of(flags));
+std::vector<SweepCell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& run) {
+  std::vector<SweepCell> cells = cells_of(sweeps, choice_of(flags));
   const auto stage = run.stage("cells");
   const std::size_t every = std::max<std::size_t>(1, cells.size() / 20);
   try_all(cells, flags.effort, threads_of(flags), [&](std::size_t done) {
@@ -62,6 +68,114 @@ std::vector<Cell> tried(const F& flags, const std::vector<Sweep>& sweeps, Run& r
       run.progress(std::to_string(done) + " of " + std::to_string(cells.size()) + " cells");
   });
   return cells;
+}
+
+// cells.csv: a row for each cell; what was not measured of those that were refused is empty.
+Table table_of(const std::vector<SweepCell>& cells) {
+  Table table(
+      "sweep,integrator,variant,x,y,law,element,precision,step [s],outcome,energy growth,"
+      "ledger remainder,largest stretch,seconds asked [s],seconds simulated [s],steps,substeps per step,"
+      "retried steps,wall [s],message");
+  for (const SweepCell& cell : cells) {
+    const Scene& scene = cell.attempt.scene;
+    const Finding& f = cell.finding;
+    const auto if_ran = [&](const Cell& field) { return f.outcome != Outcome::refused ? field : Cell(""); };
+    table.row({cell.sweep,
+               cell.integrator,
+               cell.variant,
+               cell.x,
+               cell.y,
+               scene.law,
+               name_of(scene.element),
+               name_of(scene.precision),
+               scene.step,
+               name_of(f.outcome),
+               if_ran(f.energy_growth),
+               if_ran(f.remainder),
+               if_ran(f.largest_stretch),
+               f.seconds_asked,
+               if_ran(f.seconds_simulated),
+               if_ran(f.steps),
+               if_ran(f.substeps),
+               if_ran(f.retried_steps),
+               f.wall_seconds,
+               f.message});
+  }
+  return table;
+}
+
+// cells, ended, retried, refused, diverged of all and of each integrator, also on stdout; diverged_default.
+void count(Run& run, const Table& cells, bool print) {
+  const std::vector<int> widths = {-14, 9};
+  const auto outcomes = names(Outcome{});
+  const auto count_of = [&](const Table& rows, const std::string& prefix) {
+    std::vector<std::string> counts = {prefix.substr(0, prefix.find('.'))};
+    run.metric(prefix + "cells", rows.rows.size());
+    for (const char* outcome : outcomes) {
+      const std::size_t n = rows.where("outcome", outcome).rows.size();
+      counts.push_back(std::to_string(n));
+      run.metric(prefix + outcome, n);
+    }
+    return counts;
+  };
+  std::vector<std::string> head = {"integrator"};
+  head.insert(head.end(), outcomes.begin(), outcomes.end());
+  std::string printed = aligned(head, widths) + "\n";
+  count_of(cells, "");
+  for (const std::string& integrator : cells.values("integrator"))
+    printed += aligned(count_of(cells.where("integrator", integrator), integrator + "."), widths) + "\n";
+  const Table usual = cells.where("integrator", name_of(default_scene().integrator));
+  run.metric("diverged_default", usual.where("outcome", "diverged").rows.size());
+  if (print) fmt::print("{}", printed);
+}
+
+// Apart for colour-blind eyes and in grey (Okabe & Ito 2008, lightened so that numbers can be read on them).
+const std::vector<render::CellKind> kKinds = {{"ended", "#BFE3D5"},
+                                              {"retried", "#F5E27A"},
+                                              {"refused, with the reason", "#C9C9C9"},
+                                              {"diverged", "#D55E00"}};
+
+// plot_SWEEP: a map for each integrator and variant.
+void draw_maps(Run& run, const std::vector<Sweep>& sweeps, const Table& cells) {
+  for (const Sweep& sweep : sweeps) {
+    const Table part = cells.where("sweep", sweep.name);
+    render::HeatMaps page{
+        sweep.title, "Number: explicit substeps per step.", {sweep.x.label, {}}, {sweep.y.label, {}}, kKinds,
+        {}};
+    add_maps(page, part, {{"integrator", "variant"}, "x", "y"}, [&](const std::vector<std::size_t>& rows) {
+      const auto outcome = value_named<Outcome>(part.word(rows[0], "outcome"));
+      const bool several = part.number(rows[0], "substeps per step") > 1;
+      return render::HeatMapCell{static_cast<int>(outcome),
+                                 several ? part.word(rows[0], "substeps per step") : ""};
+    });
+    page.cell_width = page.x.ticks.size() > 10 ? 40 : 46;
+    page.cell_height = page.y.ticks.size() > 10 ? 24 : 34;
+    page.columns = static_cast<int>(page.maps.size() / sweep.variants.size());
+    run.plot("plot_" + sweep.name,
+             [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
+  }
+}
+
+// limit.csv, limit_smallest_ratio and limit_largest_ratio.
+void write_limits(Run& run, const std::vector<MeasuredLimit>& limits) {
+  Table table(
+      "mesh,element,edge,law,damping [s],largest amplitude [m],bound [s],measured [s],measured/bound");
+  double least = kMaxRatio, most = 0, least_resonant = kMaxRatio;
+  for (const MeasuredLimit& limit : limits) {
+    const LimitCase& of = limit.of;
+    table.row({of.mesh, name_of(of.element), of.held ? "held" : "free", of.condition.law,
+               of.condition.damping, of.condition.amplitudes.back(), limit.bound, limit.measured,
+               limit.ratio()});
+    if (of.condition.resonates() && of.condition.damping == 0) {
+      least_resonant = std::min(least_resonant, limit.ratio());
+      continue;
+    }
+    least = std::min(least, limit.ratio()), most = std::max(most, limit.ratio());
+  }
+  table.write(run.path("limit.csv"));
+  run.metric("limit_smallest_ratio", least);
+  run.metric("limit_largest_ratio", most);
+  if (least_resonant < kMaxRatio) run.metric("undamped_resonance_smallest_ratio", least_resonant);
 }
 
 int run_stability(const CommandLine& line) {
@@ -79,11 +193,10 @@ int run_stability(const CommandLine& line) {
   if (!sweeps.empty()) run.reserve({"cells.csv"});
   if (with_limit) run.reserve({"limit.csv"});
   if (!sweeps.empty()) {
-    const std::vector<Cell> cells = tried(flags, sweeps, run);
-    write_cells(run, sweeps, cells);
-    write_counts(run, cells);
+    const Table cells = table_of(tried(flags, sweeps, run));
+    cells.write(run.path("cells.csv"));
+    count(run, cells, !flags.options.json);
     if (!flags.options.no_images) draw_maps(run, sweeps, cells);
-    if (!flags.options.json) print_counts(cells);
   }
   if (with_limit) {
     const std::vector<MeasuredLimit> limits = measure_limits(

@@ -113,19 +113,9 @@ const NamedAttempt kContacts[] = {
 }  // namespace
 
 Sweep contact_sweep(const SweepChoice& choice) {
-  Sweep sweep{"contact",
-              "Layers, solids and hands",
-              {"law", choice.few_laws()},
-              axis_of("scene", kContacts),
-              {"step 1/240 s", "step 1/60 s"},
-              {}};
-  sweep.at = [laws = sweep.x.ticks](int variant, int column, int row) {
-    Attempt attempt = kContacts[row].make();
-    attempt.scene.law = laws[column];
-    attempt.scene.step = variant == 0 ? 1.0 / 240 : 1.0 / 60;
-    return attempt;
-  };
-  return sweep;
+  return named_sweep("contact", "Layers, solids and hands", "scene", kContacts, choice.few_laws(),
+                     {"step 1/240 s", "step 1/60 s"},
+                     [](Scene& scene, int variant) { scene.step = variant == 0 ? 1.0 / 240 : 1.0 / 60; });
 }
 
 }  // namespace hysteron::experiments

@@ -10,20 +10,26 @@ namespace {
 
 constexpr double kSide = 0.2;  // [m]
 
+// An axis whose ticks stand for numbers, ascending.
+struct NumberAxis {
+  render::CellAxis axis;
+  std::vector<double> values;
+};
+
 // 1e-8, "1e-8": a decade a tick.
-SweepAxis decades(const std::string& label, int from, int to, int every) {
-  SweepAxis axis{label, {}};
+NumberAxis decades(const std::string& label, int from, int to, int every) {
+  NumberAxis decades{{label, {}}, {}};
   for (int e = from; e <= to; e += every) {
-    axis.values.push_back(std::pow(10.0, e));
-    axis.ticks.push_back(e >= 0 && e <= 2 ? number_text(axis.values.back()) : "1e" + std::to_string(e));
+    decades.values.push_back(std::pow(10.0, e));
+    decades.axis.ticks.push_back(e >= 0 && e <= 2 ? number_text(decades.values.back())
+                                                  : "1e" + std::to_string(e));
   }
-  return axis;
+  return decades;
 }
 
-SweepAxis steps(bool quick) {
-  if (quick) return {"step", {"0.1 ms", "1/60 s"}, {1e-4, 1.0 / 60}};
-  return {"step",
-          {"0.01 ms", "0.1 ms", "1 ms", "1/240 s", "1/60 s", "1/24 s"},
+NumberAxis steps(bool quick) {
+  if (quick) return {{"step", {"0.1 ms", "1/60 s"}}, {1e-4, 1.0 / 60}};
+  return {{"step", {"0.01 ms", "0.1 ms", "1 ms", "1/240 s", "1/60 s", "1/24 s"}},
           {1e-5, 1e-4, 1e-3, 1.0 / 240, 1.0 / 60, 1.0 / 24}};
 }
 
@@ -43,13 +49,14 @@ Scene falling_square() {
   return scene;
 }
 
-Sweep against_step(const std::string& name, const std::string& title, const SweepAxis& x,
+Sweep against_step(const std::string& name, const std::string& title, const NumberAxis& x,
                    const SweepChoice& choice, void (*set)(Scene&, double)) {
-  Sweep sweep{name, title, x, steps(choice.quick), choice.few_laws(), {}};
-  sweep.at = [set, x = sweep.x, y = sweep.y, laws = sweep.variants](int variant, int column, int row) {
+  const NumberAxis y = steps(choice.quick);
+  Sweep sweep{name, title, x.axis, y.axis, choice.few_laws(), {}};
+  sweep.at = [set, x = x.values, y = y.values, laws = sweep.variants](int variant, int column, int row) {
     Scene scene = falling_square();
-    set(scene, x.values[column]);
-    scene.step = y.values[row];
+    set(scene, x[column]);
+    scene.step = y[row];
     scene.law = laws[variant];
     return Attempt{scene};
   };

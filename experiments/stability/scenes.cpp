@@ -214,38 +214,22 @@ constexpr double kShortStep = 1e-3, kLongStep = 1.0 / 60;  // [s]
 }  // namespace
 
 Sweep mesh_sweep(const SweepChoice& choice) {
-  Sweep sweep{"mesh",
-              "Mesh quality: a strip or square held at one end; steps of 1 ms",
-              {"law", choice.few_laws()},
-              axis_of("mesh", kMeshes),
-              {"shape", "hinge"},
-              {}};
-  sweep.at = [elements = sweep.variants, laws = sweep.x.ticks](int variant, int column, int row) {
-    Attempt attempt = kMeshes[row].make();
-    attempt.scene.element = value_named<BendingElement>(elements[variant]);
-    attempt.scene.law = laws[column];
-    attempt.scene.step = kShortStep;
-    return attempt;
-  };
-  return sweep;
+  return named_sweep("mesh", "Mesh quality: a strip or square held at one end; steps of 1 ms", "mesh",
+                     kMeshes, choice.few_laws(), {"shape", "hinge"}, [](Scene& scene, int variant) {
+                       scene.element = variant == 0 ? BendingElement::shape : BendingElement::hinge;
+                       scene.step = kShortStep;
+                     });
 }
 
 Sweep scene_sweep(const SweepChoice& choice, Precision precision) {
   const bool all = precision == Precision::fp64 && choice.laws.empty() && !choice.quick;
-  Sweep sweep{precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
-              "Scenes that ask too much, in " + name_of(precision) + " precision",
-              {"law", all ? law_names() : choice.few_laws()},
-              axis_of("scene", kScenes),
-              {"step 1 ms", "step 1/60 s"},
-              {}};
-  sweep.at = [precision, laws = sweep.x.ticks](int variant, int column, int row) {
-    Attempt attempt = kScenes[row].make();
-    attempt.scene.precision = precision;
-    attempt.scene.law = laws[column];
-    if (attempt.scene.step >= kShortStep) attempt.scene.step = variant == 0 ? kShortStep : kLongStep;
-    return attempt;
-  };
-  return sweep;
+  return named_sweep(precision == Precision::fp64 ? "scenes" : "scenes-" + name_of(precision),
+                     "Scenes that ask too much, in " + name_of(precision) + " precision", "scene", kScenes,
+                     all ? law_names() : choice.few_laws(), {"step 1 ms", "step 1/60 s"},
+                     [precision](Scene& scene, int variant) {
+                       scene.precision = precision;
+                       if (scene.step >= kShortStep) scene.step = variant == 0 ? kShortStep : kLongStep;
+                     });
 }
 
 namespace {

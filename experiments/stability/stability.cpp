@@ -99,19 +99,6 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
 
 }  // namespace
 
-const char* name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::ended:
-      return "ended";
-    case Outcome::retried:
-      return "retried";
-    case Outcome::refused:
-      return "refused";
-    default:
-      return "diverged";
-  }
-}
-
 std::vector<std::string> SweepChoice::few_laws() const {
   if (!laws.empty()) return laws;
   if (quick) return {"prandtl"};
@@ -135,28 +122,24 @@ Finding find_out(const Attempt& attempt, const CellEffort& effort) {
   return finding;
 }
 
-std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
-  std::vector<Cell> cells;
-  for (std::size_t s = 0; s < sweeps.size(); ++s) {
-    for (std::size_t v = 0; v < sweeps[s].variants.size(); ++v) {
-      for (const std::string& integrator : choice.integrators) {
-        for (std::size_t row = 0; row < sweeps[s].y.ticks.size(); ++row) {
-          for (std::size_t column = 0; column < sweeps[s].x.ticks.size(); ++column) {
-            Cell cell{static_cast<int>(s),   static_cast<int>(v), static_cast<int>(column),
-                      static_cast<int>(row), integrator,          sweeps[s].at(v, column, row)};
-            cell.attempt.scene.integrator = value_named<Integrator>(integrator);
-            cell.attempt.scene.device = choice.device;
-            cell.attempt.scene.threads = 1;
-            cells.push_back(std::move(cell));
+std::vector<SweepCell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice) {
+  std::vector<SweepCell> cells;
+  for (const Sweep& sweep : sweeps)
+    for (std::size_t v = 0; v < sweep.variants.size(); ++v)
+      for (const std::string& integrator : choice.integrators)
+        for (std::size_t row = 0; row < sweep.y.ticks.size(); ++row)
+          for (std::size_t column = 0; column < sweep.x.ticks.size(); ++column) {
+            cells.push_back({sweep.name, integrator, sweep.variants[v], sweep.x.ticks[column],
+                             sweep.y.ticks[row], sweep.at(v, column, row)});
+            Scene& scene = cells.back().attempt.scene;
+            scene.integrator = value_named<Integrator>(integrator);
+            scene.device = choice.device;
+            scene.threads = 1;
           }
-        }
-      }
-    }
-  }
   return cells;
 }
 
-void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
+void try_all(std::vector<SweepCell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t)>& done) {
   std::size_t finished = 0;
   std::mutex reporting;

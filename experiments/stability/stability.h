@@ -1,10 +1,12 @@
 // The map of what stays stable: many short simulations, each at one place of a sweep, and their outcomes.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "render/heat_map.h"
 #include "sim/mesh/cloth_mesh.h"
 #include "sim/scene/scene.h"
 #include "sim/time/simulation.h"
@@ -17,9 +19,7 @@ enum class Outcome {
   refused,   // the program does not start it, and says why
   diverged,  // broken off, not finite, with more energy than was put in, or with crossing layers
 };
-inline constexpr Outcome kOutcomes[] = {Outcome::ended, Outcome::retried, Outcome::refused,
-                                        Outcome::diverged};
-const char* name_of(Outcome outcome);
+constexpr std::array<const char*, 4> names(Outcome) { return {"ended", "retried", "refused", "diverged"}; }
 
 // What is tried.
 struct Attempt {
@@ -59,25 +59,11 @@ inline constexpr double kLargestGrowth = 1.1;
 // Tries it.  What the program refuses or breaks off is a finding; Error::system is thrown.
 Finding find_out(const Attempt& attempt, const CellEffort& effort);
 
-// An axis of a map.
-struct SweepAxis {
-  std::string label;                // "step [s]"
-  std::vector<std::string> ticks;   // "1/60 s", "narain"
-  std::vector<double> values = {};  // what the ticks mean, ascending, where they are numbers
-};
-
 // A row of a map of named attempts.
 struct NamedAttempt {
   const char* name;
   Attempt (*make)();
 };
-
-template <std::size_t count>
-SweepAxis axis_of(const std::string& label, const NamedAttempt (&table)[count]) {
-  SweepAxis axis{label, {}};
-  for (const NamedAttempt& entry : table) axis.ticks.push_back(entry.name);
-  return axis;
-}
 
 inline Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
   Obstacle obstacle;
@@ -90,10 +76,27 @@ inline Obstacle solid(ObstacleKind kind, const Eigen::Vector3d& center) {
 struct Sweep {
   std::string name;   // "bending-step"
   std::string title;  // one line
-  SweepAxis x, y;
+  render::CellAxis x, y;
   std::vector<std::string> variants;  // "prandtl", "hinge"
   std::function<Attempt(int variant, int column, int row)> at;
 };
+
+// Of named attempts, a row each, under some laws; `set` makes the variant.
+template <std::size_t count>
+Sweep named_sweep(const std::string& name, const std::string& title, const std::string& label,
+                  const NamedAttempt (&rows)[count], const std::vector<std::string>& laws,
+                  const std::vector<std::string>& variants,
+                  const std::function<void(Scene&, int variant)>& set) {
+  Sweep sweep{name, title, {"law", laws}, {label, {}}, variants, {}};
+  for (const NamedAttempt& row : rows) sweep.y.ticks.push_back(row.name);
+  sweep.at = [&rows, laws, set](int variant, int column, int row) {
+    Attempt attempt = rows[row].make();
+    attempt.scene.law = laws[column];
+    set(attempt.scene, variant);
+    return attempt;
+  };
+  return sweep;
+}
 
 // What the sweeps cover.
 struct SweepChoice {
@@ -118,17 +121,16 @@ Sweep mesh_sweep(const SweepChoice& choice);
 Sweep contact_sweep(const SweepChoice& choice);
 Sweep scene_sweep(const SweepChoice& choice, Precision precision);
 
-// A cell of the map with what was found in it.
-struct Cell {
-  int sweep, variant, column, row;  // indices
-  std::string integrator;
+// A cell of a map with what was found in it.
+struct SweepCell {
+  std::string sweep, integrator, variant, x, y;  // names and ticks
   Attempt attempt;
   Finding finding = {};
 };
 // The cells of all sweeps under all integrators, not yet tried.
-std::vector<Cell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
+std::vector<SweepCell> cells_of(const std::vector<Sweep>& sweeps, const SweepChoice& choice);
 // Tries them, so many at a time; `done` is called after each with how many are done.
-void try_all(std::vector<Cell>& cells, const CellEffort& effort, int threads,
+void try_all(std::vector<SweepCell>& cells, const CellEffort& effort, int threads,
              const std::function<void(std::size_t done)>& done);
 
 }  // namespace hysteron::experiments

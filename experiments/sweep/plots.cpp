@@ -9,9 +9,9 @@
 
 #include "experiments/sweep/tables.h"
 #include "experiments/workbench/app/headlines.h"
+#include "experiments/workbench/compare/table_maps.h"
 #include "experiments/workbench/pages/manifest.h"
 #include "render/color_map.h"
-#include "render/heat_map.h"
 #include "render/panels.h"
 #include "render/plot.h"
 #include "sim/base/number_in.h"
@@ -67,13 +67,18 @@ class StudyPlots {
     return axis(a).numeric ? text : std::filesystem::path(text).stem().string();
   }
 
+  std::string group_name(std::size_t run, const std::vector<std::size_t>& axes) const {
+    std::string name;
+    for (const std::size_t a : axes)
+      name += (name.empty() ? "" : ", ") + (axis(a).numeric ? axis(a).key + " " : "") + shown_value(a, run);
+    return name;
+  }
+
   Groups grouped(const std::vector<std::size_t>& which, const std::vector<std::size_t>& axes) const {
     Groups groups;
     std::map<std::string, std::size_t> places;
     for (const std::size_t r : which) {
-      std::string name;
-      for (const std::size_t a : axes)
-        name += (name.empty() ? "" : ", ") + (axis(a).numeric ? axis(a).key + " " : "") + shown_value(a, r);
+      const std::string name = group_name(r, axes);
       const auto [place, is_new] = places.emplace(name, groups.size());
       if (is_new) groups.push_back({name, {}});
       groups[place->second].second.push_back(r);
@@ -209,73 +214,57 @@ class StudyPlots {
       return axis(a).values.size() > axis(b).values.size();
     });
     const std::size_t x = grid[0], y = grid[1];
-    const Groups maps = grouped(all(), {grid.begin() + 2, grid.end()});
     const std::string name = "plot_" + metric.name + "-map";
-    if (maps.size() > kMaxPanels) {
-      run_.warn(fmt::format("{}: {} maps are too many to be drawn", name, maps.size()));
+    Table runs("panel,x,y");
+    for (std::size_t r = 0; r < study_.runs.size(); ++r)
+      runs.row({group_name(r, {grid.begin() + 2, grid.end()}), shown_value(x, r), shown_value(y, r)});
+    if (const std::size_t count = runs.values("panel").size(); count > kMaxPanels) {
+      run_.warn(fmt::format("{}: {} maps are too many to be drawn", name, count));
       return;
     }
-    const Groups columns = grouped(all(), {x});
-    Groups rows = grouped(all(), {y});
-    if (!axis(y).numeric) std::reverse(rows.begin(), rows.end());  // names are read from above
-    std::vector<std::vector<std::vector<double>>> means;
-    for (const auto& [title, which] : maps) {
-      means.emplace_back();
-      for (const auto& row : rows) {
-        means.back().emplace_back();
-        for (const auto& column : columns)
-          means.back().back().push_back(mean(numbers, common(common(which, row.second), column.second)));
-      }
-    }
-    render::HeatMaps page = map_page(metric, x, y, columns, rows);
-    color_cells(page, maps, means);
-    if (page.kinds.empty()) return;
-    run_.plot(name, [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
-  }
-
-  render::HeatMaps map_page(const ShownMetric& metric, std::size_t x, std::size_t y, const Groups& columns,
-                            const Groups& rows) const {
     render::HeatMaps page{study_.experiment + ": " + metric.label,
                           "Number: mean of the runs.",
                           {label(axis(x)), {}},
                           {label(axis(y)), {}},
                           {},
                           {}};
-    for (const auto& column : columns) page.x.ticks.push_back(shown_value(x, column.second.front()));
-    for (const auto& row : rows) page.y.ticks.push_back(shown_value(y, row.second.front()));
     page.cell_width = 70;
-    return page;
+    std::vector<double> means;  // of the cells, by their kinds
+    add_maps(page, runs, {{"panel"}, "x", "y"}, [&](const std::vector<std::size_t>& which) {
+      means.push_back(mean(numbers, which));
+      return render::HeatMapCell{static_cast<int>(means.size()) - 1, ""};
+    });
+    if (!color_cells(page, means)) return;
+    if (!axis(y).numeric) {  // names are read from above
+      std::reverse(page.y.ticks.begin(), page.y.ticks.end());
+      for (render::HeatMap& map : page.maps) std::reverse(map.rows.begin(), map.rows.end());
+    }
+    run_.plot(name, [&](const std::filesystem::path& base) { render::write_heat_maps(base, page); });
   }
 
-  // Equal parts of the range of all maps; light colours, so that numbers can be read on them.
-  static void color_cells(render::HeatMaps& page, const Groups& maps,
-                          const std::vector<std::vector<std::vector<double>>>& means) {
+  // Cells whose kinds are places in `means`, by equal parts of the range of all; light colours, so that
+  // numbers can be read on them.  False if no mean is known.
+  static bool color_cells(render::HeatMaps& page, const std::vector<double>& means) {
     constexpr int kParts = 5;
     constexpr float kDarkest = 0.55f;
     double low = INFINITY, high = -INFINITY;
-    for (const auto& map : means)
-      for (const auto& row : map)
-        for (const double x : row)
-          if (!std::isnan(x)) low = std::min(low, x), high = std::max(high, x);
-    if (!(low <= high)) return;
+    for (const double x : means)
+      if (!std::isnan(x)) low = std::min(low, x), high = std::max(high, x);
+    if (!(low <= high)) return false;
     const double part = (high - low) / kParts;
     for (int k = 0; k < kParts; ++k)
       page.kinds.push_back({fmt::format("{:.3g} to {:.3g}", low + k * part, low + (k + 1) * part),
                             render::hex(render::map_color8(
                                 render::ColorMap::sequential,
                                 kDarkest + (1 - kDarkest) * static_cast<float>(k) / (kParts - 1)))});
-    for (std::size_t m = 0; m < maps.size(); ++m) {
-      render::HeatMap map{maps[m].first, {}};
-      for (const auto& row : means[m]) {
-        map.rows.emplace_back();
-        for (const double x : row) {
+    for (render::HeatMap& map : page.maps)
+      for (auto& row : map.rows)
+        for (render::HeatMapCell& cell : row) {
+          const double x = cell.kind < 0 ? NAN : means[static_cast<std::size_t>(cell.kind)];
           const int kind = part > 0 ? std::min(kParts - 1, static_cast<int>((x - low) / part)) : 0;
-          map.rows.back().push_back(std::isnan(x) ? render::HeatMapCell{}
-                                                  : render::HeatMapCell{kind, fmt::format("{:.3g}", x)});
+          cell = std::isnan(x) ? render::HeatMapCell{} : render::HeatMapCell{kind, fmt::format("{:.3g}", x)};
         }
-      }
-      page.maps.push_back(std::move(map));
-    }
+    return true;
   }
 
   Run& run_;

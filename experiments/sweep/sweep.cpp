@@ -209,10 +209,10 @@ void collect(Run& run, std::vector<ChildRun>& runs) {
 }
 
 void write_results(Run& run, const Study& study, const std::vector<ChildRun>& runs, bool with_plots) {
-  write_table(run.path("table.csv"), table_of_runs(study, runs));
+  table_of_runs(study, runs).write(run.path("table.csv"));
   const std::vector<std::string> metrics = metrics_shown(study, runs);
   const bool repeated = std::any_of(study.axes.begin(), study.axes.end(), is_seed);
-  if (repeated && !metrics.empty()) write_table(run.path("means.csv"), table_of_means(study, runs, metrics));
+  if (repeated && !metrics.empty()) table_of_means(study, runs, metrics).write(run.path("means.csv"));
   if (with_plots) plot_study(run, study, runs, metrics);
   run.path("report.html");
   run.finish();

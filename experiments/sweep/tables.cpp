@@ -105,9 +105,9 @@ std::string unknown_metric(const Study& study, std::span<const ChildRun> runs) {
   return "";
 }
 
-TextTable table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
+Table table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
   const std::vector<std::string> metrics = metrics_in(runs, has_field);
-  TextTable table;
+  Table table;
   table.head = {"run"};
   for (const StudyAxis& axis : study.axes) table.head.push_back(axis.key);
   table.head.insert(table.head.end(), metrics.begin(), metrics.end());
@@ -127,9 +127,9 @@ TextTable table_of_runs(const Study& study, const std::vector<ChildRun>& runs) {
   return table;
 }
 
-TextTable table_of_means(const Study& study, const std::vector<ChildRun>& runs,
-                         const std::vector<std::string>& metrics) {
-  TextTable table;
+Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
+                     const std::vector<std::string>& metrics) {
+  Table table;
   for (const StudyAxis& axis : study.axes)
     if (!is_seed(axis)) table.head.push_back(axis.key);
   table.head.push_back("draws");
@@ -150,15 +150,6 @@ TextTable table_of_means(const Study& study, const std::vector<ChildRun>& runs,
     }
   }
   return table;
-}
-
-void write_table(const std::filesystem::path& file, const TextTable& table) {
-  const auto fields = [](const std::vector<std::string>& row) {
-    return std::vector<CsvField>(row.begin(), row.end());
-  };
-  CsvFile csv(file, fields(table.head));
-  for (const auto& row : table.rows) csv.row(fields(row));
-  csv.commit();
 }
 
 }  // namespace hysteron::experiments

@@ -13,7 +13,7 @@ namespace hysteron::experiments {
 // Of the runs' columns, in their order: `run`, a column for each axis, each metric that any of them has in
 // the order in which they come (truths as 0 and 1), `wall_s` and `state_hash` of its manifest, `exit_code`,
 // `stopped`: why it is not complete.  What is not known is empty.
-TextTable table_of_runs(const Study& study, const std::vector<ChildRun>& runs);
+Table table_of_runs(const Study& study, const std::vector<ChildRun>& runs);
 
 // The metrics that the study names, or the headlines of its experiment, or those that the runs' scenes ask
 // for, or else the first few that differ between runs; of those that any run has.
@@ -26,12 +26,10 @@ std::string unknown_metric(const Study& study, std::span<const ChildRun> runs);
 
 // Of the runs of equal values but for the seed: each axis, `draws`, and METRIC_mean with its standard error,
 // METRIC_stderr, over those that have the metric.
-TextTable table_of_means(const Study& study, const std::vector<ChildRun>& runs,
-                         const std::vector<std::string>& metrics);
+Table table_of_means(const Study& study, const std::vector<ChildRun>& runs,
+                     const std::vector<std::string>& metrics);
 
 // The metric of each run; NaN where it is not known.
 std::vector<double> numbers_of(const std::vector<ChildRun>& runs, const std::string& metric);
-
-void write_table(const std::filesystem::path& file, const TextTable& table);
 
 }  // namespace hysteron::experiments

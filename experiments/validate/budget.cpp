@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/validate/named_table.h"
 #include "experiments/validate/spread.h"
 #include "sim/base/comma_list.h"
 #include "sim/base/csv.h"
@@ -57,9 +56,9 @@ std::vector<Trial> trials_of(const FabricFile& file, const ValidateFlags& flags)
 }
 
 std::vector<BudgetRow> read_budget(const std::filesystem::path& csv) {
-  const NamedTable table(csv);
+  const Table table = read_table(csv);
   std::vector<BudgetRow> rows;
-  for (std::size_t r = 0; r < table.size(); ++r)
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
     rows.push_back({table.word(r, "fabric"), table.word(r, "number"), table.word(r, "value"),
                     static_cast<int>(table.number(r, "meshes")), table.number(r, kMean),
                     table.number(r, kError), table.number(r, kChange), table.number(r, kPublished)});
@@ -104,8 +103,7 @@ render::Plot budget_plot(const std::vector<BudgetRow>& rows) {
 }
 
 void write_budget(const ValidateFlags& flags, Run& run) {
-  CsvFile file(run.path("budget.csv"),
-               {"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
+  Table table({"fabric", "number", "value", "meshes", kMean, kError, kChange, kPublished});
   for (const std::string& fabric : split(flags.fabrics)) {
     const std::vector<Trial> trials = trials_of(read_fabric(fabric, "--fabrics"), flags);
     std::vector<Drape> all;
@@ -121,14 +119,14 @@ void write_budget(const ValidateFlags& flags, Run& run) {
           BudgetRow{fabric, trial.number, trial.value, flags.draws, mean_of(coefficients),
                     spread_of(coefficients) / std::sqrt(flags.draws), NAN, all.back().published()});
       row.change = row.coefficient - rows[0].coefficient;
-      file.row(
+      table.row(
           {fabric, row.number, row.value, row.meshes, row.coefficient, row.error, row.change, row.published});
       if (rows.size() > 1)
         run.metric(fabric + "." + row.number + "=" + row.value + ".change_percent", row.change);
     }
     if (!flags.options.no_images) run.plot("plot_budget_" + fabric, budget_plot(rows));
   }
-  file.commit();
+  table.write(run.path("budget.csv"));
 }
 
 }  // namespace hysteron::experiments

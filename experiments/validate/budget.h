@@ -27,7 +27,7 @@ struct BudgetRow {
   double coefficient = NAN, error = NAN;  // the mean's standard error
   double change = NAN, published = NAN;   // from what the fabric's file says
 };
-// Throws as read_words() does, and Error::invalid_input where a column is missing.
+// Throws as read_table() does, and Error::invalid_input where a column is missing.
 std::vector<BudgetRow> read_budget(const std::filesystem::path& csv);
 // Of one fabric, the first row being as its file says.
 render::Plot budget_plot(const std::vector<BudgetRow>& rows);

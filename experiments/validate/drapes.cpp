@@ -106,16 +106,15 @@ std::vector<Drape> planned(const ValidateFlags& flags) {
 }
 
 void write_drapes(Run& run, const std::vector<Drape>& drapes) {
-  CsvFile file(
-      run.path("drape.csv"),
+  Table table(
       "fabric,law,standard,release,triangles,step [s],drape coefficient [%],nodes,settled,published drape "
       "coefficient [%],published nodes,sharp edges [%],computing [s]");
   for (const Drape& d : drapes)
-    file.row({d.fabric, d.law, d.standard, d.release, d.triangles, d.step,
-              d.number("drape_coefficient_percent"), d.number("node_count"),
-              d.metrics["settled"].is(true) ? "yes" : "no", d.number("published_drape_coefficient_percent"),
-              d.number("published_node_count"), d.number("sharp_edges_percent"), d.seconds});
-  file.commit();
+    table.row({d.fabric, d.law, d.standard, d.release, d.triangles, d.step,
+               d.number("drape_coefficient_percent"), d.number("node_count"),
+               d.metrics["settled"].is(true) ? "yes" : "no", d.number("published_drape_coefficient_percent"),
+               d.number("published_node_count"), d.number("sharp_edges_percent"), d.seconds});
+  table.write(run.path("drape.csv"));
 }
 
 void note_drapes(Run& run, const std::vector<Drape>& drapes) {

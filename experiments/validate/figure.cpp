@@ -5,7 +5,6 @@
 
 #include "experiments/validate/budget.h"
 #include "experiments/validate/folds.h"
-#include "experiments/validate/named_table.h"
 #include "sim/identification/decay_shape.h"
 
 namespace hysteron::experiments {
@@ -35,13 +34,13 @@ std::string color_of(std::size_t fabric) {
 
 // Force per width against the distance of the clamps, cycle by cycle.
 render::PagePlot loops_plot(const fs::path& csv) {
-  const NamedTable table(csv);
+  const Table table = read_table(csv);
   render::Plot plot{"Loops of a knit, fitted on the middle one",
                     {"distance of the clamps [mm]"},
                     {"force per width [N/m]"}};
   render::Series measured{"measured", {}, {}, Style::points, kMeasuredColor};
   render::Series model{"two numbers of friction", {}, {}, Style::line, kModelColor};
-  for (std::size_t r = 0; r < table.size(); ++r) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const double distance = 1e3 * table.number(r, "clamp_distance_m"), width = table.number(r, "width_m");
     measured.x.push_back(distance), model.x.push_back(distance);
     measured.y.push_back(table.number(r, "measured_force_N") / width);
@@ -55,9 +54,9 @@ render::PagePlot loops_plot(const fs::path& csv) {
 std::vector<Amplitude> read_amplitudes(const fs::path& swing) {
   const Table turns = read_csv(swing / "turns.csv", {"turn", "time [s]", "amplitude [mm]"}, {}, "validate");
   std::vector<Amplitude> amplitudes;
-  for (std::size_t r = 0; r < turns.lines.size(); ++r)
-    amplitudes.push_back({static_cast<int>(turns.columns[0].values[r]), turns.columns[1].values[r],
-                          turns.columns[2].values[r] / 1e3});
+  for (std::size_t r = 0; r < turns.rows.size(); ++r)
+    amplitudes.push_back({static_cast<int>(turns.number(r, "turn")), turns.number(r, "time [s]"),
+                          turns.number(r, "amplitude [mm]") / 1e3});
   const double used = read_manifest(swing / "manifest.json").metrics.number("decay_amplitudes_count");
   if (!(used >= kMinAmplitudes))
     throw Error::invalid_input("validate: " + swing.string() + " has too few amplitudes for two lines");
@@ -145,15 +144,16 @@ render::PagePlot folds_of(const std::vector<CountedDrape>& counted,
 }  // namespace
 
 std::vector<PredictedDrape> read_drapes(const fs::path& means, const fs::path& spread) {
-  const NamedTable table(means);
+  const Table table = read_table(means);
   std::vector<PredictedDrape> drapes;
-  for (std::size_t r = 0; r < table.size(); ++r) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const std::string& fabric = table.word(r, "fabric");
     auto at = std::find_if(drapes.begin(), drapes.end(),
                            [&](const PredictedDrape& drape) { return drape.fabric == fabric; });
     if (at == drapes.end()) {
-      const NamedTable known(spread / fabric / "predictions.csv");  // the coefficient first, then folds
-      if (known.size() == 0)
+      const Table known =
+          read_table(spread / fabric / "predictions.csv");  // the coefficient first, then folds
+      if (known.rows.empty())
         throw Error::invalid_input("validate: " + (spread / fabric).string() + " has no drape");
       at = drapes.insert(drapes.end(), {.fabric = fabric,
                                         .measured = known.number(0, "measured"),

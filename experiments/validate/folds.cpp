@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/validate/named_table.h"
+#include "sim/base/csv.h"
 
 namespace hysteron::experiments {
 namespace {
@@ -52,9 +52,9 @@ std::vector<CountedDrape> counted(const std::vector<Drape>& drapes) {
 }
 
 std::vector<CountedDrape> read_counted(const std::filesystem::path& csv) {
-  const NamedTable table(csv);
+  const Table table = read_table(csv);
   std::vector<CountedDrape> all;
-  for (std::size_t r = 0; r < table.size(); ++r)
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
     all.push_back({table.word(r, "fabric"), table.word(r, "law"),
                    table.number(r, "drape_coefficient_percent"), table.number(r, "node_count")});
   std::erase_if(all, [](const CountedDrape& drape) { return !std::isfinite(drape.coefficient); });

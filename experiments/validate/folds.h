@@ -25,7 +25,8 @@ struct CountedDrape {
   double coefficient, folds;  // [%]
 };
 std::vector<CountedDrape> counted(const std::vector<Drape>& drapes);
-// Of a study's table.csv; those that have no coefficient are left out.  Throws as NamedTable does.
+// Of a study's table.csv; those that have no coefficient are left out.  Throws as read_table() and
+// Table::at() do.
 std::vector<CountedDrape> read_counted(const std::filesystem::path& csv);
 
 // What was counted on real drapes, a box for each fabric: its label on the first.

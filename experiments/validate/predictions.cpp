@@ -32,16 +32,15 @@ constexpr FrictionShape kAssumedShape = {17, 2};  // as the fabrics' files assum
 }  // namespace
 
 void write_predictions(Run& run, const std::vector<Prediction>& predictions) {
-  CsvFile file(
-      run.path("predictions.csv"),
+  Table table(
       "predicted quantity,fitted on,predicted,low,high,measured,unit,error,error [%],measured is between");
   for (const Prediction& p : predictions)
-    file.row({p.question, p.fitted_on, p.predicted, p.low, p.high, p.measured, p.unit, p.error(),
-              p.error_percent(),
-              !p.has_interval()       ? ""
-              : p.contains_measured() ? "yes"
-                                      : "no"});
-  file.commit();
+    table.row({p.question, p.fitted_on, p.predicted, p.low, p.high, p.measured, p.unit, p.error(),
+               p.error_percent(),
+               !p.has_interval()       ? ""
+               : p.contains_measured() ? "yes"
+                                       : "no"});
+  table.write(run.path("predictions.csv"));
 }
 
 std::vector<Prediction> predict_pairs(Run& run) {
@@ -73,27 +72,19 @@ std::vector<Prediction> predict_pairs(Run& run) {
 
 std::vector<Prediction> predict_loops(const std::string& folder) {
   const std::filesystem::path file = std::filesystem::path(folder) / "predictions.csv";
-  const TextTable table = read_words(file);
-  const auto column = [&](const std::string& name) {
-    const auto found = std::find(table.head.begin(), table.head.end(), name);
-    if (found == table.head.end())
-      throw Error::invalid_input("loops: " + file.string() + " has no column \"" + name +
-                                 "\": give a folder of fit --fab")
-          .of("loops", folder);
-    return static_cast<std::size_t>(found - table.head.begin());
-  };
-  const std::size_t loop = column("loop"), on = column("fitted on"), fitted = column("is fitted"),
-                    area = column("area [uJ/cm]"), measured = column("measured area [uJ/cm]"),
-                    one_stop = column("one stop area [uJ/cm]");
+  const Table all = read_table(file);
+  if (!all.find("is fitted"))
+    throw Error::invalid_input("loops: " + file.string() + " has no column \"is fitted\": give a folder of " +
+                               "fit --fab")
+        .of("loops", folder);
+  const Table table = all.where("is fitted", "0");
   std::vector<Prediction> predictions;
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const auto& row = table.rows[r];
-    if (row[fitted] == "1") continue;
-    const auto number = [&](std::size_t c) { return number_in(row[c]).value_or(NAN); };
-    for (const auto& [from, with] : {std::pair{area, "stops"}, std::pair{one_stop, "one constant 2HB"}})
-      predictions.push_back(
-          {"loop area of " + row[loop], row[on] + ", " + with, "uJ/cm", number(from), number(measured)});
-  }
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    for (const auto& [area, with] :
+         {std::pair{"area [uJ/cm]", "stops"}, std::pair{"one stop area [uJ/cm]", "one constant 2HB"}})
+      predictions.push_back({"loop area of " + table.word(r, "loop"),
+                             table.word(r, "fitted on") + ", " + with, "uJ/cm", table.number(r, area),
+                             table.number(r, "measured area [uJ/cm]")});
   return predictions;
 }
 

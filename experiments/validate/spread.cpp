@@ -65,20 +65,20 @@ Prediction folds(const std::vector<Drape>& drapes, const std::string& question) 
 using DrapesOf = std::vector<std::pair<std::string, std::vector<Drape>>>;
 
 void write_spread(Run& run, const DrapesOf& all, const std::set<std::string>& keys) {
-  std::vector<CsvField> head = {"fabric", "sample"};
+  std::vector<std::string> head = {"fabric", "sample"};
   for (const std::string& key : keys) head.emplace_back(key);
   for (const char* name : {"drape coefficient [%]", "nodes", "settled", "computing [s]"})
     head.emplace_back(name);
-  CsvFile file(run.path("spread.csv"), head);
+  Table table(head);
   for (const auto& [fabric, drapes] : all)
     for (const Drape& d : drapes) {
-      std::vector<CsvField> row = {fabric, d.varied};
+      std::vector<Cell> row = {fabric, d.varied};
       for (const std::string& key : keys) row.emplace_back(last_text(d.further, "fabric." + key, ""));
       row.insert(row.end(), {d.coefficient(), d.number("node_count"),
                              d.metrics["settled"].is(true) ? "yes" : "no", d.seconds});
-      file.row(row);
+      table.row(row);
     }
-  file.commit();
+  table.write(run.path("spread.csv"));
 }
 
 void draw_spread(Run& run, const DrapesOf& all) {
@@ -182,8 +182,7 @@ std::vector<Prediction> predict_spread(const ValidateFlags& flags, Run& run) {
 }
 
 std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run) {
-  CsvFile file(
-      run.path("draws.csv"),
+  Table table(
       "fabric,law,release,meshes,mean drape coefficient [%],standard deviation [%],mean nodes,published "
       "drape coefficient [%],published nodes");
   std::vector<Prediction> predictions;
@@ -203,15 +202,15 @@ std::vector<Prediction> predict_draws(const ValidateFlags& flags, Run& run) {
       const std::string what = fabric + ", " + law + ", " + drapes.front().release + ", on several meshes";
       const Prediction p = summary(drapes, "drape of " + what), n = folds(drapes, "folds of " + what);
       const double spread = spread_of(numbers_of(drapes, "drape_coefficient_percent"));
-      file.row({fabric, law, drapes.front().release, flags.draws, p.predicted, spread, n.predicted,
-                p.measured, n.measured});
+      table.row({fabric, law, drapes.front().release, flags.draws, p.predicted, spread, n.predicted,
+                 p.measured, n.measured});
       run.metric(key + ".drape_coefficient_percent_mean", p.predicted);
       run.metric(key + ".drape_coefficient_percent_spread", spread);
       run.metric(key + ".node_count_mean", n.predicted);
       predictions.insert(predictions.end(), {p, n});
       all.insert(all.end(), drapes.begin(), drapes.end());
     }
-  file.commit();
+  table.write(run.path("draws.csv"));
   compare_folds(run, counted(all), !flags.options.no_images);
   return predictions;
 }

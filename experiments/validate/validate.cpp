@@ -43,8 +43,7 @@ Keys keys_of(F& flags) { return with_output_options(bind(kRows, flags), flags.op
 
 // Bending length of ASTM D1388, cloth and curve.
 void measure_bending_lengths(const F& flags, Run& run) {
-  CsvFile file(run.path("cantilever.csv"),
-               "fabric,law,bending length [m],of the elastica [m],remaining drop over length");
+  Table table("fabric,law,bending length [m],of the elastica [m],remaining drop over length");
   std::vector<Variant> runs;
   for (const std::string& fabric : split(flags.fabrics))
     for (const std::string& law : split(flags.laws))
@@ -55,13 +54,13 @@ void measure_bending_lengths(const F& flags, Run& run) {
     const Metrics& metrics = results[r].metrics;
     const double cloth = metrics.number("bending_length_m"),
                  curve = metrics.number("elastica_bending_length_m");
-    file.row({runs[r].flags[0].text, runs[r].flags[1].text, cloth, curve,
-              metrics.number("residual_drop_over_length")});
+    table.row({runs[r].flags[0].text, runs[r].flags[1].text, cloth, curve,
+               metrics.number("residual_drop_over_length")});
     run.metric(runs[r].name + ".bending_length_m", cloth);
     run.progress(runs[r].name + ": bending length " + number_field(cloth) + " m, elastica " +
                  number_field(curve) + " m");
   }
-  file.commit();
+  table.write(run.path("cantilever.csv"));
 }
 
 void check_parts(const F& flags) {

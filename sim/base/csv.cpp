@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "sim/base/atomic_file.h"
+#include "sim/base/comma_list.h"
 #include "sim/base/number_in.h"
 #include "sim/base/whole_file.h"
 
@@ -32,15 +34,21 @@ char separator_in(std::string_view head) {
   return tab ? '\t' : ',';
 }
 
+std::string_view without_plus(std::string_view field) {
+  field = trimmed(field);
+  if (!field.empty() && field.front() == '+') field.remove_prefix(1);
+  return field;
+}
+
+std::optional<double> number_of(std::string_view field) { return number_in(without_plus(field)); }
+
 // "-0,35" is "-0.35"; what is no number stays.
 std::string with_decimal_point(std::string field) {
   const std::size_t comma = field.find(',');
   if (comma == field.npos) return field;
   std::string number = field;
   number[comma] = '.';
-  std::string_view digits = trimmed(number);
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  return number_in(digits) ? number : field;
+  return number_of(number) ? number : field;
 }
 
 Error error_at(const std::string& file, int line, const std::string& what) {
@@ -106,16 +114,6 @@ class Rows {
   char separator_ = ',';
 };
 
-double number(std::string_view text, const Table& table, const std::string& column) {
-  std::string_view digits = trimmed(text);
-  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const std::optional<double> value = number_in(digits);
-  if (!value || !std::isfinite(*value))
-    throw table.refusal(table.lines.size() - 1,
-                        fmt::format("{} = '{}' must be a finite number", column, digits));
-  return *value;
-}
-
 // Why a column is not the one that is wanted: another name would not change its numbers.
 std::string other_unit(std::string_view column, const std::string& wanted) {
   const std::string name = quantity_in(column), unit = unit_in(column), must = unit_in(wanted);
@@ -128,52 +126,17 @@ std::string other_unit(std::string_view column, const std::string& wanted) {
                      must);
 }
 
-// Index of `wanted` in the header, or -1.  A column of that name in another unit is an error, not an absence.
-int position(const std::vector<std::string>& header, const std::string& wanted, const std::string& file) {
-  int found = -1;
-  for (size_t i = 0; i < header.size(); ++i) {
-    if (quantity_in(header[i]) != quantity_in(wanted)) continue;
-    if (trimmed(header[i]) != wanted) throw error_at(file, 1, other_unit(header[i], wanted));
-    if (found >= 0) throw error_at(file, 1, "column '" + wanted + "' stands twice");
-    found = int(i);
+// Refuses a column that stands twice or is there in another unit, or one of words.
+void check_column(const Table& table, const std::string& wanted, bool needed) {
+  bool found = false;
+  for (const std::string& name : table.head) {
+    if (quantity_in(name) != quantity_in(wanted)) continue;
+    if (name != wanted) throw error_at(table.file, 1, other_unit(name, wanted));
+    if (found) throw error_at(table.file, 1, "column '" + wanted + "' stands twice");
+    found = true;
   }
-  return found;
-}
-
-// Where the columns stand in the words of a file.
-std::vector<int> places_of(const std::vector<std::string>& required, const std::vector<std::string>& optional,
-                           const TextTable& words, Table& table) {
-  std::vector<int> places;
-  const auto take = [&](const std::string& name, bool needed) {
-    const int at = position(words.head, name, table.file);
-    if (at < 0 && needed)
-      throw error_at(table.file, 1, "column '" + name + "' is missing; the header names it with its unit");
-    if (at < 0) return;
-    table.columns.push_back({name, {}});
-    places.push_back(at);
-  };
-  for (const std::string& name : required) take(name, true);
-  for (const std::string& name : optional) take(name, false);
-  return places;
-}
-
-void take_numbers(const TextTable& words, const std::vector<int>& places, Table& table) {
-  for (std::size_t r = 0; r < words.rows.size(); ++r) {
-    table.lines.push_back(words.lines[r]);
-    for (size_t i = 0; i < places.size(); ++i)
-      table.columns[i].values.push_back(
-          number(words.rows[r][size_t(places[i])], table, table.columns[i].name));
-  }
-}
-
-// Errors are the reader's.
-template <class Read>
-auto on_behalf_of(const std::string& reader, const Read& read) {
-  try {
-    return read();
-  } catch (const Error& error) {
-    throw error.experiment().empty() ? error.in(reader) : error;
-  }
+  if (!found && needed)
+    throw error_at(table.file, 1, "column '" + wanted + "' is missing; the header names it with its unit");
 }
 
 std::string quoted_where_needed(const std::string& text) {
@@ -182,6 +145,8 @@ std::string quoted_where_needed(const std::string& text) {
   for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
+
+std::string exact_field(double value) { return fmt::format("{:.17g}", value); }
 
 }  // namespace
 
@@ -195,47 +160,103 @@ std::string unit_in(std::string_view column) {
   return std::string(trimmed(column.substr(open + 1, close - open - 1)));
 }
 
-const Column* Table::find(const std::string& name) const {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
-  return found == columns.end() ? nullptr : &*found;
+Table::Table(const std::string& names) : head(split(names)) {}
+
+Table::Table(const std::vector<Column>& columns) {
+  for (const Column& column : columns) head.push_back(column.name);
+  rows.resize(columns.empty() ? 0 : columns[0].values.size());
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (const Column& column : columns) rows[r].push_back(exact_field(column.values[r]));
+}
+
+void Table::row(const std::vector<Cell>& cells) {
+  std::vector<std::string>& fields = rows.emplace_back();
+  for (const Cell& cell : cells) fields.push_back(cell.text);
+}
+
+void Table::write(const std::filesystem::path& csv) const {
+  AtomicFile target(csv.string());
+  target.stream() << row_of(head);
+  for (const std::vector<std::string>& fields : rows) target.stream() << row_of(fields);
+  target.commit();
+}
+
+std::optional<std::size_t> Table::find(const std::string& column) const {
+  const auto found = std::find(head.begin(), head.end(), column);
+  if (found == head.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - head.begin());
+}
+
+std::size_t Table::at(const std::string& column) const {
+  if (const auto found = find(column)) return *found;
+  const Error error = Error::invalid_input(file + " has no column " + column);
+  throw reader.empty() ? error : error.in(reader);
+}
+
+double Table::number(std::size_t row, const std::string& column) const {
+  return number_of(word(row, column)).value_or(NAN);
+}
+
+double Table::finite(std::size_t row, std::size_t column) const {
+  const std::optional<double> value = number_of(rows[row][column]);
+  if (!value || !std::isfinite(*value))
+    throw refusal(
+        row, fmt::format("{} = '{}' must be a finite number", head[column], without_plus(rows[row][column])));
+  return *value;
+}
+
+std::vector<double> Table::numbers(std::size_t column) const {
+  std::vector<double> values;
+  for (std::size_t r = 0; r < rows.size(); ++r) values.push_back(finite(r, column));
+  return values;
+}
+
+std::vector<std::string> Table::values(const std::string& column) const {
+  const std::size_t place = at(column);
+  std::vector<std::string> found;
+  for (const auto& fields : rows)
+    if (std::find(found.begin(), found.end(), fields[place]) == found.end()) found.push_back(fields[place]);
+  return found;
+}
+
+Table Table::where(const std::string& column, const std::string& value) const {
+  const std::size_t place = at(column);
+  const std::optional<double> number = number_of(value);
+  Table some = *this;
+  some.rows.clear(), some.lines.clear();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r][place] != value && !(number && number_of(rows[r][place]) == number)) continue;
+    some.rows.push_back(rows[r]);
+    if (!lines.empty()) some.lines.push_back(lines[r]);
+  }
+  return some;
+}
+
+Table Table::only(const std::vector<std::string>& columns) const {
+  Table part = *this;
+  part.head.clear();
+  for (std::vector<std::string>& fields : part.rows) fields.clear();
+  for (const std::string& column : columns) {
+    const auto place = find(column);
+    if (!place) continue;
+    part.head.push_back(column);
+    for (std::size_t r = 0; r < rows.size(); ++r) part.rows[r].push_back(rows[r][*place]);
+  }
+  return part;
 }
 
 Error Table::refusal(std::size_t row, const std::string& what) const {
-  return error_at(file, lines.at(row), what).in(reader);
+  const Error error = error_at(file, lines.at(row), what);
+  return reader.empty() ? error : error.in(reader);
 }
 
-Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
-               const std::vector<std::string>& optional, const std::string& reader) {
-  return on_behalf_of(reader, [&] {
-    const TextTable words = read_words(file);
-    Table table{{}, {}, file.string(), reader};
-    const std::vector<int> places = places_of(required, optional, words, table);
-    if (words.rows.empty()) throw error_at(table.file, 1, "no rows, at least one is needed");
-    take_numbers(words, places, table);
-    return table;
-  });
-}
-
-Table read_whole_csv(const std::filesystem::path& file, const std::string& reader) {
-  return on_behalf_of(reader, [&] {
-    const TextTable words = read_words(file);
-    Table table{{}, {}, file.string(), reader};
-    if (words.rows.empty()) return table;
-    std::vector<std::string> names;
-    for (const std::string& name : words.head) names.emplace_back(trimmed(name));
-    const std::vector<int> places = places_of(names, {}, words, table);
-    take_numbers(words, places, table);
-    return table;
-  });
-}
-
-TextTable words_in(const std::string& text, const std::string& file) {
-  TextTable table;
+Table table_in(const std::string& text, const std::string& file) {
+  Table table;
+  table.file = file;
   Rows rows(text, file);
   for (std::vector<std::string> row; rows.next(row);) {
     if (table.head.empty()) {
-      table.head = std::move(row);
+      for (const std::string& name : row) table.head.emplace_back(trimmed(name));
       continue;
     }
     if (row.size() != table.head.size())
@@ -246,45 +267,49 @@ TextTable words_in(const std::string& text, const std::string& file) {
   return table;
 }
 
-TextTable read_words(const std::filesystem::path& file) {
-  return words_in(whole_file(file, "cannot read " + file.string()), file.string());
+Table read_table(const std::filesystem::path& csv) {
+  return table_in(whole_file(csv, "cannot read " + csv.string()), csv.string());
 }
 
-void write_csv(const std::filesystem::path& file, const Table& table) {
-  std::vector<CsvField> head;
-  for (const Column& column : table.columns) head.push_back(column.name);
-  AtomicFile target(file.string());
-  target.stream() << row_of(head);
-  const size_t rows = table.columns.empty() ? 0 : table.columns[0].values.size();
-  std::vector<double> numbers(table.columns.size());
-  for (size_t r = 0; r < rows; ++r) {
-    for (size_t c = 0; c < numbers.size(); ++c) numbers[c] = table.columns[c].values[r];
-    target.stream() << exact_row_of(numbers);
+Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
+               const std::vector<std::string>& optional, const std::string& reader) {
+  try {
+    Table table = read_table(file);
+    for (const std::string& name : required) check_column(table, name, true);
+    for (const std::string& name : optional) check_column(table, name, false);
+    if (table.rows.empty()) throw error_at(table.file, 1, "no rows, at least one is needed");
+    for (const auto* names : {&required, &optional})
+      for (const std::string& name : *names)
+        if (const auto place = table.find(name)) table.numbers(*place);
+    table.reader = reader;
+    return table;
+  } catch (const Error& error) {
+    throw error.in(reader);
   }
-  target.commit();
 }
 
 std::string number_field(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
-std::string row_of(const std::vector<CsvField>& fields) {
+std::string row_of(const std::vector<std::string>& fields) {
   std::string row;
-  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + quoted_where_needed(fields[i].text);
+  for (std::size_t i = 0; i < fields.size(); ++i) row += (i ? "," : "") + quoted_where_needed(fields[i]);
   return row + "\n";
 }
 
 std::string exact_row_of(const std::vector<double>& numbers) {
   std::string row;
-  for (std::size_t i = 0; i < numbers.size(); ++i) row += fmt::format("{}{:.17g}", i ? "," : "", numbers[i]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) row += (i ? "," : "") + exact_field(numbers[i]);
   return row + "\n";
 }
 
-CsvFile::CsvFile(const std::filesystem::path& file, const std::string& head) : file_(file.string()) {
-  file_.stream() << head << '\n';
-}
-
-CsvFile::CsvFile(const std::filesystem::path& file, const std::vector<CsvField>& head)
-    : file_(file.string()) {
-  row(head);
+std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int width = i < widths.size() ? widths[i] : widths.back();
+    line += (i ? " " : "") +
+            (width < 0 ? fmt::format("{:<{}}", cells[i], -width) : fmt::format("{:>{}}", cells[i], width));
+  }
+  return line.substr(0, line.find_last_not_of(' ') + 1);
 }
 
 }  // namespace hysteron

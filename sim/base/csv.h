@@ -1,95 +1,100 @@
-// Comma-separated tables: of numbers, with named columns and units in the header, `curvature [1/m],moment
-// [N]`, and of words and numbers.  The one reader and the one writer of them (RFC 4180: a field that needs it
-// stands in quotes).  Read are also tables whose header is separated by semicolons or tabs, with decimal
-// points or commas; a byte order mark, carriage returns and blank lines are tolerated.
+// The one table of words and numbers: named columns, with units in their names, `curvature [1/m],moment [N]`;
+// written as CSV and read back (RFC 4180: a field that needs it stands in quotes).  Read are also tables
+// whose head is separated by semicolons or tabs, with decimal points or commas; a byte order mark, carriage
+// returns and blank lines are tolerated.
 #pragma once
 
 #include <concepts>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sim/base/atomic_file.h"
 #include "sim/base/error.h"
 
 namespace hysteron {
-
-struct Column {
-  std::string name;            // as in the header, with its unit: "curvature [1/m]", "edit"
-  std::vector<double> values;  // one per row
-};
 
 // Of "curvature [1/m]" the quantity is "curvature" and the unit "1/m"; "" without one.
 std::string quantity_in(std::string_view column);
 std::string unit_in(std::string_view column);
 
+// Six significant digits, empty unless the number is finite.
+std::string number_field(double value);
+
+// A field of a table, as it is written.
+struct Cell {
+  std::string text;
+
+  Cell(std::string word) : text(std::move(word)) {}
+  Cell(const char* word) : text(word) {}
+  Cell(double value) : text(number_field(value)) {}
+  template <std::integral Integer>
+  Cell(Integer value) : text(std::to_string(value)) {}
+};
+
+// A column of numbers, with its unit in its name: "curvature [1/m]".
+struct Column {
+  std::string name;
+  std::vector<double> values;
+};
+
 struct Table {
-  std::vector<Column> columns;   // all of one length
-  std::vector<int> lines;        // where each row stands in the file it was read from; empty otherwise
-  std::string file{}, reader{};  // that it was read from, and on whose behalf ("law")
-  // The column called `name`, null if there is none.
-  const Column* find(const std::string& name) const;
+  std::vector<std::string> head{};
+  std::vector<std::vector<std::string>> rows{};  // each as long as the head
+  std::vector<int> lines{};                      // where each row stands in the file it was read from
+  std::string file{}, reader{};                  // that it was read from, and on whose behalf ("law")
+
+  Table() = default;
+  // "fabric,law,step [s]"
+  explicit Table(const std::string& names);
+  explicit Table(std::vector<std::string> names) : head(std::move(names)) {}
+  // Columns of one length, with 17 significant digits, so that reading gives the same doubles.
+  explicit Table(const std::vector<Column>& columns);
+
+  void row(const std::vector<Cell>& cells);
+  void write(const std::filesystem::path& csv) const;  // throws as AtomicFile does
+
+  std::optional<std::size_t> find(const std::string& column) const;
+  // Error::invalid_input, naming the file, if there is no such column.
+  std::size_t at(const std::string& column) const;
+  const std::string& word(std::size_t row, const std::string& column) const { return rows[row][at(column)]; }
+  double number(std::size_t row, const std::string& column) const;  // NaN of a cell that is none
+  // Error::invalid_input, with file and line, of a cell that is no finite number.
+  double finite(std::size_t row, std::size_t column) const;
+  // The same, of all rows.
+  std::vector<double> numbers(std::size_t column) const;
+  std::vector<double> numbers(const std::string& column) const { return numbers(at(column)); }
+
+  // Each value of a column once, in the order in which they come.
+  std::vector<std::string> values(const std::string& column) const;
+  // The rows whose cell in `column` is `value`, or the same number.
+  Table where(const std::string& column, const std::string& value) const;
+  // These columns, of those that there are.
+  Table only(const std::vector<std::string>& columns) const;
+
   // Error::invalid_input of a row that was read: "law: loop.csv:3: WHAT".
   Error refusal(std::size_t row, const std::string& what) const;
 };
 
-// Reads the columns `required` and, where present, `optional`; others are ignored.  `reader` says on whose
-// behalf ("law"), for errors.  Throws Error::system if the file cannot be read; Error::invalid_input (with
-// file:line) if a column is missing, named twice or in another unit, if a row has another number of fields,
-// if a field is no finite number, or if there are no rows.
-Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
-               const std::vector<std::string>& optional, const std::string& reader);
-// All columns; a table without columns if there are no rows.
-Table read_whole_csv(const std::filesystem::path& file, const std::string& reader);
-
-struct TextTable {
-  std::vector<std::string> head;
-  std::vector<std::vector<std::string>> rows;  // each as long as the head
-  std::vector<int> lines{};                    // where each row stands in its file
-};
-
 // Throws Error::system if the file cannot be read, Error::invalid_input (with file:line) if a row has another
 // number of fields or a quote is not closed.
-TextTable read_words(const std::filesystem::path& file);
+Table read_table(const std::filesystem::path& csv);
 // The same of the text of a file of that name.
-TextTable words_in(const std::string& text, const std::string& file);
-
-// Writes with 17 significant digits, so that reading gives the same doubles, under a temporary name that
-// becomes `file` once it is complete.  Throws Error::system and leaves nothing if that fails.
-void write_csv(const std::filesystem::path& file, const Table& table);
-
-// Six significant digits, empty unless the number is finite.
-std::string number_field(double value);
-
-// A field of a table of words and numbers.
-struct CsvField {
-  std::string text;
-
-  CsvField(std::string word) : text(std::move(word)) {}
-  CsvField(const char* word) : text(word) {}
-  CsvField(double value) : text(number_field(value)) {}
-  template <std::integral Integer>
-  CsvField(Integer value) : text(std::to_string(value)) {}
-};
+Table table_in(const std::string& text, const std::string& file);
+// A table of which the columns `required` and, where present, `optional` are numbers.  `reader` says on whose
+// behalf ("law"), for errors.  Throws also Error::invalid_input if one of them is missing, named twice, in
+// another unit or has a cell that is no finite number, or if there are no rows.
+Table read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
+               const std::vector<std::string>& optional, const std::string& reader);
 
 // A line of a table, its end included.
-std::string row_of(const std::vector<CsvField>& fields);
+std::string row_of(const std::vector<std::string>& fields);
 // Of numbers with 17 significant digits.
 std::string exact_row_of(const std::vector<double>& numbers);
 
-// A table of words and numbers that gets its name once it is complete.  Throws as AtomicFile does.
-class CsvFile {
- public:
-  // `head`: the first line, "fabric,law,step [s]".
-  CsvFile(const std::filesystem::path& file, const std::string& head);
-  CsvFile(const std::filesystem::path& file, const std::vector<CsvField>& head);
-
-  void row(const std::vector<CsvField>& fields) { file_.stream() << row_of(fields); }
-  void commit() { file_.commit(); }
-
- private:
-  AtomicFile file_;
-};
+// Cells beside each other on a terminal, each in its width, to the left of a negative one; further ones are
+// as wide as the last.  Blanks at the end are left out.
+std::string aligned(const std::vector<std::string>& cells, const std::vector<int>& widths);
 
 }  // namespace hysteron

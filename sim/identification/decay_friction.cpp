@@ -128,7 +128,7 @@ class DecayModel {
 
 DecaySeries read_decay(const std::filesystem::path& file, const std::string& reader) {
   const Table table = read_csv(file, {"time [s]", "amplitude [m]"}, {}, reader);
-  DecaySeries series{table.find("time [s]")->values, table.find("amplitude [m]")->values};
+  DecaySeries series{table.numbers("time [s]"), table.numbers("amplitude [m]")};
   if (series.time.size() < kFewest)
     throw Error::invalid_input(reader + ": " + file.string() + " has " + std::to_string(series.time.size()) +
                                " amplitudes and must have at least " + std::to_string(kFewest));

@@ -191,8 +191,8 @@ Eigen::VectorXd start_of(const Profile& profile, int terms) {
 Profile read_profile(const std::filesystem::path& file, const std::string& reader) {
   const Table table = read_csv(file, {"x [m]", "y [m]"}, {}, reader);
   Profile profile{file.filename().string(), {}};
-  for (std::size_t i = 0; i < table.lines.size(); ++i)
-    profile.points.emplace_back(table.columns[0].values[i], table.columns[1].values[i]);
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    profile.points.emplace_back(table.number(i, "x [m]"), table.number(i, "y [m]"));
   check_profile(profile, table);
   return profile;
 }

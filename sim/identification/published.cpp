@@ -69,7 +69,7 @@ void say_friction(Identification& result) {
 
 VirginNumbers read_virgin(const std::filesystem::path& file, const std::string& reader) {
   const Table table = read_csv(file, {kB1, kC1}, {}, reader);
-  const std::vector<double>&b1 = table.find(kB1)->values, &c1 = table.find(kC1)->values;
+  const std::vector<double> b1 = table.numbers(kB1), c1 = table.numbers(kC1);
   for (std::size_t i = 0; i < c1.size(); ++i) {
     try {
       check_c1(c1[i], "c1");

@@ -192,9 +192,8 @@ class CurveFile {
   }
 
   std::vector<double> numbers(int column, double unit) const {
-    std::vector<double> values;
-    for (std::size_t row = 0; row < table_.rows.size(); ++row)
-      values.push_back(unit * number_of(table_, row, static_cast<std::size_t>(column), file_, reader_));
+    std::vector<double> values = table_.numbers(static_cast<std::size_t>(column));
+    for (double& value : values) value *= unit;
     return values;
   }
 
@@ -220,7 +219,7 @@ class CurveFile {
   std::string name_;
   CurveUnits units_;
   std::string reader_;
-  TextTable table_;
+  Table table_;
 };
 
 }  // namespace

@@ -201,15 +201,8 @@ std::string said_of(const UnitNames& units) {
   return std::string("--units ") + units.flag + " reads " + (units.length + 1) + " and " + (units.force + 1);
 }
 
-std::size_t column_of(const TextTable& table, const std::string& name, const fs::path& file,
-                      const std::string& reader) {
-  const auto found = std::find(table.head.begin(), table.head.end(), name);
-  if (found != table.head.end()) return static_cast<std::size_t>(found - table.head.begin());
-  throw Error::invalid_input(file.filename().string() + " has no column " + name).in(reader);
-}
-
 // A length or a force; where it is there in other units, these are named.
-std::size_t column_of(const TextTable& table, const std::string& quantity, const char* ending,
+std::size_t column_of(const Table& table, const std::string& quantity, const char* ending,
                       const fs::path& file, const std::string& reader) {
   for (const std::string& column : table.head) {
     const std::optional<std::string> unit = unit_of(column, quantity);
@@ -229,21 +222,17 @@ std::size_t column_of(const TextTable& table, const std::string& quantity, const
                                ", which reads it (" + read + ")")
         .in(reader);
   }
-  return column_of(table, quantity + ending, file, reader);
+  return table.at(quantity + ending);
 }
 
-Columns columns_of(const TextTable& table, const UnitNames& unit, const fs::path& file,
+Columns columns_of(const Table& table, const UnitNames& unit, const fs::path& file,
                    const std::string& reader) {
-  const auto at = [&](const std::string& name) { return column_of(table, name, file, reader); };
   const auto in = [&](const std::string& quantity, const char* ending) {
     return column_of(table, quantity, ending, file, reader);
   };
-  return {at("direction"),
-          at("test"),
-          at("branch"),
-          in("clamp_distance", unit.length),
-          in("force", unit.force),
-          in("gauge_length", unit.length),
+  return {table.at("direction"),   table.at("test"),
+          table.at("branch"),      in("clamp_distance", unit.length),
+          in("force", unit.force), in("gauge_length", unit.length),
           in("width", unit.length)};
 }
 
@@ -276,13 +265,13 @@ std::pair<double, double> extremes(const BranchForces& force, int cycle) {
 std::vector<FabLoops> read_fab(const fs::path& file, TesterUnits units, const std::string& reader) {
   const UnitNames& unit = units == TesterUnits::si ? kSi : kFab;
   const std::string distance = "clamp_distance";
-  const TextTable table = read_tester_table(
+  const Table table = read_tester_table(
       file, [&](const std::string& field) { return unit_of(field, distance).has_value(); },
       "a column " + distance + unit.length, reader);
   const Columns c = columns_of(table, unit, file, reader);
   std::vector<FabLoops> all;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto number = [&](std::size_t column) { return number_of(table, row, column, file, reader); };
+    const auto number = [&](std::size_t column) { return table.finite(row, column); };
     const auto& words = table.rows[row];
     const std::string where = file.filename().string() + ":" + std::to_string(table.lines[row]);
     if (words[c.direction].empty() || words[c.test].empty())

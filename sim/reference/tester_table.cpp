@@ -1,9 +1,7 @@
 #include "sim/reference/tester_table.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "sim/base/number_in.h"
 #include "sim/base/whole_file.h"
 
 namespace hysteron {
@@ -33,9 +31,9 @@ std::size_t begin_of_head(const std::string& text,
 
 }  // namespace
 
-TextTable read_tester_table(const std::filesystem::path& file,
-                            const std::function<bool(const std::string& field)>& is_of_head,
-                            const std::string& wanted, const std::string& reader) {
+Table read_tester_table(const std::filesystem::path& file,
+                        const std::function<bool(const std::string& field)>& is_of_head,
+                        const std::string& wanted, const std::string& reader) {
   std::string text = whole_file(file, "cannot read " + file.string());
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   const std::string name = file.filename().string();
@@ -43,30 +41,18 @@ TextTable read_tester_table(const std::filesystem::path& file,
   if (head == text.npos) throw Error::invalid_input(name + " has no line that names " + wanted).in(reader);
   // Blank lines in place of those before the head: the rows keep their numbers.
   const auto before = static_cast<std::size_t>(std::count(text.begin(), text.begin() + head, '\n'));
-  TextTable table;
+  Table table;
   try {
-    table = words_in(std::string(before, '\n') + text.substr(head), name);
+    table = table_in(std::string(before, '\n') + text.substr(head), name);
   } catch (const Error& error) {
     throw error.in(reader);
   }
   for (std::string& field : table.head) field = trimmed(field);
   for (std::vector<std::string>& row : table.rows)
     for (std::string& field : row) field = trimmed(field);
+  table.reader = reader;
   if (table.rows.empty()) throw Error::invalid_input(name + " has no rows").in(reader);
   return table;
-}
-
-double number_of(const TextTable& table, std::size_t row, std::size_t column,
-                 const std::filesystem::path& file, const std::string& reader) {
-  std::string_view digits = table.rows[row][column];
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  const auto number = number_in(digits);
-  if (!number || !std::isfinite(*number))
-    throw Error::invalid_input(file.filename().string() + ":" + std::to_string(table.lines[row]) + ": " +
-                               table.head[column] + " = '" + table.rows[row][column] +
-                               "' must be a finite number")
-        .in(reader);
-  return *number;
 }
 
 }  // namespace hysteron

@@ -13,12 +13,8 @@ namespace hysteron {
 // The lines from the first on with a field that `is_of_head` takes.  Throws Error::system, and
 // Error::invalid_input if there is no such line (`wanted` says what it would have been: "a column curvature")
 // or no row behind it.
-TextTable read_tester_table(const std::filesystem::path& file,
-                            const std::function<bool(const std::string& field)>& is_of_head,
-                            const std::string& wanted, const std::string& reader);
-
-// The number in a field of a table; Error::invalid_input with file and line if there is none.
-double number_of(const TextTable& table, std::size_t row, std::size_t column,
-                 const std::filesystem::path& file, const std::string& reader);
+Table read_tester_table(const std::filesystem::path& file,
+                        const std::function<bool(const std::string& field)>& is_of_head,
+                        const std::string& wanted, const std::string& reader);
 
 }  // namespace hysteron

@@ -64,8 +64,7 @@ Format csv() {
           {[](const fs::path& file) {
              read_csv(file, {"curvature [1/m]"}, {"moment [N]", "time [s]", "edit"}, "law");
            },
-           [](const fs::path& file) { read_whole_csv(file, "report"); },
-           [](const fs::path& file) { read_words(file); },
+           [](const fs::path& file) { read_table(file); },
            [](const fs::path& file) { read_series(file, kRipple, "fit"); },
            [](const fs::path& file) { read_kes_series(file, kRipple, "fit"); },
            [](const fs::path& file) { read_fab(file, TesterUnits::si, "fit"); },

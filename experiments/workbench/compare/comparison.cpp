@@ -13,9 +13,9 @@ namespace {
 bool is_numeric(const MetricValue& value) { return value.is_numeric(); }
 bool is_number_or_text(const MetricValue& value) { return value.is_numeric() || value.is_text(); }
 
-CsvField field_of(const MetricValue& value) {
+Cell field_of(const MetricValue& value) {
   if (value.is_text()) return value.text();
-  return value.is_number() ? CsvField(value.number()) : CsvField("");
+  return value.is_number() ? Cell(value.number()) : Cell("");
 }
 
 }  // namespace
@@ -58,22 +58,22 @@ void run_comparison(Run& run, const std::string& varied, std::vector<ChildRun>& 
 void write_comparison_table(Run& run, const std::string& varied, const std::vector<ChildRun>& columns,
                             const std::vector<std::string>& metrics) {
   const std::vector<std::string> keys = metrics.empty() ? metrics_in(columns, is_numeric) : metrics;
-  std::vector<CsvField> head = {varied};
+  std::vector<std::string> head = {varied};
   head.insert(head.end(), keys.begin(), keys.end());
   head.push_back("stopped");
-  CsvFile file(run.path("table.csv"), head);
+  Table table(head);
   for (const ChildRun& column : columns) {
     const Metrics found = column.metrics();
     if (column.manifest) run.manifest().asked_metrics = column.manifest->asked_metrics;
-    std::vector<CsvField> fields = {column.name};
+    std::vector<Cell> fields = {column.name};
     for (const std::string& key : keys) {
       fields.push_back(field_of(found[key]));
       if (found[key].is_number() || found[key].is_text()) run.metric(column.name + "." + key, found[key]);
     }
     fields.push_back(column.stopped);
-    file.row(fields);
+    table.row(fields);
   }
-  file.commit();
+  table.write(run.path("table.csv"));
 }
 
 }  // namespace hysteron::experiments

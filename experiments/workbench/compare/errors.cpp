@@ -97,25 +97,25 @@ void warn_of(const std::vector<ChildRun>& columns, Run& run) {
 // errors.csv: a row for each repeat.
 void write_table(Run& run, const std::vector<std::string>& metrics, const std::vector<ErrorRun>& repeats,
                  const std::vector<ChildRun>& columns) {
-  std::vector<CsvField> head = {"repeat", "differs"};
+  std::vector<std::string> head = {"repeat", "differs"};
   head.insert(head.end(), metrics.begin(), metrics.end());
   head.insert(head.end(), {"wall_s", "complete", "stopped"});
-  CsvFile file(run.path("errors.csv"), head);
+  Table table(head);
   for (std::size_t i = 0; i < repeats.size(); ++i) {
     const Metrics found = columns[i].metrics();
-    std::vector<CsvField> fields = {repeats[i].name, changes_text(repeats[i].changes)};
+    std::vector<Cell> fields = {repeats[i].name, changes_text(repeats[i].changes)};
     for (const std::string& name : metrics) {
       const MetricValue& value = found[name];
       fields.push_back(value.is_number() ? number_text(value.number()) : "");
     }
     const std::optional<double> seconds =
         columns[i].manifest ? columns[i].manifest->own_seconds() : std::nullopt;
-    fields.push_back(seconds ? CsvField(*seconds) : CsvField(""));
+    fields.push_back(seconds ? Cell(*seconds) : Cell(""));
     fields.push_back(columns[i].stopped.empty());
     fields.push_back(columns[i].stopped);
-    file.row(fields);
+    table.row(fields);
   }
-  file.commit();
+  table.write(run.path("errors.csv"));
 }
 
 // Parts of adaptive steps, too: the error that they keep is of third order, with `implicit` of second.

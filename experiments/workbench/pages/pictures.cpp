@@ -93,14 +93,14 @@ std::string player(const fs::path& folder, const std::string& path, int count, P
 std::string series_charts(const fs::path& folder, bool with_energies) {
   const fs::path file = folder / "metrics.csv";
   if (!is_there(file)) return "";
-  const Table table = read_whole_csv(file, "report");
+  Table table = read_table(file);
+  table.reader = "report";
   std::string charts;
-  for (std::size_t i = 1; i < table.columns.size(); ++i) {
-    const Column &time = table.columns[0], &column = table.columns[i];
-    if (!with_energies && column.name.ends_with("[J]")) continue;
-    std::string title = column.name;
+  for (std::size_t i = 1; i < table.head.size() && !table.rows.empty(); ++i) {
+    std::string title = table.head[i];
+    if (!with_energies && title.ends_with("[J]")) continue;
     std::replace(title.begin(), title.end(), '_', ' ');
-    charts += line_chart(title, time.values, time.name, column.values);
+    charts += line_chart(title, table.numbers(0), table.head[0], table.numbers(i));
   }
   return html_group("charts", charts);
 }

@@ -11,30 +11,10 @@ namespace hysteron::experiments {
 namespace {
 namespace fs = std::filesystem;
 
-TextTable table_in(const fs::path& file) { return is_there(file) ? read_words(file) : TextTable{}; }
-
-std::size_t place_of(const TextTable& table, const std::string& column) {
-  return static_cast<std::size_t>(std::find(table.head.begin(), table.head.end(), column) -
-                                  table.head.begin());
-}
-
-TextTable only(const TextTable& table, const std::vector<std::string>& columns) {
-  TextTable part;
-  std::vector<std::size_t> places;
-  for (const std::string& column : columns) {
-    if (!std::count(table.head.begin(), table.head.end(), column)) continue;
-    places.push_back(place_of(table, column));
-    part.head.push_back(column);
-  }
-  for (const auto& row : table.rows) {
-    std::vector<std::string>& fields = part.rows.emplace_back();
-    for (const std::size_t place : places) fields.push_back(row[place]);
-  }
-  return part;
-}
+Table table_of(const fs::path& file) { return is_there(file) ? read_table(file) : Table{}; }
 
 // Columns that say the same in every row stand above the table.
-std::string shown_table(TextTable table) {
+std::string shown_table(Table table) {
   const std::string common = take_common(table);
   return (common.empty() ? "" : html_about("In all rows " + common)) + html_of(table);
 }
@@ -68,26 +48,26 @@ std::string study_keys(const Manifest& manifest) {
 }
 
 std::string study_means(const fs::path& folder) {
-  const TextTable means = table_in(folder / "means.csv");
+  const Table means = table_of(folder / "means.csv");
   return means.rows.empty() ? "" : shown_table(means);
 }
 
 std::string study_failures(const fs::path& folder) {
-  TextTable table = only(table_in(folder / "table.csv"), {"run", "exit_code", "stopped"});
+  Table table = table_of(folder / "table.csv").only({"run", "exit_code", "stopped"});
   std::erase_if(table.rows, [](const auto& row) { return row.back().empty(); });
   return table.rows.empty() ? "" : html_of(table);
 }
 
 std::string study_runs(const fs::path& folder) {
-  TextTable table = table_in(folder / "table.csv");
+  Table table = table_of(folder / "table.csv");
   if (table.rows.empty()) return "";
   constexpr std::string_view kMean = "_mean";
   std::vector<std::string> columns = {"run"};
-  for (const std::string& name : table_in(folder / "means.csv").head)
+  for (const std::string& name : table_of(folder / "means.csv").head)
     if (name.ends_with(kMean)) columns.push_back(name.substr(0, name.size() - kMean.size()));
   columns.insert(columns.end(), {"wall_s", "state_hash"});
   constexpr std::size_t kWithoutMeans = 3;
-  if (columns.size() > kWithoutMeans) table = only(table, columns);
+  if (columns.size() > kWithoutMeans) table = table.only(columns);
   return html_details(std::to_string(table.rows.size()) + " runs", shown_table(table),
                       table.rows.size() < 25);
 }

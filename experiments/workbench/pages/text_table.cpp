@@ -16,7 +16,7 @@ std::string short_field(const std::string& text) {
   return value ? number_field(*value) : text;
 }
 
-bool numeric(const TextTable& table, std::size_t column) {
+bool numeric(const Table& table, std::size_t column) {
   bool any = false;
   for (const auto& row : table.rows) {
     if (row[column].empty()) continue;
@@ -26,7 +26,7 @@ bool numeric(const TextTable& table, std::size_t column) {
   return any;
 }
 
-bool same_everywhere(const TextTable& table, std::size_t column) {
+bool same_everywhere(const Table& table, std::size_t column) {
   return std::all_of(table.rows.begin(), table.rows.end(),
                      [&](const auto& row) { return row[column] == table.rows[0][column]; });
 }
@@ -40,7 +40,7 @@ std::string column_name(std::string name) {
 
 }  // namespace
 
-std::string take_common(TextTable& table) {
+std::string take_common(Table& table) {
   std::string common;
   if (table.rows.size() < 2) return common;
   for (std::size_t c = table.head.size(); c-- > 0;) {
@@ -55,7 +55,7 @@ std::string take_common(TextTable& table) {
   return common;
 }
 
-std::string html_of(const TextTable& table) {
+std::string html_of(const Table& table) {
   std::vector<std::string> head;
   std::vector<std::size_t> right;
   for (std::size_t c = 0; c < table.head.size(); ++c) {

@@ -9,9 +9,9 @@ namespace hysteron::experiments {
 
 // Takes columns out that say the same in every row, "device: cpu, precision: double"; empty ones are left
 // out.  A table of one row stays whole.
-std::string take_common(TextTable& table);
+std::string take_common(Table& table);
 
 // HTML: names with their units apart, long numbers with six digits, numbers to the right.
-std::string html_of(const TextTable& table);
+std::string html_of(const Table& table);
 
 }  // namespace hysteron::experiments

@@ -22,7 +22,7 @@ Record::Record(std::filesystem::path file, const std::vector<std::string>& colum
   errno = 0;
   stream_.open(growing_, std::ios::trunc);
   if (!stream_) throw failure("create", growing_, errno);
-  write(row_of({columns.begin(), columns.end()}));
+  write(row_of(columns));
 }
 
 Record::~Record() {

@@ -203,7 +203,7 @@ TEST(Swing, HangsFromTheClampsLine) {
   line.flags.push_back({"out", folder.path().string()});
   ASSERT_EQ(experiment_named("swing").run(line), 0);
   const Table series = read_csv(folder.path() / "metrics.csv", {"time [s]", "tip_height [m]"}, {}, "test");
-  const std::vector<double>&t = series.columns[0].values, &z = series.columns[1].values;
+  const std::vector<double> t = series.numbers("time [s]"), z = series.numbers("tip_height [m]");
   const Fabric fabric;
   constexpr double kFree = 0.08;
   const double sag = fabric.density * 1e-3 * std::pow(kFree, 4) / (8 * fabric.b2);

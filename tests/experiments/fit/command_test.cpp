@@ -43,7 +43,7 @@ class Fit : public testing::Test {
   std::string loop(const char* law, const std::vector<double>& turns) {
     const fs::path file = folder_.path() / "loop.csv";
     const MomentSeries series = measured(law, kCotton, turns, 0.02, 1);
-    write_csv(file, {{{"curvature [1/m]", series.curvature}, {"moment [N]", series.moment}}, {}});
+    Table({{"curvature [1/m]", series.curvature}, {"moment [N]", series.moment}}).write(file);
     return file.string();
   }
   fs::path out() const { return folder_.path() / "out"; }
@@ -115,7 +115,7 @@ TEST_F(Fit, ComparesLawsOnTheSameDataTheBestFirst) {
 TEST_F(Fit, OfFrictionElementsListsThemWithTheIterationsItTook) {
   ASSERT_EQ(fit({{"loop", loop("prandtl", {250, -250, 250})}, {"stops", "2"}}), 0);
   const Table stops = read_csv(out() / "stops.csv", {"threshold [1/m]", "stiffness [N m]"}, {}, "test");
-  EXPECT_EQ(stops.lines.size(), 2u);
+  EXPECT_EQ(stops.rows.size(), 2u);
   EXPECT_GT(metrics().at("iterations").get<int>(), 0);
   EXPECT_TRUE(metrics().at("stop1_threshold_per_m_stderr").is_number());
 }
@@ -141,13 +141,13 @@ TEST_F(Fit, RefusesRequestsThatMakeNoSense) {
 // Friction of 1 mN beside a spring that it exceeds tenfold.
 TEST_F(Fit, WarnsOfALawThatDoesNotDescribeTheData) {
   const fs::path file = folder_.path() / "friction.csv";
-  Table loop{{{"curvature [1/m]", {}}, {"moment [N]", {}}}, {}};
+  Column curvature{"curvature [1/m]", {}}, moment{"moment [N]", {}};
   for (int i = 0; i <= 120; ++i) {
     const double sign = i < 40 ? 1 : i < 80 ? -1 : 1, at = i < 40 ? i : i < 80 ? 80 - i : i - 80;
-    loop.columns[0].values.push_back(5 * at);
-    loop.columns[1].values.push_back(1e-3 * sign + 1e-6 * 5 * at);
+    curvature.values.push_back(5 * at);
+    moment.values.push_back(1e-3 * sign + 1e-6 * 5 * at);
   }
-  write_csv(file, loop);
+  Table({curvature, moment}).write(file);
   ASSERT_EQ(fit({{"loop", file.string()}, {"law", "linear"}}), 0);
   EXPECT_NE(warned_.find("warning: linear does not describe these data: it misses them by "),
             std::string::npos)
@@ -183,12 +183,10 @@ class FitOfFab : public Fit {
   // The same rows after a change of each: columns direction, test, branch, distance, force, gauge, width.
   template <class Change>
   std::string changed(const Change& change) const {
-    TextTable table = read_words(made());
+    Table table = read_table(made());
     const std::string file = (folder_.path() / "changed.csv").string();
-    CsvFile written(file, std::vector<CsvField>(table.head.begin(), table.head.end()));
     for (auto& row : table.rows) change(row);
-    for (const auto& row : table.rows) written.row({row.begin(), row.end()});
-    written.commit();
+    table.write(file);
     return file;
   }
   const Fabric cotton_ = read_fabric("cotton-broad", "test").fabric;
@@ -203,7 +201,7 @@ TEST_F(FitOfFab, FindsTheirFrictionAndPredictsWhatWasNotFitted) {
   const double friction = cotton_.virgin_curve().friction_moment();
   EXPECT_NEAR(m.at("L.HB_N"), friction, 0.1 * friction);  // thresholds are not the law's
   EXPECT_TRUE(m.at("undetermined").is_array());
-  const TextTable predictions = read_words(out() / "predictions.csv");
+  const Table predictions = read_table(out() / "predictions.csv");
   ASSERT_EQ(predictions.rows.size(), 2u);
   EXPECT_EQ(predictions.rows[0][2], "0");
   EXPECT_EQ(predictions.rows[1][2], "1");
@@ -251,15 +249,15 @@ TEST_F(FitOfFab, OfLoopsThatNoTesterRecordsIsRefusedBeforeAnythingIsWritten) {
 }
 
 TEST_F(FitOfFab, TakesWarpBeforeWeftWhateverTheirOrderInTheFile) {
-  TextTable table = read_words(made());
+  const Table made_table = read_table(made());
   const std::string file = (folder_.path() / "both.csv").string();
-  CsvFile written(file, std::vector<CsvField>(table.head.begin(), table.head.end()));
+  Table table(made_table.head);
   for (const char* direction : {"B", "W", "L"})
-    for (auto& row : table.rows) {
-      row[0] = direction;
-      written.row({row.begin(), row.end()});
+    for (const auto& row : made_table.rows) {
+      table.rows.push_back(row);
+      table.rows.back()[0] = direction;
     }
-  written.commit();
+  table.write(file);
   ASSERT_EQ(fit(flags(file)), 0);
   EXPECT_NE(text_of(out() / "fabric.toml").find("along L, W in both.csv"), std::string::npos);
   std::vector<Flag> bias = flags(file);

@@ -181,15 +181,16 @@ TEST(Fold, RepeatsWithoutFatigueAndWeakensAndSetsWithIt) {
 
   const Table repeats = read_csv(out / "prandtl" / "cycles.csv",
                                  {"cycle", "set_curvature [1/m]", "bending_friction [J]"}, {}, "test");
-  ASSERT_EQ(repeats.columns[0].values.size(), 3u);
-  for (int column : {1, 2}) {
-    const auto& values = repeats.columns[column].values;
-    EXPECT_NEAR(values[2] / values[1], 1, 0.01) << repeats.columns[column].name;
+  ASSERT_EQ(repeats.rows.size(), 3u);
+  for (const char* column : {"set_curvature [1/m]", "bending_friction [J]"}) {
+    const std::vector<double> values = repeats.numbers(column);
+    EXPECT_NEAR(values[2] / values[1], 1, 0.01) << column;
   }
   const Table wears =
       read_csv(out / "prandtl-fatigue" / "material.csv", {"M0 [N]", "permanent_set [1/m]"}, {}, "test");
-  EXPECT_TRUE(std::is_sorted(wears.columns[0].values.rbegin(), wears.columns[0].values.rend()));
-  EXPECT_TRUE(std::is_sorted(wears.columns[1].values.begin(), wears.columns[1].values.end()));
+  const std::vector<double> friction = wears.numbers("M0 [N]"), set = wears.numbers("permanent_set [1/m]");
+  EXPECT_TRUE(std::is_sorted(friction.rbegin(), friction.rend()));
+  EXPECT_TRUE(std::is_sorted(set.begin(), set.end()));
 }
 
 TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
@@ -199,7 +200,7 @@ TEST(Fold, OfALawThatCannotGoOnIsMarkedOnThePageOfTheOthers) {
       "--quiet --out " +
       folder.path().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const TextTable table = read_words(folder.path() / "table.csv");
+  const Table table = read_table(folder.path() / "table.csv");
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_NE(table.rows[1].back().find("law = nonsense must be"), std::string::npos);
   for (const std::size_t row : {0, 2}) {
@@ -214,8 +215,8 @@ TEST(Fold, OfTheLawAloneWritesItsCyclesAndMetrics) {
   EXPECT_EQ(
       experiment_named("fold").run(fold_line(out, {{"fold.law-alone", "true"}, {"fold.cycles", "1000"}})), 0);
   const Table cycles = read_csv(out / "cycles.csv", {"cycle", "2HB [N]"}, {}, "test");
-  EXPECT_EQ(cycles.columns[0].values.back(), 1000);
-  EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.columns[1].values.back());
+  EXPECT_EQ(cycles.numbers("cycle").back(), 1000);
+  EXPECT_EQ(metrics_of(out)["2HB_N"].get<double>(), cycles.numbers("2HB [N]").back());
 }
 
 TEST(Fold, RefusesWhatCannotBeFolded) {

@@ -40,10 +40,10 @@ TEST_F(LawCommand, WritesMomentTangentAndEnergiesForEveryRow) {
       {}, "law");
   const double m0 = 3e-5 * 50 / 2, b2 = 1e-5;
   constexpr double kRounding = 1e-15;
-  EXPECT_NEAR(out.columns[1].values[0], m0 + b2 * 50, kRounding);
-  EXPECT_NEAR(out.columns[2].values[1], b2, kRounding);
-  EXPECT_NEAR(out.columns[3].values[1], b2 * 100 * 100 / 2, kRounding);
-  EXPECT_NEAR(out.columns[4].values[1], m0 * (100 - 50. / 3), kRounding);
+  EXPECT_NEAR(out.number(0, "moment [N]"), m0 + b2 * 50, kRounding);
+  EXPECT_NEAR(out.number(1, "tangent [N m]"), b2, kRounding);
+  EXPECT_NEAR(out.number(1, "stored [J/m2]"), b2 * 100 * 100 / 2, kRounding);
+  EXPECT_NEAR(out.number(1, "dissipated [J/m2]"), m0 * (100 - 50. / 3), kRounding);
 }
 
 TEST_F(LawCommand, RefusesTheChaptersSignOfTheRigidities) {
@@ -76,7 +76,7 @@ TEST_F(LawCommand, RefusesWhatNoNumberCanHold) {
 TEST_F(LawCommand, GivesTimeAndCommandsToTheLawsThatTakeThem) {
   const auto moments = [&] {
     EXPECT_EQ(run_law_command(options_), 0);
-    return read_csv(options_.out, {"moment [N]"}, {}, "law").columns[0].values;
+    return read_csv(options_.out, {"moment [N]"}, {}, "law").numbers("moment [N]");
   };
   options_.law = "terzopoulos";
   write("curvature [1/m],time [s]\n200,0\n200,1\n200,1001\n");

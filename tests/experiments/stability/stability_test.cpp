@@ -79,12 +79,12 @@ TEST(Attempt, IsCutShortWhenItsWorkIsDone) {
 TEST(Sweeps, CoverWhatTheProgramPromises) {
   const SweepChoice all;
   const std::vector<Sweep> sweeps = make_sweeps(sweep_names(), all);
-  const std::vector<Cell> cells = cells_of(sweeps, all);
+  const std::vector<SweepCell> cells = cells_of(sweeps, all);
   EXPECT_GE(cells.size(), 600u);
   double softest = 1, stiffest = 0, shortest = 1, longest = 0;
-  for (const Cell& cell : cells) {
+  for (const SweepCell& cell : cells) {
     const Scene& s = cell.attempt.scene;
-    if (sweeps[cell.sweep].name != "bending-step") continue;
+    if (cell.sweep != "bending-step") continue;
     softest = std::min(softest, s.fabric.b2), stiffest = std::max(stiffest, s.fabric.b2);
     shortest = std::min(shortest, s.step), longest = std::max(longest, s.step);
     EXPECT_GE(s.fabric.b1, s.fabric.b2);
@@ -152,7 +152,7 @@ TEST_P(ClosingSphere, CrushesASheetWithoutACrossingAndWithBoundedEnergy) {
 TEST(Cells, AreTriedAllOnceByAnyNumberOfThreads) {
   const SweepChoice quick{{"semi-implicit"}, {"linear"}, DeviceChoice::cpu, true};
   const std::vector<Sweep> sweeps = make_sweeps({"density-step"}, quick);
-  std::vector<Cell> one = cells_of(sweeps, quick), three = one;
+  std::vector<SweepCell> one = cells_of(sweeps, quick), three = one;
   std::size_t calls = 0;
   try_all(one, {0.1, 50}, 1, [&](std::size_t) { ++calls; });
   try_all(three, {0.1, 50}, 3, [](std::size_t) {});

@@ -53,15 +53,15 @@ class SweepInABatch : public testing::Test {
     return folder_.path() / out / "runs" / ("law=" + law + ",k0=40");
   }
   // All but times: metrics, hashes, exit codes and reasons.
-  TextTable table(const std::string& out) const {
-    TextTable table = read_words(folder_.path() / out / "table.csv");
+  Table table(const std::string& out) const {
+    Table table = read_table(folder_.path() / out / "table.csv");
     const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
     table.head.erase(table.head.begin() + at);
     for (auto& row : table.rows) row.erase(row.begin() + at);
     return table;
   }
   void expect_same(const std::string& a, const std::string& b) const {
-    const TextTable one = table(a), other = table(b);
+    const Table one = table(a), other = table(b);
     EXPECT_EQ(one.head, other.head);
     EXPECT_EQ(one.rows, other.rows);
   }
@@ -94,7 +94,7 @@ TEST_F(SweepInABatch, MarksWhatFailsAsAloneAndEndsTheOthers) {
   EXPECT_EQ(run("alone", "").exit_code, 3);
   EXPECT_EQ(run("together", "--batch 6").exit_code, 3);
   expect_same("alone", "together");
-  const TextTable found = table("together");
+  const Table found = table("together");
   const auto failed = std::count_if(found.rows.begin(), found.rows.end(), [](const auto& row) {
     return row.back().find("b2") != std::string::npos;
   });
@@ -136,7 +136,7 @@ TEST_F(SweepInABatch, OnAGpuEveryRunHasTheBitsThatItHasAlone) {
         "key = \"fabric.b2\"\nvalues = [1e-6, 1.0, 2e-6]\n");
   EXPECT_EQ(run("alone", "").exit_code, 3);
   EXPECT_EQ(run("together", "--batch 6").exit_code, 3);
-  const TextTable alone = table("alone"), together = table("together");
+  const Table alone = table("alone"), together = table("together");
   const auto at = std::find(alone.head.begin(), alone.head.end(), "state_hash") - alone.head.begin();
   for (std::size_t r = 0; r < alone.rows.size(); ++r) {
     const auto c = static_cast<std::size_t>(at);

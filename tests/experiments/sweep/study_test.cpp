@@ -156,7 +156,7 @@ TEST(Study, TellsTheMeanOfRepeatedDrawsWithItsStandardError) {
   std::vector<ChildRun> runs;
   for (const double x : {1, 2, 3, 4, 5, 5, 5, 5}) runs.push_back(found({{"x_m", x}}));
   runs.back().manifest.reset();  // one that is not complete
-  const TextTable means = table_of_means(study, runs, {"x_m"});
+  const Table means = table_of_means(study, runs, {"x_m"});
   EXPECT_EQ(means.head, (std::vector<std::string>{"law", "draws", "x_m_mean", "x_m_stderr"}));
   ASSERT_EQ(means.rows.size(), 2u);
   EXPECT_EQ(means.rows[0][2], "2.5");
@@ -169,7 +169,7 @@ TEST(Study, WritesARowForEachRunWithNumbersTruthsAndTexts) {
   std::vector<ChildRun> runs = {found({{"x_m", 0.1}, {"settled", true}}), found({{"shape", "plateau"}})};
   runs[1].exit_code = 3;
   runs[1].stopped = "no convergence";
-  const TextTable table = table_of_runs(study, runs);
+  const Table table = table_of_runs(study, runs);
   EXPECT_EQ(table.head, (std::vector<std::string>{"run", "seed", "x_m", "settled", "shape", "wall_s",
                                                   "state_hash", "exit_code", "stopped"}));
   EXPECT_EQ(table.rows[0], (std::vector<std::string>{"seed=1", "1", "0.1", "1", "", "0", "", "0", ""}));

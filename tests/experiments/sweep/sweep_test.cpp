@@ -23,20 +23,18 @@ class Sweep : public testing::Test {
     return program("sweep " + study_.string() + " --no-images --jobs 2 --out " +
                    (folder_.path() / out).string() + " " + options);
   }
-  TextTable table(const std::string& out = "out") const {
-    return read_words(folder_.path() / out / "table.csv");
-  }
+  Table table(const std::string& out = "out") const { return read_table(folder_.path() / out / "table.csv"); }
   nlohmann::json manifest(const fs::path& in) const {
     return nlohmann::json::parse(text_of(folder_.path() / in / "manifest.json"));
   }
   // Runs that are repeated take another time.
-  static TextTable without_time(TextTable table) {
+  static Table without_time(Table table) {
     const auto at = std::find(table.head.begin(), table.head.end(), "wall_s") - table.head.begin();
     table.head.erase(table.head.begin() + at);
     for (auto& row : table.rows) row.erase(row.begin() + at);
     return table;
   }
-  static void expect_same(const TextTable& a, const TextTable& b) {
+  static void expect_same(const Table& a, const Table& b) {
     EXPECT_EQ(a.head, b.head);
     EXPECT_EQ(a.rows, b.rows);
   }
@@ -47,7 +45,7 @@ class Sweep : public testing::Test {
 
 TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolder) {
   ASSERT_EQ(run("").exit_code, 0);
-  const TextTable found = table();
+  const Table found = table();
   ASSERT_EQ(found.rows.size(), 4u);
   const std::vector<std::string> first(found.head.begin(), found.head.begin() + 3);
   EXPECT_EQ(first, (std::vector<std::string>{"run", "fabric.k0", "fabric.b2"}));
@@ -63,7 +61,7 @@ TEST_F(Sweep, TabulatesWhatEveryRunHasFoundInItsOwnFolder) {
 
 TEST_F(Sweep, GoesOnToTheSameTableAndRepeatsNothingThatIsFinished) {
   ASSERT_EQ(run("").exit_code, 0);
-  const TextTable whole = table();
+  const Table whole = table();
   fs::remove_all(folder_.path() / "out/runs" / whole.rows[1][0]);
   fs::remove(folder_.path() / "out/table.csv");
   ASSERT_EQ(run("--resume").exit_code, 0);
@@ -97,7 +95,7 @@ TEST_F(Sweep, ListsRunsThatFailGoesOnAndExitsWithThree) {
   const Outcome outcome = run("");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.err.find("2 of 4 runs are not complete"), std::string::npos) << outcome.err;
-  const TextTable found = table();
+  const Table found = table();
   for (std::size_t r = 0; r < 4; ++r) {
     const bool fails = r % 2 == 1;
     EXPECT_EQ(found.rows[r].back().empty(), !fails);
@@ -144,7 +142,7 @@ TEST_F(Sweep, OfASceneShowsTheMetricsThatItAsksFor) {
       "no-images = true\ndevice = \"cpu\"\n[[axis]]\nkey = \"fabric.b2\"\nvalues = [1e-6, 2e-6]\n");
   const Outcome outcome = run("");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(read_words(folder_.path() / "out/means.csv").head,
+  EXPECT_EQ(read_table(folder_.path() / "out/means.csv").head,
             (std::vector<std::string>{"fabric.b2", "draws", "corner_m_mean", "corner_m_stderr"}));
 }
 

@@ -35,9 +35,9 @@ TEST_F(Csv, FindsColumnsByNameInAnyOrderAndIgnoresOthers) {
   const Table table =
       read_csv(file("\xEF\xBB\xBFnote, time [s] ,curvature [1/m]\r\n7,0,+1.5e1\r\n\r\n8,1,-2\r\n"),
                {"curvature [1/m]"}, {"time [s]", "edit"}, "law");
-  EXPECT_EQ(table.find("curvature [1/m]")->values, (std::vector<double>{15, -2}));
-  EXPECT_EQ(table.find("time [s]")->values, (std::vector<double>{0, 1}));
-  EXPECT_EQ(table.find("edit"), nullptr);
+  EXPECT_EQ(table.numbers("curvature [1/m]"), (std::vector<double>{15, -2}));
+  EXPECT_EQ(table.numbers("time [s]"), (std::vector<double>{0, 1}));
+  EXPECT_FALSE(table.find("edit"));
   EXPECT_EQ(table.lines, (std::vector<int>{2, 4}));
 }
 
@@ -61,10 +61,10 @@ TEST_F(Csv, TellsSemicolonsAndTabsFromCommasByTheHead) {
   for (const char* text : {"note;curvature [1/m]\n\"a;b\";-1,5\n1,2,3;2,5e1\n",
                            "note\tcurvature [1/m]\na;b\t-1.5\n1,2,3\t2,5e1\n",
                            "\xEF\xBB\xBF\nnote,curvature [1/m]\na;b,-1.5\n\"1,2,3\",2.5e1\n"}) {
-    EXPECT_EQ(read_csv(file(text), {"curvature [1/m]"}, {}, "law").columns[0].values,
+    EXPECT_EQ(read_csv(file(text), {"curvature [1/m]"}, {}, "law").numbers("curvature [1/m]"),
               (std::vector<double>{-1.5, 25}))
         << text;
-    const TextTable words = read_words(file(text));
+    const Table words = read_table(file(text));
     EXPECT_EQ(words.rows[0][0], "a;b") << text;
     EXPECT_EQ(words.rows[1][0], "1,2,3") << text;
   }
@@ -94,28 +94,37 @@ TEST_F(Csv, NamesTheReaderTheFileAndTheLineOfARow) {
 }
 
 TEST_F(Csv, WritesWordsAndNumbersAndReadsThemBack) {
-  CsvFile written(folder_ / "words.csv", "name,count,size [m],known");
+  Table written("name,count,size [m],known");
   written.row({"a, \"b\"", 12, 1. / 3, true});
   written.row({"", std::size_t{0}, NAN, false});
-  written.commit();
-  const TextTable table = read_words(folder_ / "words.csv");
+  written.write(folder_ / "words.csv");
+  const Table table = read_table(folder_ / "words.csv");
   EXPECT_EQ(table.head, (std::vector<std::string>{"name", "count", "size [m]", "known"}));
   EXPECT_EQ(table.rows,
             (std::vector<std::vector<std::string>>{{"a, \"b\"", "12", "0.333333", "1"}, {"", "0", "", "0"}}));
   EXPECT_EQ(table.lines, (std::vector<int>{2, 3}));
 }
 
-TEST_F(Csv, ReadsEveryColumnOfATableOfNumbersAndNoneOfOneWithoutRows) {
-  const Table whole = read_whole_csv(file(" time [s],x\n0,1\n"), "report");
-  ASSERT_EQ(whole.columns.size(), 2u);
-  EXPECT_EQ(whole.columns[0].name, "time [s]");
-  EXPECT_TRUE(read_whole_csv(file("time [s],x\n"), "report").columns.empty());
+TEST_F(Csv, FindsRowsByWordsAndByNumbersAndColumnsByName) {
+  const Table table = read_table(file("law,k,x\nwong,4.0,1\ndahl,4,\nwong,5,3\n"));
+  EXPECT_EQ(table.where("law", "wong").only({"x", "y", "k"}).rows,
+            (std::vector<std::vector<std::string>>{{"1", "4.0"}, {"3", "5"}}));
+  EXPECT_EQ(table.where("k", "4").lines, (std::vector<int>{2, 3}));
+  EXPECT_TRUE(std::isnan(table.number(1, "x")));
+  EXPECT_NE(test::refusal([&] { table.numbers("x"); }).find("in.csv:3: x = '' must be a finite"),
+            std::string::npos);
+  EXPECT_NE(test::refusal([&] { table.at("y"); }).find("in.csv has no column y"), std::string::npos);
+}
+
+TEST_F(Csv, AlignsCellsInTheirWidths) {
+  EXPECT_EQ(aligned({"law", "B", "", "x"}, {-5, 3, 4, -6}), "law     B      x");
+  EXPECT_EQ(aligned({"a", "b", ""}, {1, -3}), "a b");
 }
 
 TEST_F(Csv, ReadsBackTheSameDoublesThatWereWritten) {
   const std::vector<double> values = {1. / 3, -2e-300, 6.02214076e23, 0};
-  write_csv(folder_ / "out.csv", {{{"curvature [1/m]", values}}, {}});
-  EXPECT_EQ(read_csv(folder_ / "out.csv", {"curvature [1/m]"}, {}, "law").columns[0].values, values);
+  Table(std::vector<Column>{{"curvature [1/m]", values}}).write(folder_ / "out.csv");
+  EXPECT_EQ(read_csv(folder_ / "out.csv", {"curvature [1/m]"}, {}, "law").numbers("curvature [1/m]"), values);
 }
 
 }  // namespace

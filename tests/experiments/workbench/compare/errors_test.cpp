@@ -241,7 +241,7 @@ TEST(SwingWithErrors, FindsWhatSeparateRunsFind) {
   EXPECT_GT(manifest["wall_seconds"]["errors"].get<double>(), 0);
   EXPECT_GT(manifest["wall_seconds"]["setup"].get<double>(), 0);
 
-  const TextTable table = read_words("run/errors.csv");
+  const Table table = read_table("run/errors.csv");
   ASSERT_EQ(table.rows.size(), 4);
   EXPECT_EQ(table.head.front(), "repeat");
   EXPECT_EQ(table.rows[0][1], "triangles=240");
@@ -282,7 +282,7 @@ TEST(SwingWithErrors, SaysWhichRepeatFailed) {
   EXPECT_EQ(manifest["warnings"].back(), "errors: " + missing);
   EXPECT_NE(outcome.err.find("warning: errors: " + missing), std::string::npos) << outcome.err;
   EXPECT_TRUE(manifest["errors_missing"][0].get<std::string>().starts_with("mesh (--triangles=240) is not"));
-  const TextTable table = read_words(folder.path() / "run/errors.csv");
+  const Table table = read_table(folder.path() / "run/errors.csv");
   const auto complete = std::find(table.head.begin(), table.head.end(), "complete") - table.head.begin();
   EXPECT_EQ(table.rows[0][complete], "0");
   EXPECT_EQ(table.rows[1][complete], "1");

@@ -7,34 +7,34 @@
 namespace hysteron::experiments {
 namespace {
 
-TextTable table_in(const std::string& text) {
+Table table_of(const std::string& text) {
   const Folder folder;
   const std::filesystem::path file = folder.path() / "table.csv";
   std::ofstream(file, std::ios::binary) << text;
-  return read_words(file);
+  return read_table(file);
 }
 
 TEST(TextTable, ReadsWhatRowsAreWrittenAs) {
   const std::vector<std::vector<std::string>> rows = {
       {"law", "note"}, {"wong", "a, b"}, {"\"quoted\"", "two\nlines"}, {"", ""}};
   std::string text;
-  for (const auto& row : rows) text += row_of({row.begin(), row.end()});
-  const TextTable table = table_in(text);
+  for (const auto& row : rows) text += row_of(row);
+  const Table table = table_of(text);
   EXPECT_EQ(table.head, rows[0]);
   EXPECT_EQ(table.rows, std::vector(rows.begin() + 1, rows.end()));
 }
 
 TEST(TextTable, ToleratesCarriageReturnsAndAMissingLastEnd) {
-  const TextTable table = table_in("a,b\r\n1,2\r\n\r\n3,4");
+  const Table table = table_of("a,b\r\n1,2\r\n\r\n3,4");
   EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"1", "2"}, {"3", "4"}}));
-  EXPECT_TRUE(table_in("").head.empty());
+  EXPECT_TRUE(table_of("").head.empty());
 }
 
 TEST(TextTable, NamesTheLineOfABrokenRow) {
   for (const auto& [text, where] : {std::pair{"a,b\n\"x\ny\",2\n1,2,3\n", ":4: 3 fields, must be 2"},
                                     std::pair{"a,b\n1,2\n3,\"4\n5\n", ":3: a quote is not closed"}}) {
     try {
-      table_in(text);
+      table_of(text);
       FAIL() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), 2);
@@ -44,23 +44,23 @@ TEST(TextTable, NamesTheLineOfABrokenRow) {
 }
 
 TEST(TextTable, SaysOnceWhatEveryRowSays) {
-  TextTable table = table_in("law,step_ms,failed,device\nwong,2.5,,cpu\ndahl,2.5,,cpu\n");
+  Table table = table_of("law,step_ms,failed,device\nwong,2.5,,cpu\ndahl,2.5,,cpu\n");
   EXPECT_EQ(take_common(table), "step [ms]: 2.5, device: cpu");
   EXPECT_EQ(table.head, (std::vector<std::string>{"law"}));
-  TextTable single = table_in("law,device\nwong,cpu\n");
+  Table single = table_of("law,device\nwong,cpu\n");
   EXPECT_EQ(take_common(single), "");
   EXPECT_EQ(single.head.size(), 2u);
 }
 
 TEST(TextTable, SetsNumbersToTheRightWithSixDigits) {
-  const std::string html = html_of(table_in("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
+  const std::string html = html_of(table_of("law,2HB_N,count\nwong,0.00012345678,1170\ndahl,1e-8,\n"));
   for (const char* part : {"<th>law<th>2HB [N]", "<td>0.000123457<", "<td>1e-8<", "<td>1170\n", "<td>wong<"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
 }
 
 // All but the first column are numbers unless a class says otherwise.
 TEST(TextTable, MarksTextsBesideTheFirstColumnAndNumbersInIt) {
-  const std::string html = html_of(table_in("count,note\n12,\"cut, twice\"\n7,\n"));
+  const std::string html = html_of(table_of("count,note\n12,\"cut, twice\"\n7,\n"));
   for (const char* part : {"<th class=\"n\">count", "<td class=\"n\">12<", "<th class=\"t\">note",
                            "<td class=\"t\">cut, twice\n"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;

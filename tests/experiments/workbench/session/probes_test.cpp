@@ -20,10 +20,7 @@ const std::string kSwing =
 std::string in(const fs::path& out) { return " --out " + out.string(); }
 
 std::vector<double> column(const fs::path& table, const std::string& name) {
-  const Table all = read_whole_csv(table, "test");
-  const Column* found = all.find(name);
-  EXPECT_TRUE(found) << name;
-  return found ? found->values : std::vector<double>();
+  return read_table(table).numbers(name);
 }
 
 // M = b2 K and nothing is left without moment, in each component; a row for each of metrics.csv.
