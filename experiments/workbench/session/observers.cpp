@@ -92,26 +92,22 @@ void Account::begin(Session& session) {
 }
 
 // Of a batch the launches and waits are not one run's.
-void note_device_work(Run& run, const Simulation& simulation) {
+void note_device_work(Run& run, const Diagnostics& counts) {
   if (run.manifest().batch) return;
-  const DeviceCounts work = simulation.device_work();
-  const auto per_step = [&](long count) {
-    return static_cast<double>(count) / static_cast<double>(std::max(1L, simulation.steps()));
-  };
-  run.note("device_per_step", {{"launches", per_step(work.loops)},
-                               {"synchronizations", per_step(work.synchronizations)},
-                               {"allocations", per_step(work.allocations)}});
+  run.note("device_per_step", {{"launches", counts.per_step(counts.device.loops)},
+                               {"synchronizations", counts.per_step(counts.device.synchronizations)},
+                               {"allocations", counts.per_step(counts.device.allocations)}});
 }
 
-void fill_manifest(Run& run, Simulation& simulation) {
+void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) {
   Manifest& manifest = run.manifest();
   manifest.energy = simulation.ledger().rows();
   for (const auto& [stage, seconds] : simulation.stage_seconds()) run.add_seconds(stage, seconds);
   manifest.state_hash = fmt::format("{:016x}", simulation.state_hash());
-  manifest.steps = simulation.steps();
+  manifest.steps = counts.steps;
   manifest.seconds_simulated = simulation.time();
-  manifest.bytes_device = simulation.device_bytes();
-  note_device_work(run, simulation);
+  manifest.bytes_device = counts.bytes;
+  note_device_work(run, counts);
 }
 
 // Of statics the integrator's share is what jumps from one equilibrium to the next set free, whatever the
@@ -126,27 +122,25 @@ void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
 }
 
 // How much was left unbalanced, in the units of --newton-residual and --newton-velocity.
-void note_convergence(Run& run, const Simulation& simulation, const Scene& scene) {
-  run.metric("solver_iterations_per_step", simulation.solver_iterations());
+void note_convergence(Run& run, const Diagnostics& counts, const Scene& scene) {
+  run.metric("solver_iterations_per_step", counts.per_step(counts.linear));
   if (scene.finds_equilibrium()) {
-    run.metric("newton_iterations_per_step", simulation.newton_iterations());
-    const SolverCounts counts = simulation.solver_counts();
+    run.metric("newton_iterations_per_step", counts.per_step(counts.newton));
     if (scene.is_implicit()) {
       run.metric("newton_residual_largest", counts.largest_residual);
       run.metric("newton_velocity_largest_m_per_s", counts.largest_velocity);
-      run.metric("newton_velocity_mean_m_per_s", counts.mean_velocity);
+      run.metric("newton_velocity_mean_m_per_s", counts.mean_velocity());
     }
     if (scene.newton_iterations > 0 || counts.unbalanced > 0)
       run.metric("unbalanced_steps_count", counts.unbalanced);
   }
   if (scene.finds_equilibrium() || scene.tolerance > 0) {
-    run.metric("parts_count", simulation.parts_taken());
-    run.metric("retried_steps_count", simulation.retried_steps());
+    run.metric("parts_count", counts.parts);
+    run.metric("retried_steps_count", counts.retried);
   }
 }
 
-void note_deep_contact(Run& run, const Simulation& simulation) {
-  const long deep = simulation.deep_steps();
+void note_deep_contact(Run& run, long deep) {
   run.metric("deep_contact_steps_count", deep);
   if (deep == 0) return;
   run.warn("in " + std::to_string(deep) +
@@ -154,33 +148,34 @@ void note_deep_contact(Run& run, const Simulation& simulation) {
            "keeps it out");
 }
 
-void note_slack_hands(Run& run, const Simulation& simulation, const Scene& scene) {
-  const long barred = simulation.barred_hand_steps();
+void note_slack_hands(Run& run, const Diagnostics& counts, const Scene& scene) {
+  const long barred = counts.barred_hands;
   const bool weak =
       std::any_of(scene.pin.begin(), scene.pin.end(), [](const Pin& p) { return p.strength > 0; });
   if (!weak && barred == 0) return;
-  run.metric("slack_hand_steps_count", simulation.slack_hand_steps());
-  run.metric("hand_lag_m", simulation.hand_lag());
+  run.metric("slack_hand_steps_count", counts.slack_hands);
+  run.metric("hand_lag_m", counts.hand_lag);
   if (barred == 0) return;
   run.metric("barred_hand_steps_count", barred);
   run.warn(
       fmt::format("in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
                   "lagged behind by up to {:.2g} mm",
-                  barred, 1e3 * simulation.hand_lag()));
+                  barred, 1e3 * counts.hand_lag));
 }
 
 void Account::finish(Session& session, const std::string&) {
   Run& run = session.run();
   Simulation& simulation = session.simulation();
   const Scene& scene = session.scene();
-  fill_manifest(run, simulation);
+  const Diagnostics counts = simulation.counts();
+  fill_manifest(run, simulation, counts);
   run.metric("max_stretch_percent", 100 * simulation.largest_stretch());
   note_energy(run, simulation.ledger(), scene);
   for (const std::string& doubt : doubts_at_end(scene, session.cloth(), simulation.positions(), stretched_))
     run.warn(doubt);
-  note_convergence(run, simulation, scene);
-  if (!scene.obstacle.empty()) note_deep_contact(run, simulation);
-  note_slack_hands(run, simulation, scene);
+  note_convergence(run, counts, scene);
+  if (!scene.obstacle.empty()) note_deep_contact(run, counts.deep);
+  note_slack_hands(run, counts, scene);
 }
 
 class Folds : public Observer {

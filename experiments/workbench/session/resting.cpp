@@ -21,9 +21,9 @@ Rest step_to_rest(Simulation& simulation, double still) {
   Rest rest{INFINITY, ""};
   bool balanced = false;
   for (int step = 0; step < kMaxSteps && !(balanced && rest.moved <= still); ++step) {
-    const long unbalanced = simulation.unbalanced_steps();
+    const long unbalanced = simulation.counts().unbalanced;
     simulation.advance(1);
-    balanced = simulation.unbalanced_steps() == unbalanced;
+    balanced = simulation.counts().unbalanced == unbalanced;
     std::vector<Eigen::Vector3d> x = simulation.positions();
     rest.moved = farthest_moved(x, before);
     before = std::move(x);
