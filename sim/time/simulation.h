@@ -29,7 +29,7 @@ class Simulation {
   // Error::invalid_input for integrators but `quasi-static`, Error::simulation as advance().
   virtual void advance_by(double seconds) = 0;
   // From now on every step looks for equilibrium: inertia, drag and viscosity are left out, and what moves
-  // stands still.  Where there is none, the step is taken as it is and counted in unbalanced_steps().
+  // stands still.  Where there is none, the step is taken as it is and counted as unbalanced.
   // Error::invalid_input for integrators that are not implicit in all forces.
   virtual void become_static() = 0;
   // All that outlives a step, bit for bit, as bytes that only this program reads; a simulation of the same

@@ -1,5 +1,4 @@
-#include "experiments/workbench/session/observers.h"
-
+// The observers of every run, but for those with a file of their own.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,8 +10,10 @@
 #include "experiments/workbench/session/crossings.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/mesh_export.h"
+#include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/recoveries.h"
+#include "experiments/workbench/session/resuming.h"
 #include "sim/bending/curvature_operator.h"
 
 namespace hysteron::experiments {
@@ -101,7 +102,6 @@ void note_device_work(Run& run, const Diagnostics& counts) {
 
 void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) {
   Manifest& manifest = run.manifest();
-  manifest.energy = simulation.ledger().rows();
   for (const auto& [stage, seconds] : simulation.stage_seconds()) run.add_seconds(stage, seconds);
   manifest.state_hash = fmt::format("{:016x}", simulation.state_hash());
   manifest.steps = counts.steps;
@@ -113,6 +113,7 @@ void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) 
 // Of statics the integrator's share is what jumps from one equilibrium to the next set free, whatever the
 // step, and what the mean of the forces misses, of second order in it.
 void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
+  run.manifest().energy = ledger.rows();
   const double share = ledger.integrator_share();
   run.metric("energy_remainder_relative", ledger.remainder_relative);
   run.metric("integrator_share_percent", 100 * share);

@@ -15,16 +15,12 @@
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/session/doubts.h"
 #include "experiments/workbench/session/interrupts.h"
-#include "experiments/workbench/session/observers.h"
+#include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/resting.h"
+#include "experiments/workbench/session/resuming.h"
 
 namespace hysteron::experiments {
 namespace {
-
-// Steps between two recorded instants; at least one.
-int steps_per_frame(const Setup& setup) {
-  return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
-}
 
 const Setup& checked(const Setup& setup) {
   check_duration(setup.scene);

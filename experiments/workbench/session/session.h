@@ -16,6 +16,8 @@
 
 namespace hysteron::experiments {
 
+class Checkpoints;
+class Probes;
 class Session;
 
 // What is known of an instant that is recorded.
@@ -44,7 +46,7 @@ struct RunPlan {
 };
 
 // What watches a run: a series of numbers, pictures, a count, doubts.  The session calls all of them in the
-// order of one list (observers.h), and knows nothing else of them.
+// order of one list, and knows nothing else of them.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -58,6 +60,11 @@ class Observer {
 };
 
 using Observers = std::vector<std::unique_ptr<Observer>>;
+// Of every run, in the order of their calls: metrics.csv, whose row the experiment measures, probes,
+// pictures, which show a probe's loop, what the solver says, crossings, folds, recoveries, meshes, errors,
+// checkpoints, which go when all else is there.  Refuses files that Run::reserve() does.
+Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
+                       std::unique_ptr<Checkpoints> checkpoints);
 
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
 void explain(const Cloth& cloth, const Simulation& simulation);
