@@ -21,6 +21,7 @@ namespace {
 
 constexpr const char* kMetricsFile = "metrics.csv";
 
+// metrics.csv: time, speed, the experiment's own columns, the ledger.
 class Series : public Observer {
  public:
   void begin(Session& session) override {
@@ -44,6 +45,7 @@ class Series : public Observer {
   std::optional<Record> rows_;
 };
 
+// Frames with the loop of a probe, the contact sheet, the plots of probes.
 class Drawing : public Observer {
  public:
   explicit Drawing(const Probes& probes) : probes_(probes) {}
@@ -208,6 +210,7 @@ class Folds : public Observer {
   double largest_ = 0;  // share of sharply folded edges
 };
 
+// Of --errors: the run again, when all that it is compared by is known.
 class MeasuredErrors : public Observer {
  public:
   void finish(Session& session, const std::string&) override {
