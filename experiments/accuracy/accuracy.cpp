@@ -35,11 +35,11 @@ Scene with(const Setting& setting, Scene scene) {
 void note_cost(Simulation& simulation, const Scene& scene, std::chrono::steady_clock::time_point start,
                Found& found) {
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const long parts = simulation.parts_taken();
+  const long parts = simulation.counts().parts;
   found.steps = parts > 0             ? parts
                 : scene.is_implicit() ? simulation.steps()
                                       : simulation.steps() * simulation.limits().substeps;
-  found.bytes = simulation.device_bytes();
+  found.bytes = simulation.counts().bytes;
 }
 
 namespace {

@@ -57,8 +57,8 @@ Metrics measured_row(const Scene& scene, const Cloth& cloth, int steps) {
   for (std::size_t s = 0; s < after.size(); ++s)
     row.set("ms_" + after[s].first, 1e3 * (after[s].second - before[s].second) / (kBatches * steps));
   const double bytes = stated_bytes(loops_of_steps(*simulation, steps)) / steps;
-  row.set("bytes_device", simulation->device_bytes());
-  row.set("bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / triangles);
+  row.set("bytes_device", simulation->counts().bytes);
+  row.set("bytes_per_triangle", static_cast<double>(simulation->counts().bytes) / triangles);
   row.set("bytes_per_step", bytes);
   row.set("fraction_of_copy_bandwidth", bytes / (1e-3 * cost.ms) / simulation->copy_bandwidth());
   row.set("state_hash", hash);

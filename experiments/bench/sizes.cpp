@@ -134,7 +134,7 @@ class TimesBySize {
     const StepCost cost = cost_of_steps(*simulation, choice_.steps, 1, limits.substeps);
     row.set("step_s", limits.substep);
     set(row, cost);
-    row.set("bytes_per_triangle", static_cast<double>(simulation->device_bytes()) / cloth.mesh.faces());
+    row.set("bytes_per_triangle", static_cast<double>(simulation->counts().bytes) / cloth.mesh.faces());
     row.set("state_hash", fmt::format("{:016x}", simulation->state_hash()));
     if (table_.copy_bandwidth == 0) {
       table_.copy_bandwidth = simulation->copy_bandwidth();

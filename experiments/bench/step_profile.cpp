@@ -21,8 +21,7 @@ Metrics row_of(const std::string& name, const KernelCost& cost, int steps, doubl
 }  // namespace
 
 StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts) {
-  const DeviceCounts work_before = simulation.device_work();
-  const SolverCounts solved_before = simulation.solver_counts();
+  const Diagnostics before = simulation.counts();
   std::vector<double> ms;
   simulation.wait();
   for (int batch = 0; batch < batches; ++batch) {
@@ -32,8 +31,8 @@ StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts
     ms.push_back(1e3 * clock.seconds() / steps / parts);
   }
   std::sort(ms.begin(), ms.end());
-  const DeviceCounts work = simulation.device_work() - work_before;
-  const SolverCounts solved = simulation.solver_counts();
+  const Diagnostics after = simulation.counts();
+  const DeviceCounts work = after.device - before.device;
   const auto of_one = [&](long count) { return static_cast<double>(count) / batches / steps / parts; };
   return {.ms = ms[ms.size() / 2],
           .ms_fastest = ms.front(),
@@ -41,8 +40,8 @@ StepCost cost_of_steps(Simulation& simulation, int batches, int steps, int parts
           .launches = of_one(work.loops),
           .synchronizations = of_one(work.synchronizations),
           .allocations = of_one(work.allocations),
-          .newton_iterations = of_one(solved.newton - solved_before.newton),
-          .solver_iterations = of_one(solved.linear - solved_before.linear)};
+          .newton_iterations = of_one(after.newton - before.newton),
+          .solver_iterations = of_one(after.linear - before.linear)};
 }
 
 void set(Metrics& row, const StepCost& cost) {

@@ -9,6 +9,7 @@
 #include "experiments/crease/specimen.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/compare/variant_page.h"
+#include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/archive.h"
 #include "sim/base/csv.h"

@@ -10,6 +10,7 @@
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pictures/framing.h"
 #include "experiments/workbench/pictures/ridge_metrics.h"
+#include "experiments/workbench/session/probes.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/base/csv.h"
 #include "sim/base/root_mean_square.h"

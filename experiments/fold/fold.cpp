@@ -13,6 +13,7 @@
 #include "experiments/workbench/compare/variant_page.h"
 #include "experiments/workbench/pages/report.h"
 #include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/session/probes.h"
 #include "sim/base/csv.h"
 #include "sim/base/error.h"
 #include "sim/bending/laws/law_parameters.h"

@@ -68,9 +68,10 @@ StripTest test_strip(const ClampedStrip& strip, const LawRequest& law, const Kes
   test.law_moment = run_law(as_in_cloth(law), rows).moment;
   test.reading = read_loop(protocol, strip.walk, test.moment);
   test.law_reading = read_loop(protocol, strip.walk, run_law(law, rows).moment);
-  test.newton_iterations = simulation->newton_iterations();
-  test.retried_steps = simulation->retried_steps();
-  test.bytes = simulation->device_bytes();
+  const Diagnostics counts = simulation->counts();
+  test.newton_iterations = counts.per_step(counts.newton);
+  test.retried_steps = counts.retried;
+  test.bytes = counts.bytes;
   return test;
 }
 

@@ -91,7 +91,7 @@ void simulate(const Scene& scene, const Cloth& cloth, const CellEffort& effort, 
     finding.seconds_simulated = simulation->time();
     watch.look(*simulation);
   }
-  finding.retried_steps = simulation->retried_steps();
+  finding.retried_steps = simulation->counts().retried;
   if (finding.outcome == Outcome::ended && scene.self_contact)
     look_for_crossings(*simulation, cloth, finding);
   if (finding.outcome == Outcome::ended && finding.retried_steps > 0) finding.outcome = Outcome::retried;

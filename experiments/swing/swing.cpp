@@ -8,6 +8,8 @@
 #include "experiments/specimens/clamped_mesh.h"
 #include "experiments/workbench/app/decided_keys.h"
 #include "experiments/workbench/pages/simulated_run.h"
+#include "experiments/workbench/session/probes.h"
+#include "experiments/workbench/session/record.h"
 #include "experiments/workbench/session/session.h"
 #include "sim/identification/decay_shape.h"
 #include "sim/scene/mesh_files.h"

@@ -8,28 +8,13 @@
 #include "sim/bending/bending.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/self_contact.h"
-#include "sim/device/device_counts.h"
 #include "sim/device/stage_clock.h"
 #include "sim/membrane/membrane.h"
+#include "sim/time/diagnostics.h"
 #include "sim/time/hands.h"
 #include "sim/time/ledger.h"
 
 namespace hysteron {
-
-// Counts since the start.
-struct StepCounts {
-  long parts = 0;               // into which steps were divided
-  long stages = 0;              // accepted in motion: one a part, two of tr-bdf2
-  long retried = 0;             // taken again in smaller parts
-  long unbalanced = 0;          // parts taken before Newton's method had converged
-  long deep = 0;                // parts with a vertex deeper than the cloth's thickness in an obstacle
-  long newton = 0, linear = 0;  // iterations
-  double time_steps = 0;        // sum over Newton's iterations, 1 for a full step
-  double last_residual = 0;     // unbalanced force over load where Newton's method ended last
-  // Over what was accepted: the largest of that; of stages in motion what it makes of free masses [m/s].
-  double largest_residual = 0, largest_velocity = 0, velocities = 0;
-  DeviceCounts device;  // what steps have asked of it
-};
 
 template <class Real>
 std::vector<Vec3<Real>> cast_to(const std::vector<Eigen::Vector3d>& values) {
@@ -59,7 +44,7 @@ struct Body {
   Buffer<char, Device> held;
   Buffer<VertexLedger, Device> ledger;
   Hands<Real, Device> hands;
-  StepCounts counts;
+  Diagnostics counts;
   // Hands, obstacles or commands have changed forces at once since the stage accepted last.
   bool forces_discontinuous = false;
 

@@ -171,8 +171,7 @@ void Hands<Real, Device>::visit(Archive& archive, Body<Real, Device>& body) {
   archive(next_);
   hysteron::visit(archive, device, start_);
   hysteron::visit(archive, device, pin_);
-  for (double* number : {&work_, &largest_lag_}) archive(*number);
-  for (long* count : {&slack_stages_, &barred_stages_}) archive(*count);
+  archive(work_);
   archive(behind_);
   archive(pulls_);
   hysteron::visit(archive, device, place_);
@@ -303,10 +302,10 @@ void Hands<Real, Device>::end_stage(Body<Real, Device>& body) {
   behind_ = 0;
   if (!limited_ && !gives_way_) return;
   const Real largest = farthest_behind(body);
-  largest_lag_ = std::max(largest_lag_, static_cast<double>(largest));
-  if (largest > give_) ++slack_stages_;
+  body.counts.hand_lag = std::max(body.counts.hand_lag, static_cast<double>(largest));
+  if (largest > give_) ++body.counts.slack_hands;
   if (!gives_way_) return;
-  ++barred_stages_;
+  ++body.counts.barred_hands;
   hold_again(body);
 }
 

@@ -60,9 +60,6 @@ class Hands {
   // Accepts the stage: what gave way is held again.  Notes how far vertices lag behind, and counts stages in
   // which a hand pulls with all its strength.
   void end_stage(Body<Real, Device>& body);
-  long slack_stages() const { return slack_stages_; }
-  long barred_stages() const { return barred_stages_; }
-  double largest_lag() const { return largest_lag_; }  // [m]
   // What outlives a step; where things were at t = 0 does not change.
   void visit(Archive& archive, Body<Real, Device>& body);
   double work() const { return work_; }  // done on the cloth by taking hold and letting go [J]
@@ -89,8 +86,7 @@ class Hands {
   bool goes_ = false;                       // a rigid one in the stage
   bool gives_way_ = false, pulls_ = false;  // rigid ones in this stage; in it or in the one accepted last
   double next_ = 0;                         // when hands take hold or let go next [s]
-  double work_ = 0, largest_lag_ = 0;
-  long slack_stages_ = 0, barred_stages_ = 0;
+  double work_ = 0;
   Real give_;
   Real behind_ = 0;                   // how far what gave way lagged in the stage accepted last [m]
   std::vector<char> rigid_;           // what would be held if none gave way

@@ -96,7 +96,7 @@ NewtonOutcome ImplicitIntegrator<Real, Device>::solve(double start, double h, bo
 
 template <class Real, class Device>
 void ImplicitIntegrator<Real, Device>::accept(double end) {
-  StepCounts& counts = body_.counts;
+  Diagnostics& counts = body_.counts;
   counts.largest_residual = std::max(counts.largest_residual, counts.last_residual);
   if (!solver_.is_static()) {
     ++counts.stages;

@@ -48,8 +48,9 @@ std::unique_ptr<TimeIntegrator<Real, Device>> make_integrator(Body<Real, Device>
 template <class Real, class Device>
 Stepper<Real, Device>::Stepper(std::unique_ptr<Device> device, const Scene& scene, const Cloth& cloth,
                                const CurvatureOperator& op, const StepLimits& limits)
-    : body_(std::move(device), scene, cloth, op),
-      limits_(limits),
+    : Simulation(limits, op.dimension, (Device::kGpu ? "cuda: " : "cpu: ") + device->description(),
+                 device->cuda_device()),
+      body_(std::move(device), scene, cloth, op),
       integrator_(make_integrator(body_, limits)) {}
 
 template <class Real, class Device>
@@ -58,7 +59,7 @@ void Stepper<Real, Device>::advance(int steps) {
   for (int s = 0; s < steps; ++s) {
     body_.carry_out_commands(time(), time() + body_.scene.step);
     integrator_->step(time());
-    ++steps_;
+    ++body_.counts.steps;
   }
   throw_if_divergence(body_, time());
   body_.counts.device += device_counts - before;
@@ -69,7 +70,7 @@ void Stepper<Real, Device>::advance_by(double seconds) {
   const DeviceCounts before = device_counts;
   body_.carry_out_commands(time(), time() + seconds);
   integrator_->step_by(time(), seconds);
-  ++steps_;
+  ++body_.counts.steps;
   beyond_ += seconds - body_.scene.step;
   throw_if_divergence(body_, time());
   body_.counts.device += device_counts - before;
@@ -77,10 +78,16 @@ void Stepper<Real, Device>::advance_by(double seconds) {
 
 template <class Real, class Device>
 void Stepper<Real, Device>::visit(Archive& archive) {
-  archive(steps_);
   archive(beyond_);
   body_.visit(archive);
   integrator_->visit(archive);
+}
+
+template <class Real, class Device>
+Diagnostics Stepper<Real, Device>::counts() const {
+  Diagnostics counts = body_.counts;
+  counts.bytes = body_.device->bytes;
+  return counts;
 }
 
 template <class Real, class Device>
@@ -216,11 +223,6 @@ double Stepper<Real, Device>::launch_seconds() {
   const double seconds = device.profile->costs()["nothing"].seconds / kLaunches;
   device.profile = std::move(of_steps);
   return seconds;
-}
-
-template <class Real, class Device>
-std::string Stepper<Real, Device>::device() const {
-  return (Device::kGpu ? "cuda: " : "cpu: ") + body_.device->description();
 }
 
 template <class Real, class Device>

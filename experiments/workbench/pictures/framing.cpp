@@ -56,16 +56,20 @@ std::unique_ptr<Trial> trial_of(const Scene& scene) {
 
 }  // namespace
 
+int steps_per_frame(const Setup& setup) {
+  return std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * setup.scene.step))));
+}
+
 Framing framing_of(const Setup& setup, const render::Box& known) {
   const Scene& scene = setup.scene;
   const auto trial = trial_of(scene);
   Simulation& simulation = *trial->simulation;
   Framing framing{box_of(trial->cloth.start), trial->cloth.mesh.faces()};
-  const int stride = std::max(1, static_cast<int>(std::lround(1 / (setup.options.fps * scene.step))));
   const long steps = std::lround(scene.seconds / scene.step);
   try {
     while (simulation.steps() < steps) {
-      simulation.advance(static_cast<int>(std::min<long>(stride, steps - simulation.steps())));
+      simulation.advance(
+          static_cast<int>(std::min<long>(steps_per_frame(setup), steps - simulation.steps())));
       framing.box = framing.box.merged(box_of(simulation.positions()));
     }
   } catch (const Error& error) {

@@ -10,6 +10,9 @@
 
 namespace hysteron::experiments {
 
+// Steps between two recorded instants; at least one.
+int steps_per_frame(const Setup& setup);
+
 struct Framing {
   render::Box box;        // [m]
   int triangles = 0;      // of the trial that it was found by

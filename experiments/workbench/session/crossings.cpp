@@ -17,6 +17,16 @@ Crossings::Found Crossings::found_in(double time, const std::vector<Eigen::Vecto
                       found.size(), time, a, b, at.x(), at.y(), at.z())};
 }
 
+void Crossings::record(Session& session, const Snapshot& instant) {
+  const auto stage = session.run().stage("intersections");
+  see(instant.time, instant.x);
+}
+
+void Crossings::finish(Session& session, const std::string&) {
+  const auto stage = session.run().stage("intersections");
+  session.run().metric("intersections", pairs());
+}
+
 void Crossings::see(double time, const std::vector<Eigen::Vector3d>& x) {
   if (!behind_a_gpu_) return add(found_in(time, x));
   take();

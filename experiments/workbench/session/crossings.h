@@ -7,24 +7,26 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/workbench/session/session.h"
 #include "sim/base/archive.h"
-#include "sim/mesh/cloth_mesh.h"
 
 namespace hysteron::experiments {
 
 // Behind a GPU an instant is counted on a thread of its own while the next steps run, and told with the next
 // one.
-class Crossings {
+class Crossings : public Observer {
  public:
   // `tell` gets a warning for each instant that has some, on the caller's thread.
   Crossings(std::vector<Eigen::Vector3i> face, bool behind_a_gpu,
             std::function<void(const std::string&)> tell)
       : face_(std::move(face)), behind_a_gpu_(behind_a_gpu), tell_(std::move(tell)) {}
 
+  void record(Session& session, const Snapshot& instant) override;
+  void finish(Session& session, const std::string& title) override;
   void see(double time, const std::vector<Eigen::Vector3d>& x);
   // Pairs of all instants seen; waits for the last of them.
   long pairs();
-  void visit(Archive& archive);
+  void visit(Archive& archive) override;
 
  private:
   struct Found {

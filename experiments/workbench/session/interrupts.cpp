@@ -49,7 +49,7 @@ Interrupts::~Interrupts() {
   sigaction(SIGTERM, &g_terminate_before, nullptr);
 }
 
-std::string Interrupts::seen() const {
+std::string Interrupts::seen() {
   if (g_seen == 0) return "";
   return g_seen == SIGINT ? "SIGINT" : "SIGTERM";
 }

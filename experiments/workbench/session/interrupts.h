@@ -16,7 +16,7 @@ class Interrupts {
   Interrupts& operator=(const Interrupts&) = delete;
 
   // "SIGTERM"; "" while none has come.
-  std::string seen() const;
+  static std::string seen();
 };
 
 }  // namespace hysteron::experiments

@@ -74,38 +74,49 @@ std::vector<std::string> MeshExport::files(const std::string& format) {
   return {mesh_file(0, format)};
 }
 
+// What pictures of format mitsuba show.
+void MeshExport::begin(Session& session) {
+  if (session.setup().options.export_format == "mitsuba")
+    view_ = mitsuba_view(session.setup(), session.bounds(), session.plan().floor);
+}
+
 // Bodies keep their shape: they are written with the first scene.
-void MeshExport::write_scene(Run& run, std::size_t number, double time) {
+void MeshExport::write_scene(Session& session, std::size_t number, double time) {
+  Run& run = session.run();
+  const std::vector<Obstacle>& obstacles = session.scene().obstacle;
   std::vector<std::string> bodies;
-  for (std::size_t i = 0; i < scene_->obstacle.size(); ++i) {
-    const auto body = scene_->obstacle[i].visible ? body_of(scene_->obstacle[i]) : std::nullopt;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const auto body = obstacles[i].visible ? body_of(obstacles[i]) : std::nullopt;
     bodies.push_back(body ? body_file(i) : "");
     if (body && number == 0) write_body(run.path("mesh/" + bodies[i]).string(), *body, view_->look, side_);
   }
   write_text(run.path(scene_file(number)),
-             mitsuba_scene(*view_, *scene_, time, mesh_name(number, "ply"), bodies));
+             mitsuba_scene(*view_, session.scene(), time, mesh_name(number, "ply"), bodies));
 }
 
-void MeshExport::write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
-                       const std::vector<Eigen::Vector3d>& x) {
-  if (format == "none") return;
+void MeshExport::record(Session& session, const Snapshot& instant) {
+  const std::string& format = session.setup().options.export_format;
+  if (format == "none" || !session.is_pictured(instant)) return;
+  Run& run = session.run();
+  Simulation& simulation = session.simulation();
+  const ClothMesh& mesh = session.cloth().mesh;
+  const std::vector<Eigen::Vector3d>& x = instant.x;
   const auto stage = run.stage("io");
   const std::size_t number = times_.size();
-  times_.push_back(simulation.time());
+  times_.push_back(instant.time);
   if (format == "pc2") {
-    if (number == 0) write_obj(run.path(kCacheMesh).string(), cloth.mesh, x);
+    if (number == 0) write_obj(run.path(kCacheMesh).string(), mesh, x);
     return write_to_point_cache(run.path(kCache).string(), number, x);
   }
   const std::string file = run.path(mesh_file(number, format)).string();
-  if (format == "obj") return write_obj(file, cloth.mesh, x);
-  if (view_ && number == 0)
-    side_ = render::long_side(flat_triangles(cloth.mesh.face), flat_points(cloth.mesh.rest), 3);
-  if (view_) write_scene(run, number, simulation.time());
+  if (format == "obj") return write_obj(file, mesh, x);
+  if (view_ && number == 0) side_ = render::long_side(flat_triangles(mesh.face), flat_points(mesh.rest), 3);
+  if (view_) write_scene(session, number, instant.time);
   if (format == "ply" || format == "mitsuba") {
-    const std::vector<float> k = vertex_curvature(cloth.mesh, simulation.curvature(), simulation.dimension());
-    return write_ply(file, cloth.mesh, x, {k.begin(), k.end()});
+    const std::vector<float> k = vertex_curvature(mesh, simulation.curvature(), simulation.dimension());
+    return write_ply(file, mesh, x, {k.begin(), k.end()});
   }
-  write_fields(file, cloth.mesh, simulation, x);
+  write_fields(file, mesh, simulation, x);
   std::vector<std::pair<double, std::string>> instants;
   for (std::size_t k = 0; k < times_.size(); ++k) instants.emplace_back(times_[k], mesh_name(k, format));
   write_pvd(run.path(kInstants).string(), instants);

@@ -3,37 +3,29 @@
 
 #include <optional>
 
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/session/mitsuba_scene.h"
+#include "experiments/workbench/session/session.h"
 #include "sim/base/archive.h"
-#include "sim/scene/cloth.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
-class MeshExport {
+class MeshExport : public Observer {
  public:
   // What it writes, for Run::reserve().
   static std::vector<std::string> files(const std::string& format);
-  // What pictures of format mitsuba show, before the first instant.
-  void stage(const MitsubaView& view, const Scene& scene) {
-    view_ = view;
-    scene_ = scene;
-  }
+  void begin(Session& session) override;
   // One instant in the format of `--export`: none; obj; ply with the curvature at each vertex; vtk with the
   // fields of vertices and, where elements are faces, those of faces, and cloth.pvd with the times; mitsuba,
   // ply with a scene beside it that draws it; pc2, all instants in one file beside an OBJ of the first.
-  void write(Run& run, const std::string& format, const Cloth& cloth, Simulation& simulation,
-             const std::vector<Eigen::Vector3d>& x);
-  void visit(Archive& archive) { archive(times_); }
+  void record(Session& session, const Snapshot& instant) override;
+  void visit(Archive& archive) override { archive(times_); }
 
  private:
-  void write_scene(Run& run, std::size_t number, double time);
+  void write_scene(Session& session, std::size_t number, double time);
 
   std::optional<MitsubaView> view_;  // of format mitsuba
-  std::optional<Scene> scene_;
-  float side_ = 0;             // of the cloth's triangles [m]
-  std::vector<double> times_;  // of the meshes so far [s]
+  float side_ = 0;                   // of the cloth's triangles [m]
+  std::vector<double> times_;        // of the meshes so far [s]
 };
 
 }  // namespace hysteron::experiments

@@ -115,17 +115,18 @@ std::vector<std::string> Probes::plots() const {
   return empty() ? std::vector<std::string>{} : std::vector<std::string>{kHeight, kCurvature, kMoment};
 }
 
-void Probes::begin(Run& run) {
-  if (!empty()) series_.emplace(run.path(kSeriesFile), columns());
+void Probes::begin(Session& session) {
+  if (!empty()) series_.emplace(session.run().path(kSeriesFile), columns());
 }
 
-void Probes::record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x) {
+void Probes::record(Session& session, const Snapshot& instant) {
   if (empty()) return;
+  Simulation& simulation = session.simulation();
   const std::vector<double> curvature = simulation.curvature(), moment = simulation.moment(),
                             residual = simulation.residual_curvature(), share = simulation.friction_share();
-  std::vector<double> row = {simulation.time()};
+  std::vector<double> row = {instant.time};
   for (const Probe& probe : all_) {
-    const Eigen::Vector3d at = probe.point.among(mesh_, x);
+    const Eigen::Vector3d at = probe.point.among(mesh_, instant.x);
     row.insert(row.end(), at.begin(), at.end());
     for (const auto* values : {&curvature, &moment, &residual})
       append(row, *values, probe.element, dimension_);
@@ -152,7 +153,7 @@ render::Path Probes::loop() const {
   return most == loops_.end() ? render::Path{} : *most;
 }
 
-void Probes::finish() {
+void Probes::close() {
   if (!empty()) series_->finish();
 }
 
@@ -166,20 +167,21 @@ void Probes::visit(Archive& archive) {
   }
 }
 
-void Probes::name_curves(Manifest& manifest) const {
+void Probes::finish(Session& session, const std::string&) {
+  std::vector<Curve>& curves = session.run().manifest().curves;
   for (const Probe& probe : all_) {
     const std::string plot = "plot_" + probe.name,
                       where = fmt::format("at the material point ({:g}, {:g}) m", probe.at.x(), probe.at.y());
-    manifest.curves.push_back({plot + "_z", kSeriesFile, "time [s]", probe.name + "_z [m]", false,
-                               "Height z " + where + " against time."});
+    curves.push_back({plot + "_z", kSeriesFile, "time [s]", probe.name + "_z [m]", false,
+                      "Height z " + where + " against time."});
     for (const std::string& direction : directions()) {
       const std::string curvature = probe.name + "_curvature" + direction + " [1/m]",
                         along = (direction.empty() ? "" : " along " + direction.substr(1)) + " " + where;
-      manifest.curves.push_back({plot + "_curvature" + direction, kSeriesFile, "time [s]", curvature, false,
-                                 "Curvature" + along + " against time."});
-      manifest.curves.push_back({plot + "_moment" + direction, kSeriesFile, curvature,
-                                 probe.name + "_moment" + direction + " [N]", false,
-                                 "Moment per width" + along + " against curvature."});
+      curves.push_back({plot + "_curvature" + direction, kSeriesFile, "time [s]", curvature, false,
+                        "Curvature" + along + " against time."});
+      curves.push_back({plot + "_moment" + direction, kSeriesFile, curvature,
+                        probe.name + "_moment" + direction + " [N]", false,
+                        "Moment per width" + along + " against curvature."});
     }
   }
 }

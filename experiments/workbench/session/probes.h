@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/workbench/app/run.h"
 #include "experiments/workbench/session/record.h"
+#include "experiments/workbench/session/session.h"
 #include "render/loop_inset.h"
 #include "sim/mesh/material_point.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
@@ -19,7 +18,7 @@ void probe_unless_told(Options& options, const Eigen::Vector2d& at);
 // Where the points are, and what the solver knows of the bending element that they are in: the face that
 // contains them, or, of element `hinge`, the hinge at its nearest edge.  In a face K and M are tensors in its
 // warp-weft frame: their warp, weft and twist components are K_xx, K_yy and K_xy.
-class Probes {
+class Probes : public Observer {
  public:
   // `text`: "x,y[;x,y...]" [m], on the flat cloth; "" and "none": no probes.  `dimension`: of the elements.
   // Throws Error::invalid_input for other texts, cloth that is not flat at rest and points beside it, with
@@ -34,16 +33,16 @@ class Probes {
   std::vector<std::string> files() const;
   std::vector<std::string> plots() const;
   // Opens probes.csv.  Throws Error::system where it cannot be written, as the others do.
-  void begin(Run& run);
-  void record(Simulation& simulation, const std::vector<Eigen::Vector3d>& x);
-  void finish();
-  void visit(Archive& archive);
+  void begin(Session& session) override;
+  void record(Session& session, const Snapshot& instant) override;
+  void close() override;
+  // For comparisons, behind the curves that the experiment has named itself: height and curvature against
+  // time, moment against curvature.
+  void finish(Session& session, const std::string& title) override;
+  void visit(Archive& archive) override;
   // Moment against curvature of the first point so far, in the direction in which it has bent most.
   render::Path loop() const;
 
-  // For comparisons, behind those that the experiment has named itself: height and curvature against time,
-  // moment against curvature.
-  void name_curves(Manifest& manifest) const;
   // Height and curvature of all points against time, moments against curvatures.  `what`: "wool, law linear".
   void plot(Run& run, const std::string& what) const;
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 #include "sim/bending/laws/recovery.h"
 
@@ -12,8 +13,34 @@ Recoveries::Recoveries(const Scene& scene) : curve_(scene.fabric.virgin_curve())
   counts_ = has_residual_formula(choose_law(scene.law, curve_, scene.param));
 }
 
-void Recoveries::see(Simulation& simulation) {
-  if (counts()) see(simulation.moment(), simulation.dimension());
+void Recoveries::record(Session& session, const Snapshot&) {
+  if (counts()) see(session.simulation().moment(), session.simulation().dimension());
+}
+
+void Recoveries::finish(Session& session, const std::string&) {
+  Run& run = session.run();
+  Simulation& simulation = session.simulation();
+  const Scene& scene = session.scene();
+  const LawChoice law = choose_law(scene.law, curve_, scene.param);
+  const int d = simulation.dimension();
+  const std::vector<double> root = simulation.residual_curvature();
+  double by_root = 0;
+  for (double k : root) by_root += k * k;
+  const double elements = static_cast<double>(root.size()) / d;
+  run.metric("residual_curvature_rms_per_m", std::sqrt(by_root / elements));
+  if (!counts()) return;
+  const std::vector<double> k = simulation.curvature(), m = simulation.moment();
+  double by_formula = 0;
+  for (std::size_t i = 0; i < k.size(); i += d) {
+    const Eigen::Map<const Eigen::VectorXd> curvature(&k[i], d), moment(&m[i], d);
+    const double size = curvature.norm(), along = size > 0 ? moment.dot(curvature) / size : 0;
+    by_formula += std::pow(residual_by_formula(law, size, std::max(along, 0.0)), 2);
+  }
+  const std::array<long, 3> count = cases();
+  run.metric("recovery_elastic_count", count[0]);
+  run.metric("recovery_partial_count", count[1]);
+  run.metric("recovery_full_slip_count", count[2]);
+  run.metric("residual_curvature_formula_rms_per_m", std::sqrt(by_formula / elements));
 }
 
 void Recoveries::see(const std::vector<double>& moment, int dimension) {

@@ -5,24 +5,28 @@
 #include <array>
 #include <vector>
 
+#include "experiments/workbench/session/session.h"
 #include "sim/base/archive.h"
 #include "sim/scene/scene.h"
-#include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
 
 // Sees the cloth at recorded instants only: a peak between two of them is missed, and nothing is kept on the
 // device.  The reversal that counts is the last one from past Ma; its moment is the largest of the time spent
 // there; the tremor of a crease at rest has smaller ones, which lie on its recovery branch.
-class Recoveries {
+class Recoveries : public Observer {
  public:
   explicit Recoveries(const Scene& scene);
 
   bool counts() const { return counts_; }  // does the law have the three cases?
-  void see(Simulation& simulation);
+  void record(Session& session, const Snapshot& instant) override;
+  // Elements by how far they were bent before they were let go, and the curvature they would keep if let go
+  // now: found on the law, and by the closed form for a first reversal from the virgin curve (which a longer
+  // history only resembles).
+  void finish(Session& session, const std::string& title) override;
   // `moment`: `dimension` components per element [N].
   void see(const std::vector<double>& moment, int dimension);
-  void visit(Archive& archive) {
+  void visit(Archive& archive) override {
     archive(before_);
     archive(peak_);
   }

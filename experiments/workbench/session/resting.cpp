@@ -21,9 +21,9 @@ Rest step_to_rest(Simulation& simulation, double still) {
   Rest rest{INFINITY, ""};
   bool balanced = false;
   for (int step = 0; step < kMaxSteps && !(balanced && rest.moved <= still); ++step) {
-    const long unbalanced = simulation.unbalanced_steps();
+    const long unbalanced = simulation.counts().unbalanced;
     simulation.advance(1);
-    balanced = simulation.unbalanced_steps() == unbalanced;
+    balanced = simulation.counts().unbalanced == unbalanced;
     std::vector<Eigen::Vector3d> x = simulation.positions();
     rest.moved = farthest_moved(x, before);
     before = std::move(x);
@@ -67,11 +67,11 @@ void wait_at_rest(Simulation& simulation, double seconds, double step) {
 }
 
 // What a search leads to that does not end is no state of the cloth: the last one in motion stays the run's.
-bool Session::find_rest(const RunPlan& question, Record& series) {
+bool Session::find_rest() {
   const Rest rest = seek_rest(*simulation_, setup_.scene.fabric.thickness);
   if (rest.failure.empty()) {
-    if (question.wait > 0) wait_at_rest(*simulation_, question.wait, setup_.scene.step);
-    record(question, series, simulation_->positions(), rest.moved / setup_.scene.step, "");
+    if (plan_->wait > 0) wait_at_rest(*simulation_, plan_->wait, setup_.scene.step);
+    record(simulation_->positions(), rest.moved / setup_.scene.step, "");
     return true;
   }
   run_->warn(fmt::format("no state of rest was found: {}; results are of the cloth in motion at t = {:.4g} s",

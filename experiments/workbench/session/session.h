@@ -10,17 +10,15 @@
 
 #include "experiments/workbench/app/run.h"
 #include "experiments/workbench/pictures/pictures.h"
-#include "experiments/workbench/session/crossings.h"
-#include "experiments/workbench/session/interrupts.h"
-#include "experiments/workbench/session/mesh_export.h"
-#include "experiments/workbench/session/probes.h"
-#include "experiments/workbench/session/record.h"
-#include "experiments/workbench/session/recoveries.h"
 #include "render/camera.h"
 #include "render/plot.h"
 #include "sim/time/simulation.h"
 
 namespace hysteron::experiments {
+
+class Checkpoints;
+class Probes;
+class Session;
 
 // What is known of an instant that is recorded.
 struct Snapshot {
@@ -47,8 +45,33 @@ struct RunPlan {
   std::function<void(Archive&)> visit;
 };
 
+// What watches a run: a series of numbers, pictures, a count, doubts.  The session calls all of them in the
+// order of one list, and knows nothing else of them.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void begin(Session&) {}                    // before the first instant
+  virtual void step(Session&) {}                     // before the steps to the next one
+  virtual void record(Session&, const Snapshot&) {}  // an instant
+  virtual void close() {}                            // after the last one: its series can be read
+  // After the experiment's own results: metrics, warnings and entries of the manifest.
+  virtual void finish(Session&, const std::string& /*title*/) {}
+  virtual void visit(Archive&) {}  // what it has collected, for checkpoints
+};
+
+using Observers = std::vector<std::unique_ptr<Observer>>;
+// Of every run, in the order of their calls: metrics.csv, whose row the experiment measures, probes,
+// pictures, which show a probe's loop, what the solver says, crossings, folds, recoveries, meshes, errors,
+// checkpoints, which go when all else is there.  Refuses files that Run::reserve() does.
+Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
+                       std::unique_ptr<Checkpoints> checkpoints);
+
 // Prints what the scene includes and leaves out, with bytes and loops (--explain).
 void explain(const Cloth& cloth, const Simulation& simulation);
+
+// The scene as the experiment of that line changes it, without the run; nothing where it simulates no cloth.
+// Throws what the run would throw before its first step.
+std::optional<Scene> planned_scene(CommandLine line);
 
 class Session {
  public:
@@ -57,14 +80,20 @@ class Session {
 
   // There is nothing to simulate: --explain or --dump-scene, which is done already, or --resume of a complete
   // run.
-  bool is_over() const {
-    return setup_.options.explain || !setup_.options.dump_scene.empty() || is_complete_;
-  }
+  bool is_over() const { return !run_; }
   Run& run() { return *run_; }
-  const Cloth& cloth() const { return cloth_; }
+  const CommandLine& line() const { return line_; }
+  const Setup& setup() const { return setup_; }
   const Scene& scene() const { return setup_.scene; }
+  const Cloth& cloth() const { return cloth_; }
   Simulation& simulation() { return *simulation_; }
+  const RunPlan& plan() const { return *plan_; }         // while it is simulated
+  const render::Box& bounds() const { return bounds_; }  // framed by the pictures [m]
+  bool is_pictured(const Snapshot& instant) const {      // drawn and exported
+    return !plan_->pictured || plan_->pictured(instant);
+  }
   Pictures* pictures() { return pictures_.get(); }  // null with --no-images
+  void draw_by(std::unique_ptr<Pictures> pictures) { pictures_ = std::move(pictures); }
 
   // Refuses what Run::reserve() does: the experiment's own files, and what it draws, if it draws.
   void reserve(const std::vector<std::string>& files, const std::vector<std::string>& drawn = {});
@@ -74,55 +103,31 @@ class Session {
   void plot(const std::string& name, const render::Plot& plot) { run_->plot(name, plot); }
   // Metrics that every simulated run has, the manifest, the report.
   void finish(const std::string& title);
+  // All that outlives an instant; files of the run first.
+  void visit(Archive& archive);
 
  private:
-  // An instant of the series: its row, pictures and checks.
-  Snapshot record(const RunPlan& question, Record& series, const std::vector<Eigen::Vector3d>& x,
-                  double fastest, const std::string& left);
-  render::Box framed(const RunPlan& question);
-  long steps_of(const RunPlan& question) const;
-  double go_to_next_instant(const RunPlan& question);
-  bool run_to_end(const RunPlan& question, Record& series);
-  bool find_rest(const RunPlan& question, Record& series);  // resting.cpp
-  // resuming.cpp
-  void check_existing_run();
-  std::vector<std::string> kept_files() const;
-  bool takes_checkpoints(const RunPlan& question) const;
-  void visit(Archive& archive, const RunPlan& question, Record& series);
-  bool go_on(const RunPlan& question, Record& series);
-  void take_checkpoint(const RunPlan& question, Record& series);
-  void pause(const RunPlan& question, Record& series, const Interrupts& interrupts);
-  void drop_checkpoint();
-  void watch_crossings();
-  void see_crossings(const std::vector<Eigen::Vector3d>& x);
-  void note_crossings();
-  std::string opening_words(const RunPlan& question) const;
-  void watch_folds(const std::vector<Eigen::Vector3d>& x);
-  void note_folds();
-  void note_integrator(const Ledger& ledger);
-  void note_device_work();
-  void note_deep_contact();
-  void note_slack_hands();
-  void note_convergence();
+  void describe_start();
+  // An instant of the series.  Returns whether the question is settled.
+  bool record(const std::vector<Eigen::Vector3d>& x, double fastest, const std::string& left);
+  render::Box framed();
+  long steps() const;
+  double go_to_next_instant();
+  bool run_to_end();
+  bool find_rest();
+  std::string opening_words() const;
 
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   CommandLine line_;
   Setup setup_;
   Cloth cloth_;
   std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Run> run_;
+  std::unique_ptr<Run> run_;  // null where there is nothing to simulate
   std::unique_ptr<Pictures> pictures_;
-  std::vector<double> rest_angle_;
-  Probes probes_;
-  MeshExport meshes_;
-  Recoveries recoveries_;
-  std::unique_ptr<Crossings> crossings_;  // null where they are not counted
-  double folded_ = 0;                     // largest share of sharply folded edges
-  double stretched_ = 0;                  // largest principal stretch minus 1, of the instants recorded
-  bool is_complete_ = false;
-  std::string state_;               // of the checkpoint to go on from; empty: none, or gone on
-  std::vector<double> resumed_at_;  // [s]
-  std::chrono::steady_clock::time_point checkpoint_taken_ = begun_;  // or begun
+  Observers observers_;
+  const RunPlan* plan_ = nullptr;
+  render::Box bounds_;
+  long recorded_ = 0;  // instants
 };
 
 }  // namespace hysteron::experiments

@@ -62,7 +62,7 @@ TEST(Press, DownToTheThicknessLeavesTheSheetInTheMiddle) {
     EXPECT_EQ(press(trial, *simulation).message, "") << integrator;
     constexpr double kWeight = 1e-3;  // of the thickness
     for (const Vector3d& x : simulation->positions()) EXPECT_NEAR(x.z(), t / 2, kWeight * t) << integrator;
-    EXPECT_EQ(simulation->deep_steps(), 0) << integrator;
+    EXPECT_EQ(simulation->counts().deep, 0) << integrator;
   }
 }
 
@@ -133,7 +133,7 @@ TEST(Press, IsCountedWhereStepsAreTakenUnbalanced) {
   trial.scene.newton_iterations = 4;
   const auto simulation = trial.simulation();
   EXPECT_EQ(press(trial, *simulation).message, "");
-  EXPECT_GT(simulation->deep_steps(), 3);
+  EXPECT_GT(simulation->counts().deep, 3);
 }
 
 // A ball that hits a free sheet drives it in for a moment where its shell is soft: it is thrown off, not
@@ -154,7 +154,7 @@ TEST(Blow, ThatDrivesTheClothDeepIntoAnObstacleIsNoCrushing) {
   const auto simulation = trial.simulation();
   const Failure failure = failure_of([&] { simulation->advance(250); });
   EXPECT_EQ(failure.message, "");
-  EXPECT_GT(simulation->deep_steps(), 0);
+  EXPECT_GT(simulation->counts().deep, 0);
   int top = 0;
   for (int i = 1; i < trial.cloth.mesh.vertices(); ++i)
     if ((trial.cloth.start[i] - Vector3d(0.1, 0.1, 0)).norm() <

@@ -224,8 +224,8 @@ TEST(FaceContact, SheetLetDownOnEdgesCornersAndRodsIsNeverInThem) {
       simulation->advance(8);
       EXPECT_GT(least_distance(trial, *simulation), 0) << of.name;
     }
-    EXPECT_EQ(simulation->deep_steps(), 0) << of.name;
-    EXPECT_EQ(simulation->unbalanced_steps(), 0) << of.name;
+    EXPECT_EQ(simulation->counts().deep, 0) << of.name;
+    EXPECT_EQ(simulation->counts().unbalanced, 0) << of.name;
     EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << of.name;
   }
 }
@@ -287,7 +287,7 @@ TEST_P(FastRod, AtFiveMetresASecondCarriesACoarseMeshBeforeIt) {
   }
   for (double y : {-0.4, -0.2, 0.0, 0.2, 0.4})  // it slides round the rod as it likes: only its sense stays
     EXPECT_LT(turn_around(trial, *simulation, y * kSide, kWay / 2), 0);
-  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_GT(simulation->ledger().obstacle_work, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
 }

@@ -80,7 +80,7 @@ TEST_P(Sweep, PlateOfAMillimetreAtFiveMetresASecondCarriesTheClothBeforeIt) {
   const auto simulation = trial.simulation();
   simulation->advance(static_cast<int>(std::lround(kSeconds / kStep)));
   EXPECT_GT(lowest_over(*simulation, kWay - below + kHalf), 0);
-  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
   EXPECT_GT(simulation->ledger().obstacle_work, 0);
 }
@@ -95,7 +95,7 @@ TEST_P(Sweep, ClothThatFallsAtFiveMetresASecondStaysOnAPlateOfAMillimetre) {
   const Trial trial(scene);
   const auto simulation = trial.after(statics ? 3 : 40);
   EXPECT_GT(lowest_over(*simulation, scene.obstacle[0].center.z() + kHalf), 0);
-  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
 }
 
@@ -133,8 +133,8 @@ TEST(SweepOfLayers, PlateThatPassesThemInOneStepCarriesAllOfThemApart) {
     const auto simulation = trial.after(9);
     EXPECT_GT(lowest_over(*simulation, kWay / 2 + kHalf), 0) << integrator;
     EXPECT_TRUE(intersecting_triangles(trial.cloth.mesh.face, simulation->positions()).empty()) << integrator;
-    EXPECT_EQ(simulation->deep_steps(), 0) << integrator;
-    EXPECT_EQ(simulation->unbalanced_steps(), 0) << integrator;
+    EXPECT_EQ(simulation->counts().deep, 0) << integrator;
+    EXPECT_EQ(simulation->counts().unbalanced, 0) << integrator;
     EXPECT_LT(simulation->ledger().remainder_relative, kClosed) << integrator;
   }
 }
@@ -189,7 +189,7 @@ TEST_P(SweepInMotion, HollowSphereThatClosesKeepsTheClothInside) {
   const Trial trial(scene);
   const auto simulation = trial.after(5);
   for (const Vector3d& x : simulation->positions()) EXPECT_LT(x.norm(), kOpen / 2);
-  EXPECT_EQ(simulation->deep_steps(), 0);
+  EXPECT_EQ(simulation->counts().deep, 0);
   EXPECT_LT(simulation->ledger().remainder_relative, kClosed);
 }
 

@@ -20,20 +20,14 @@ struct CountedStep {
 };
 
 CountedStep counted_step(Simulation& simulation) {
-  const auto solver = [&] {
-    return std::lround(simulation.solver_iterations() * static_cast<double>(simulation.steps()));
-  };
-  const auto newton = [&] {
-    return std::lround(simulation.newton_iterations() * static_cast<double>(simulation.steps()));
-  };
-  const long solver_before = solver(), newton_before = newton();
+  const Diagnostics solved = simulation.counts();
   const DeviceCounts before = device_counts;
   simulation.advance(1);
   simulation.wait();
   return {{device_counts.loops - before.loops, device_counts.synchronizations - before.synchronizations,
            device_counts.allocations - before.allocations},
-          solver() - solver_before,
-          newton() - newton_before};
+          simulation.counts().linear - solved.linear,
+          simulation.counts().newton - solved.newton};
 }
 
 // A square that hangs by two corners: no obstacle, no self-contact.

@@ -36,11 +36,11 @@ Profile profile_of(const Scene& scene) {
   simulation->advance(1);  // scratch is allocated
   EXPECT_TRUE(simulation->kernel_costs().empty());
   simulation->profile();
-  const DeviceCounts before = simulation->device_work();
-  const long newton = simulation->solver_counts().newton;
+  const DeviceCounts before = simulation->counts().device;
+  const long newton = simulation->counts().newton;
   simulation->advance(kSteps);
-  return {simulation->kernel_costs(), simulation->device_work() - before,
-          simulation->solver_counts().newton - newton, trial.cloth.mesh};
+  return {simulation->kernel_costs(), simulation->counts().device - before,
+          simulation->counts().newton - newton, trial.cloth.mesh};
 }
 
 class ProfileOfSteps : public testing::TestWithParam<const char*> {

@@ -44,15 +44,15 @@ TEST(BarredHands, PushAFreeSheetByMoreThanTheGapInOneStep) {
     trial.scene.integrator = integrator;
     trial.scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {trial.scene.step, {0, 0, lift}, 0}};
     const auto simulation = trial.after(1);
-    EXPECT_GT(simulation->barred_hand_steps(), 0);
-    EXPECT_EQ(simulation->retried_steps(), 0);
-    EXPECT_EQ(simulation->slack_hand_steps(), 0);
+    EXPECT_GT(simulation->counts().barred_hands, 0);
+    EXPECT_EQ(simulation->counts().retried, 0);
+    EXPECT_EQ(simulation->counts().slack_hands, 0);
     EXPECT_FALSE(crosses(trial, *simulation));
     // Give is in proportion to the pressure: mass per area times the lift over the square of half a step.
     const double pressure = trial.scene.fabric.density * lift / std::pow(trial.scene.step / 2, 2);
     const double give = thickness / 2 * pressure / (10 * 4903);
-    EXPECT_GT(simulation->hand_lag(), 0);
-    EXPECT_LT(simulation->hand_lag(), 10 * give) << name_of(integrator);
+    EXPECT_GT(simulation->counts().hand_lag, 0);
+    EXPECT_LT(simulation->counts().hand_lag, 10 * give) << name_of(integrator);
     simulation->advance(1);
     const auto x = simulation->positions();
     for (int i : trial.cloth.pin_vertices[0])
@@ -69,10 +69,10 @@ TEST(BarredHands, OfTwoRigidHandsLeadNothingThroughEachOtherAndReturn) {
       simulation->advance(steps_in(trial, kTime / 2));
       EXPECT_FALSE(crosses(trial, *simulation)) << k;
     }
-    EXPECT_GT(simulation->barred_hand_steps(), 0);
-    EXPECT_GT(simulation->slack_hand_steps(), 0);
-    EXPECT_EQ(simulation->unbalanced_steps(), 0);
-    EXPECT_NEAR(simulation->hand_lag(), kWay - kGap, Fabric{}.thickness);
+    EXPECT_GT(simulation->counts().barred_hands, 0);
+    EXPECT_GT(simulation->counts().slack_hands, 0);
+    EXPECT_EQ(simulation->counts().unbalanced, 0);
+    EXPECT_NEAR(simulation->counts().hand_lag, kWay - kGap, Fabric{}.thickness);
     simulation->advance(steps_in(trial, 1.2 * kTime));
     for (const auto& vertices : trial.cloth.pin_vertices)
       for (int i : vertices)
@@ -112,7 +112,7 @@ TEST(BarredHands, DoWorkThatTheBalanceCloses) {
     Trial trial = led_through(kPart, integrator);
     trial.scene.newton_residual = 1e-9;
     const auto simulation = trial.after(steps_in(trial, 2.2 * kTime));
-    EXPECT_GT(simulation->barred_hand_steps(), 0);
+    EXPECT_GT(simulation->counts().barred_hands, 0);
     EXPECT_LT(std::abs(simulation->ledger().remainder_relative), 1e-9) << name_of(integrator);
   }
 }
@@ -121,8 +121,8 @@ TEST(BarredHands, AreRigidWhereNothingIsInTheirWay) {
   Trial trial = led_through(kPart);
   trial.scene.pin[1].motion.keys[1].position.z() = 3 * kWay;  // up
   const auto simulation = trial.after(steps_in(trial, kTime));
-  EXPECT_EQ(simulation->barred_hand_steps(), 0);
-  EXPECT_EQ(simulation->hand_lag(), 0);
+  EXPECT_EQ(simulation->counts().barred_hands, 0);
+  EXPECT_EQ(simulation->counts().hand_lag, 0);
 }
 
 TEST(BarredHands, GiveWayInSemiImplicitStepsAndInSinglePrecisionToo) {
@@ -130,7 +130,7 @@ TEST(BarredHands, GiveWayInSemiImplicitStepsAndInSinglePrecisionToo) {
     Trial trial = led_through(kPart, single ? Integrator::implicit : Integrator::semi_implicit);
     if (single) trial.scene.precision = Precision::fp32;
     const auto simulation = trial.after(steps_in(trial, kTime));
-    EXPECT_GT(simulation->barred_hand_steps(), 0);
+    EXPECT_GT(simulation->counts().barred_hands, 0);
     EXPECT_FALSE(crosses(trial, *simulation));
   }
 }

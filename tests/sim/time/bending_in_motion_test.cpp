@@ -223,13 +223,13 @@ TEST(Scene, PaysForObstaclesHandlesAndTheImplicitSolveOnlyWhereItHasThem) {
   EXPECT_EQ(bytes(scene, "obstacles"), 0u);
   EXPECT_EQ(bytes(scene, "moving handles"), 0u);
   EXPECT_GT(bytes(scene, "implicit solve"), 0u);
-  const std::size_t plain = Trial(scene).simulation()->device_bytes();
+  const std::size_t plain = Trial(scene).simulation()->counts().bytes;
   scene.obstacle = {Obstacle{}};
   scene.obstacle[0].center = {0, 0, -1};
   scene.pin[0].motion.keys = {{0, {0, 0, 0}, 0}, {1, {0, 0, 1}, 0}};
   EXPECT_GT(bytes(scene, "obstacles"), 0u);
   EXPECT_GT(bytes(scene, "moving handles"), 0u);
-  EXPECT_GT(Trial(scene).simulation()->device_bytes(), plain);
+  EXPECT_GT(Trial(scene).simulation()->counts().bytes, plain);
   scene = test::hanging_square();
   scene.integrator = Integrator::explicit_euler;
   EXPECT_FALSE(part(Trial(scene).simulation()->parts(), "implicit solve").included);
@@ -244,7 +244,7 @@ TEST(Scene, PartsAddUpToTheDevicesMemory) {
   std::size_t sum = 0;
   for (const ScenePart& p : simulation->parts()) sum += p.bytes;
   constexpr double kUnlisted = 0.02;  // per-element accounts of friction
-  EXPECT_NEAR(static_cast<double>(sum) / static_cast<double>(simulation->device_bytes()), 1, kUnlisted);
+  EXPECT_NEAR(static_cast<double>(sum) / static_cast<double>(simulation->counts().bytes), 1, kUnlisted);
 }
 
 TEST(ChapterForce, NeedsHinges) {

@@ -11,7 +11,7 @@ using test::Trial;
 
 struct End {
   Positions positions;
-  SolverCounts counts;
+  Diagnostics counts;
 };
 
 struct Case {
@@ -77,7 +77,7 @@ class FloatSolves : public testing::TestWithParam<Case> {
     trial.scene.newton_velocity = 0;
     const auto simulation = trial.after(GetParam().steps);
     EXPECT_GT(test::farthest(simulation->positions(), trial.cloth.start), 1e-3) << "nothing moved";
-    return {simulation->positions(), simulation->solver_counts()};
+    return {simulation->positions(), simulation->counts()};
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, FloatSolves,

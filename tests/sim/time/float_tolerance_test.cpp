@@ -15,7 +15,8 @@ double iterations(Precision precision) {
   scene.substeps = 40;
   scene.solver_tolerance = Scene{}.solver_tolerance;
   scene.precision = precision;
-  return test::Trial(scene).after(5)->solver_iterations();
+  const Diagnostics counts = test::Trial(scene).after(5)->counts();
+  return counts.per_step(counts.linear);
 }
 
 // What is looked for beyond is the rounding of positions: it took 1.6 times as many here, and more the finer.

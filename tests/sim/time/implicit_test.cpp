@@ -238,9 +238,9 @@ TEST(Tolerance, TighterTakesMorePartsAndComesNearer) {
       const auto simulation = trial.after(4);
       const double error = test::farthest(simulation->positions(), exact);
       EXPECT_LT(error, last_error) << integrator << " " << tolerance;
-      EXPECT_GT(simulation->parts_taken(), last_parts);
+      EXPECT_GT(simulation->counts().parts, last_parts);
       last_error = error;
-      last_parts = simulation->parts_taken();
+      last_parts = simulation->counts().parts;
     }
   }
 }
@@ -285,7 +285,7 @@ TEST(FailedStep, IsTakenAgainInHalvesAndCounted) {
   scene.pin.push_back(far);
   const auto simulation = Trial(scene).after(3);
   for (const Eigen::Vector3d& x : simulation->positions()) ASSERT_TRUE(x.allFinite());
-  EXPECT_GE(simulation->parts_taken(), 3 + simulation->retried_steps());
+  EXPECT_GE(simulation->counts().parts, 3 + simulation->counts().retried);
 }
 
 TEST(LinearSolvers, GiveTheSameCloth) {

@@ -148,12 +148,12 @@ void expect_same(Simulation& a, Simulation& b) {
   EXPECT_EQ(a.residual_curvature(), b.residual_curvature());
   EXPECT_EQ(a.handle_forces(), b.handle_forces());
   EXPECT_EQ(a.steps(), b.steps());
-  EXPECT_EQ(a.solver_iterations(), b.solver_iterations());
-  EXPECT_EQ(a.newton_iterations(), b.newton_iterations());
-  EXPECT_EQ(a.parts_taken(), b.parts_taken());
-  EXPECT_EQ(a.slack_hand_steps(), b.slack_hand_steps());
-  EXPECT_EQ(a.barred_hand_steps(), b.barred_hand_steps());
-  EXPECT_EQ(a.hand_lag(), b.hand_lag());
+  EXPECT_EQ(a.counts().linear, b.counts().linear);
+  EXPECT_EQ(a.counts().newton, b.counts().newton);
+  EXPECT_EQ(a.counts().parts, b.counts().parts);
+  EXPECT_EQ(a.counts().slack_hands, b.counts().slack_hands);
+  EXPECT_EQ(a.counts().barred_hands, b.counts().barred_hands);
+  EXPECT_EQ(a.counts().hand_lag, b.counts().hand_lag);
 }
 
 TEST_P(SavedState, GoesOnBitForBit) {

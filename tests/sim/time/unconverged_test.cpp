@@ -25,8 +25,8 @@ TEST(UnconvergedSteps, CloseTheLedger) {
   test::ripple(one.cloth, 3e-3);
   const auto simulation = one.after(20);
   const Ledger ledger = simulation->ledger();
-  EXPECT_EQ(simulation->unbalanced_steps(), 20);
-  EXPECT_EQ(simulation->retried_steps(), 0);
+  EXPECT_EQ(simulation->counts().unbalanced, 20);
+  EXPECT_EQ(simulation->counts().retried, 0);
   EXPECT_GT(std::abs(ledger.unbalanced), 1e-9);
   EXPECT_LT(ledger.remainder_relative, kRounding);
 }
@@ -34,7 +34,7 @@ TEST(UnconvergedSteps, CloseTheLedger) {
 TEST(UnconvergedSteps, AreNoneWhereTheLimitIsNotReached) {
   Trial many(capped(1000)), free(capped(0));
   const auto limited = many.after(5), full = free.after(5);
-  EXPECT_EQ(limited->unbalanced_steps(), 0);
+  EXPECT_EQ(limited->counts().unbalanced, 0);
   EXPECT_EQ(limited->state_hash(), full->state_hash());
   EXPECT_LT(std::abs(full->ledger().unbalanced), 1e-6 * std::abs(full->ledger().gravitational));
 }
@@ -45,11 +45,11 @@ TEST(UnconvergedSteps, AreWhatASearchForRestTakesWhereThereIsNone) {
   scene.integrator = Integrator::bdf2;
   scene.step = 1.0 / 120;
   const auto simulation = Trial(scene).after(5);
-  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+  EXPECT_EQ(simulation->counts().unbalanced, 0);
   simulation->become_static();
   simulation->advance(1);
-  EXPECT_EQ(simulation->unbalanced_steps(), 1);
-  EXPECT_EQ(simulation->retried_steps(), 0);
+  EXPECT_EQ(simulation->counts().unbalanced, 1);
+  EXPECT_EQ(simulation->counts().retried, 0);
 }
 
 // Taken late and far from where it was, a corner is back after the pin's time for that, and the hand's work
@@ -96,7 +96,7 @@ TEST_P(FreeCloth, SolvesItsStepsAndKeepsItsMomentum) {
   for (int i = 0; i < trial.cloth.mesh.vertices(); ++i)
     trial.cloth.start[i].z() += 5e-5 * std::sin(20 * trial.cloth.mesh.rest[i].x());
   const auto simulation = trial.after(100);
-  EXPECT_EQ(simulation->retried_steps(), 0);
+  EXPECT_EQ(simulation->counts().retried, 0);
   const Positions v = simulation->velocities();
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
   double size = 0;
@@ -123,7 +123,7 @@ TEST_P(FreeCloth, DriftsSlowlyInSinglePrecision) {
   auto simulation = trial.after(6);
   const double before = simulation->positions()[0].z();
   simulation->advance(50);
-  EXPECT_EQ(simulation->retried_steps(), 0);
+  EXPECT_EQ(simulation->counts().retried, 0);
   const double speed = (simulation->positions()[0].z() - before) / (50 * scene.step);
   EXPECT_GT(speed, kSpeed);
   EXPECT_LT(speed, 2 * kSpeed);

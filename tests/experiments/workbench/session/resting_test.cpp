@@ -41,7 +41,7 @@ TEST(SeekRest, LeavesFallingClothInTheStateOfItsMotion) {
   EXPECT_NE(rest.failure, "");
   EXPECT_EQ(simulation->state_hash(), left_alone->state_hash());
   EXPECT_EQ(simulation->steps(), 10);
-  EXPECT_EQ(simulation->unbalanced_steps(), 0);
+  EXPECT_EQ(simulation->counts().unbalanced, 0);
   const auto rows = simulation->ledger().rows(), expected = left_alone->ledger().rows();
   for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(rows[k], expected[k]) << rows[k].first;
   EXPECT_EQ(simulation->moment(), left_alone->moment());

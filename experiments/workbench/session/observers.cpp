@@ -1,0 +1,249 @@
+// The observers of every run, but for those with a file of their own.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/workbench/compare/errors.h"
+#include "experiments/workbench/pages/closing_words.h"
+#include "experiments/workbench/session/crossings.h"
+#include "experiments/workbench/session/doubts.h"
+#include "experiments/workbench/session/mesh_export.h"
+#include "experiments/workbench/session/probes.h"
+#include "experiments/workbench/session/record.h"
+#include "experiments/workbench/session/recoveries.h"
+#include "experiments/workbench/session/resuming.h"
+#include "sim/bending/curvature_operator.h"
+
+namespace hysteron::experiments {
+namespace {
+
+constexpr const char* kMetricsFile = "metrics.csv";
+
+// metrics.csv: time, speed, the experiment's own columns, the ledger.
+class Series : public Observer {
+ public:
+  void begin(Session& session) override {
+    std::vector<std::string> columns = {"time [s]", "fastest [m/s]"};
+    const std::vector<std::string>& own = session.plan().columns;
+    columns.insert(columns.end(), own.begin(), own.end());
+    for (const auto& [name, joules] : Ledger{}.rows()) columns.push_back(name + " [J]");
+    rows_.emplace(session.run().path(kMetricsFile), columns);
+    session.run().manifest().series = own;
+  }
+  void record(Session& session, const Snapshot& instant) override {
+    std::vector<double> row = {instant.time, instant.fastest};
+    for (double value : session.plan().measure(instant)) row.push_back(value);
+    for (const auto& [name, joules] : session.simulation().ledger().rows()) row.push_back(joules);
+    rows_->row(row);
+  }
+  void close() override { rows_->finish(); }
+  void visit(Archive& archive) override { rows_->visit(archive); }
+
+ private:
+  std::optional<Record> rows_;
+};
+
+// Frames with the loop of a probe, the contact sheet, the plots of probes.
+class Drawing : public Observer {
+ public:
+  explicit Drawing(const Probes& probes) : probes_(probes) {}
+  void begin(Session& session) override {
+    run_ = &session.run();
+    auto pictures = std::make_unique<Pictures>(session.setup(), session.cloth(), session.simulation(),
+                                               session.bounds(), session.plan().floor);
+    pictures_ = pictures.get();
+    session.draw_by(std::move(pictures));
+    run_->progress("pictures: " + pictures_->renderer() + "; positions: " + pictures_->positions_way());
+  }
+  void record(Session& session, const Snapshot& instant) override {
+    if (session.is_pictured(instant)) pictures_->frame(*run_, instant.x, probes_.loop());
+  }
+  void finish(Session& session, const std::string& title) override {
+    const std::string unrest = not_at_rest_warning(run_->metrics());
+    pictures_->finish(*run_, title + (unrest.empty() ? "" : ". " + unrest));
+    probes_.plot(*run_, session.scene().fabric.name + ", law " + session.scene().law);
+  }
+  void visit(Archive& archive) override { pictures_->visit(archive, *run_); }
+
+ private:
+  const Probes& probes_;
+  Run* run_ = nullptr;
+  Pictures* pictures_ = nullptr;
+};
+
+// What the solver says: energies, how well it has converged, what gave way.
+class Account : public Observer {
+ public:
+  void begin(Session& session) override;
+  void record(Session& session, const Snapshot&) override {
+    stretched_ = std::max(stretched_, session.simulation().largest_stretch());
+  }
+  void finish(Session& session, const std::string& title) override;
+  void visit(Archive& archive) override { archive(stretched_); }
+
+ private:
+  double stretched_ = 0;  // largest principal stretch minus 1, of the instants recorded
+};
+
+void Account::begin(Session& session) {
+  const Options& options = session.setup().options;
+  const bool draws = !options.no_images || options.export_format == "pc2";
+  const std::string doubt = drawing_words(session.scene(), session.cloth());
+  if (draws && !doubt.empty()) session.run().warn(doubt);
+}
+
+// Of a batch the launches and waits are not one run's.
+void note_device_work(Run& run, const Diagnostics& counts) {
+  if (run.manifest().batch) return;
+  run.note("device_per_step", {{"launches", counts.per_step(counts.device.loops)},
+                               {"synchronizations", counts.per_step(counts.device.synchronizations)},
+                               {"allocations", counts.per_step(counts.device.allocations)}});
+}
+
+void fill_manifest(Run& run, Simulation& simulation, const Diagnostics& counts) {
+  Manifest& manifest = run.manifest();
+  for (const auto& [stage, seconds] : simulation.stage_seconds()) run.add_seconds(stage, seconds);
+  manifest.state_hash = fmt::format("{:016x}", simulation.state_hash());
+  manifest.steps = counts.steps;
+  manifest.seconds_simulated = simulation.time();
+  manifest.bytes_device = counts.bytes;
+  note_device_work(run, counts);
+}
+
+// Of statics the integrator's share is what jumps from one equilibrium to the next set free, whatever the
+// step, and what the mean of the forces misses, of second order in it.
+void note_energy(Run& run, const Ledger& ledger, const Scene& scene) {
+  run.manifest().energy = ledger.rows();
+  const double share = ledger.integrator_share();
+  run.metric("energy_remainder_relative", ledger.remainder_relative);
+  run.metric("integrator_share_percent", 100 * share);
+  if (scene.integrator == Integrator::quasi_static) return;
+  const std::string doubt = integrator_words(share, scene.step);
+  if (!doubt.empty()) run.warn(doubt);
+}
+
+// How much was left unbalanced, in the units of --newton-residual and --newton-velocity.
+void note_convergence(Run& run, const Diagnostics& counts, const Scene& scene) {
+  run.metric("solver_iterations_per_step", counts.per_step(counts.linear));
+  if (scene.finds_equilibrium()) {
+    run.metric("newton_iterations_per_step", counts.per_step(counts.newton));
+    if (scene.is_implicit()) {
+      run.metric("newton_residual_largest", counts.largest_residual);
+      run.metric("newton_velocity_largest_m_per_s", counts.largest_velocity);
+      run.metric("newton_velocity_mean_m_per_s", counts.mean_velocity());
+    }
+    if (scene.newton_iterations > 0 || counts.unbalanced > 0)
+      run.metric("unbalanced_steps_count", counts.unbalanced);
+  }
+  if (scene.finds_equilibrium() || scene.tolerance > 0) {
+    run.metric("parts_count", counts.parts);
+    run.metric("retried_steps_count", counts.retried);
+  }
+}
+
+void note_deep_contact(Run& run, long deep) {
+  run.metric("deep_contact_steps_count", deep);
+  if (deep == 0) return;
+  run.warn("in " + std::to_string(deep) +
+           " parts of steps the cloth was in an obstacle: a larger contact-stiffness or a shorter step "
+           "keeps it out");
+}
+
+void note_slack_hands(Run& run, const Diagnostics& counts, const Scene& scene) {
+  const long barred = counts.barred_hands;
+  const bool weak =
+      std::any_of(scene.pin.begin(), scene.pin.end(), [](const Pin& p) { return p.strength > 0; });
+  if (!weak && barred == 0) return;
+  run.metric("slack_hand_steps_count", counts.slack_hands);
+  run.metric("hand_lag_m", counts.hand_lag);
+  if (barred == 0) return;
+  run.metric("barred_hand_steps_count", barred);
+  run.warn(
+      fmt::format("in {} parts of steps cloth barred the way of rigid pins, which gave way: what they hold "
+                  "lagged behind by up to {:.2g} mm",
+                  barred, 1e3 * counts.hand_lag));
+}
+
+void Account::finish(Session& session, const std::string&) {
+  Run& run = session.run();
+  Simulation& simulation = session.simulation();
+  const Scene& scene = session.scene();
+  const Diagnostics counts = simulation.counts();
+  fill_manifest(run, simulation, counts);
+  run.metric("max_stretch_percent", 100 * simulation.largest_stretch());
+  note_energy(run, simulation.ledger(), scene);
+  for (const std::string& doubt : doubts_at_end(scene, session.cloth(), simulation.positions(), stretched_))
+    run.warn(doubt);
+  note_convergence(run, counts, scene);
+  if (!scene.obstacle.empty()) note_deep_contact(run, counts.deep);
+  note_slack_hands(run, counts, scene);
+}
+
+class Folds : public Observer {
+ public:
+  explicit Folds(const ClothMesh& mesh) : mesh_(mesh), rest_angle_(rest_angles(mesh)) {}
+  void record(Session&, const Snapshot& instant) override {
+    const std::vector<double> angle = hinge_angles(mesh_, instant.x);
+    long sharp = 0;
+    for (std::size_t e = 0; e < angle.size(); ++e) sharp += std::abs(angle[e] - rest_angle_[e]) > kSharp;
+    largest_ = std::max(largest_, static_cast<double>(sharp) / std::max<std::size_t>(1, angle.size()));
+  }
+  void finish(Session& session, const std::string&) override {
+    constexpr double kMany = 0.01;
+    session.run().metric("sharp_edges_percent", 100 * largest_);
+    if (largest_ < kMany) return;
+    session.run().warn(fmt::format(
+        "up to {:.1f} % of the edges were folded by more than {:.1f} rad, where bending is more than 2.5 % "
+        "too soft: take more triangles",
+        100 * largest_, kSharp));
+  }
+  void visit(Archive& archive) override { archive(largest_); }
+
+ private:
+  // An edge folded by an angle of 0.25 is 0.6 % too soft in the `shape` element, by 0.5 2.5 %, by 1 9 %.
+  static constexpr double kSharp = 0.5;
+
+  const ClothMesh& mesh_;
+  std::vector<double> rest_angle_;
+  double largest_ = 0;  // share of sharply folded edges
+};
+
+// Of --errors: the run again, when all that it is compared by is known.
+class MeasuredErrors : public Observer {
+ public:
+  void finish(Session& session, const std::string&) override {
+    session.run().path("report.html");
+    if (session.setup().options.errors) measure_errors(session.run(), session.line(), session.setup());
+  }
+};
+
+}  // namespace
+
+Observers observers_of(Session& session, std::unique_ptr<Probes> probes,
+                       std::unique_ptr<Checkpoints> checkpoints) {
+  const Options& options = session.setup().options;
+  const ClothMesh& mesh = session.cloth().mesh;
+  session.reserve({kMetricsFile}, picture_files(options));
+  session.reserve(probes->files(), probes->plots());
+  session.reserve(MeshExport::files(options.export_format));
+  if (options.errors) session.reserve({"errors.csv"});
+  Observers all;
+  all.push_back(std::make_unique<Series>());
+  const Probes& loops = *probes;
+  all.push_back(std::move(probes));
+  if (!options.no_images) all.push_back(std::make_unique<Drawing>(loops));
+  all.push_back(std::make_unique<Account>());
+  if (options.check_intersections || session.scene().self_contact)
+    all.push_back(std::make_unique<Crossings>(mesh.face, session.simulation().cuda_device() >= 0,
+                                              [&](const std::string& text) { session.run().warn(text); }));
+  all.push_back(std::make_unique<Folds>(mesh));
+  all.push_back(std::make_unique<Recoveries>(session.scene()));
+  all.push_back(std::make_unique<MeshExport>());
+  all.push_back(std::make_unique<MeasuredErrors>());
+  all.push_back(std::move(checkpoints));
+  return all;
+}
+
+}  // namespace hysteron::experiments
